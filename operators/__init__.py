@@ -1,0 +1,1 @@
+"""Operators, one per file; thin: properties to settings, then a task."""

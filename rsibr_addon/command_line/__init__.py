@@ -1,0 +1,1 @@
+"""The command line `rsibr`: one file per command."""

@@ -1,0 +1,97 @@
+"""Unit vectors: normalisation, reflection, half vectors, and the frame of a camera."""
+
+import numpy as np
+
+from .conventions import Array, ArrayLike
+from .errors import RangeError
+
+
+def dot(a: ArrayLike, b: ArrayLike) -> Array:
+    """Scalar product over the last axis.
+
+    Parameters
+    ----------
+    a, b : array_like, shape (..., 3)
+
+    Returns
+    -------
+    ndarray, shape (...,)
+    """
+    product: Array = np.einsum("...i,...i->...", np.asarray(a), np.asarray(b))
+    return product
+
+
+def normalize(vectors: ArrayLike) -> Array:
+    """Scale vectors to length 1.
+
+    Parameters
+    ----------
+    vectors : array_like, shape (..., 3)
+        Of any positive length.
+
+    Returns
+    -------
+    ndarray, shape (..., 3), float64
+        Unit vectors.
+
+    Raises
+    ------
+    RangeError
+        A vector has length 0 or is not finite, so it has no direction.
+    """
+    vectors = np.asarray(vectors, dtype=np.float64)
+    lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    if not np.all(np.isfinite(lengths) & (lengths > 0.0)):
+        raise RangeError("A vector of length 0 has no direction: give one that points somewhere.")
+    unit: Array = vectors / lengths
+    return unit
+
+
+def reflect(view_dir: ArrayLike, normal: ArrayLike) -> Array:
+    """Mirror the view direction about the normal.
+
+    Parameters
+    ----------
+    view_dir, normal : array_like, shape (..., 3)
+        Unit vectors, both pointing away from the surface.
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        The unit direction from which a mirror shows light: 2 (n.v) n - v.
+
+    Notes
+    -----
+    GLSL twin: gpu_shaders/lib/directions_lib.glsl `reflect_dir`, absolute tolerance 1e-6.
+    """
+    view_dir, normal = np.asarray(view_dir), np.asarray(normal)
+    mirrored: Array = 2.0 * dot(normal, view_dir)[..., None] * normal - view_dir
+    return mirrored
+
+
+def camera_frame(view_dir: ArrayLike) -> Array:
+    """The axes of a camera that looks at the origin, upright.
+
+    Parameters
+    ----------
+    view_dir : array_like, shape (..., 3)
+        Unit vectors from the object to the eye.
+
+    Returns
+    -------
+    ndarray, shape (..., 3, 3), float64
+        Right-handed; columns are the camera's x (right), y (up) and z (towards the camera,
+        equal to `view_dir`) in world coordinates: T of [Cabral1999] section 3.3. It maps
+        camera coordinates to world coordinates; its transpose maps back.
+
+    Notes
+    -----
+    The stance of Blender's ``to_track_quat('Z', 'Y')``, in double precision. Straight above and
+    below, where "upright" means nothing, x is -X, as there.
+    """
+    z = np.asarray(view_dir, dtype=np.float64)
+    x = np.stack([-z[..., 1], z[..., 0], np.zeros_like(z[..., 0])], axis=-1)
+    length = np.linalg.norm(x, axis=-1, keepdims=True)
+    upright = length > 1e-12
+    x = np.where(upright, x / np.where(upright, length, 1.0), (-1.0, 0.0, 0.0))
+    return np.stack([x, np.cross(z, x), z], axis=-1)

@@ -1,0 +1,46 @@
+"""The errors and the warning of the project.
+
+Every message is one sentence that names the thing and the remedy. Interfaces (command line,
+operators) turn `RsibrError` and `OSError` into a report; anything else is a bug and keeps its
+traceback.
+"""
+
+
+class RsibrError(Exception):
+    """Something a user can put right; the message says what and how."""
+
+
+class RangeError(RsibrError):
+    """A parameter lies outside the range that its function states."""
+
+
+class ShapeError(RsibrError):
+    """An array has not the shape that its function states."""
+
+
+class InputFileError(RsibrError):
+    """A file that was to be read is missing, unreadable or does not hold what it should."""
+
+
+class MapSetError(InputFileError):
+    """A map set file is truncated, inconsistent, of another kind or of a newer version."""
+
+
+class OutputFileError(RsibrError):
+    """A file cannot be written, or exists and was not to be replaced."""
+
+
+class SceneError(RsibrError):
+    """Something in the Blender file (scene, world, material, mesh) cannot be used."""
+
+
+class RenderError(RsibrError):
+    """Cycles did not deliver the picture that was asked for."""
+
+
+class DeviceError(RsibrError):
+    """The graphics device is missing, or refuses a shader or a texture."""
+
+
+class RsibrWarning(UserWarning):
+    """Work went on, but the user should know something; one sentence, like an error."""

@@ -1,0 +1,31 @@
+"""How long work tells where it is.
+
+Long work is a generator that yields `Progress` and returns its result. Whoever runs it decides
+how: a command drains it and draws a bar, a modal operator takes one step per timer event.
+"""
+
+from collections.abc import Generator
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Progress:
+    """`done` of `total` equal steps are finished; `what` says in words what comes next."""
+
+    done: int
+    total: int
+    what: str
+
+
+type Steps[Result] = Generator[Progress, None, Result]
+"""A generator of `Progress` whose return value is the result of the work."""
+
+
+def drain[Result](steps: Steps[Result]) -> Result:
+    """Run `steps` to its end, unseen, and return its result."""
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            result: Result = end.value
+            return result

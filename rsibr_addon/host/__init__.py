@@ -1,0 +1,1 @@
+"""Data of Blender (bpy): worlds, materials, cameras, meshes, and pictures by Cycles."""

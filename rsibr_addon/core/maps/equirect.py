@@ -1,0 +1,87 @@
+"""The latitude-longitude map, as Cycles reads it: u = 0.5 - atan2(y, x) / 2 pi, v from the bottom."""
+
+import numpy as np
+
+from ..conventions import Array, ArrayLike, Indices
+
+
+def direction_from_uv(uv: ArrayLike) -> Array:
+    """The direction that a point of the map shows.
+
+    Parameters
+    ----------
+    uv : array_like, shape (..., 2)
+        u in [0, 1] around the horizon, +X in the middle; v in [0, 1] from -Z to +Z.
+
+    Returns
+    -------
+    ndarray, shape (..., 3), float64
+        Unit directions in world coordinates.
+    """
+    uv = np.asarray(uv, dtype=np.float64)
+    azimuth = np.pi * (1.0 - 2.0 * uv[..., 0])
+    polar = np.pi * (1.0 - uv[..., 1])
+    sine = np.sin(polar)
+    return np.stack([sine * np.cos(azimuth), sine * np.sin(azimuth), np.cos(polar)], axis=-1)
+
+
+def uv_from_direction(direction: ArrayLike) -> Array:
+    """The inverse of `direction_from_uv`; the poles, where u means nothing, have u = 0.5.
+
+    Parameters
+    ----------
+    direction : array_like, shape (..., 3)
+        Unit directions in world coordinates.
+
+    Returns
+    -------
+    ndarray, shape (..., 2), float64
+        u in [0, 1], v in [0, 1].
+    """
+    direction = np.asarray(direction, dtype=np.float64)
+    x, y, z = direction[..., 0], direction[..., 1], direction[..., 2]
+    u = 0.5 - np.arctan2(y, x) / (2.0 * np.pi)
+    # atan2 keeps its digits near the poles, where acos(z) loses half of them.
+    v = 1.0 - np.arctan2(np.hypot(x, y), z) / np.pi
+    return np.stack([u, v], axis=-1)
+
+
+def texel_solid_angle(width: int, height: int) -> Array:
+    """Solid angle of every texel.
+
+    Parameters
+    ----------
+    width, height : int
+        Size of the map in texels.
+
+    Returns
+    -------
+    ndarray, shape (height, width), float64
+        [sr], exact; sums to 4 pi.
+    """
+    # The difference of the edges' cosines, as a product, which keeps its digits at the poles.
+    middle = np.pi * (np.arange(height) + 0.5) / height
+    bands = 2.0 * np.sin(middle) * np.sin(0.5 * np.pi / height)
+    return np.repeat((bands * 2.0 * np.pi / width)[:, None], width, axis=1)
+
+
+def wrap(columns: Indices, rows: Indices, width: int, height: int) -> tuple[Indices, Indices]:
+    """Texel that a lookup beyond the map's edge falls on.
+
+    Parameters
+    ----------
+    columns, rows : ndarray of int, any shape
+        Texel indices, at most one map's size outside it.
+    width, height : int
+        Size of the map; the width must be even for a pole to have a far side.
+
+    Returns
+    -------
+    columns, rows : ndarray of int
+        Indices within the map: around the horizon, and over a pole to its far side.
+    """
+    below, above = rows < 0, rows >= height
+    over_pole = below | above
+    rows = np.where(below, -1 - rows, np.where(above, 2 * height - 1 - rows, rows))
+    columns = np.where(over_pole, columns + width // 2, columns)
+    return columns % width, rows

@@ -1,0 +1,49 @@
+"""The reflection-space warp between radiance sphere maps, and how far to trust it.
+
+[Cabral1999] sections 3.2 and 3.3. A point of a map has a central reflection direction: the normal
+for diffuse radiance, the mirrored view for glossy. A warp takes the point of one view's map to the
+point of another view's map that has the same central direction:
+p_s = g_s^-1 . T_s^-1 . T_d . g_d (p_d). Here g_d and T_d are a normal and a view direction in world
+coordinates, so that the same functions serve a destination map and a fragment of a mesh.
+"""
+
+from enum import StrEnum
+
+import numpy as np
+
+from .conventions import Array, ArrayLike
+from .directions import dot, reflect
+from .maps.sphere_map import uv_from_direction, uv_from_normal
+
+
+class Warp(StrEnum):
+    """Which direction a warp keeps: g_normal or g_mirror of [Cabral1999] section 3.3."""
+
+    NORMAL = "normal"
+    MIRROR = "mirror"
+
+
+def source_uv(warp: Warp, normal: ArrayLike, view_dir: ArrayLike, source_frame: ArrayLike) -> Array:
+    """Where a source map shows the central direction that a surface point has.
+
+    Parameters
+    ----------
+    warp : Warp
+    normal, view_dir : array_like, shape (..., 3)
+        The surface point's unit normal and unit direction to the eye, in world coordinates.
+    source_frame : array_like, shape (..., 3, 3)
+        Camera axes of the source map as columns, as `directions.camera_frame` makes them.
+
+    Returns
+    -------
+    ndarray, shape (..., 2), float64
+        (s, t) in the source's disk; on its rim when the source cannot see the direction.
+
+    Notes
+    -----
+    GLSL twin: gpu_shaders/lib/reflection_warp_lib.glsl `source_uv`, 1e-5 where the source's
+    confidence is above 0.1.
+    """
+    central = np.asarray(normal) if warp is Warp.NORMAL else reflect(view_dir, normal)
+    in_camera = np.einsum("...ji,...j->...i", np.asarray(source_frame), central)
+    return uv_from_normal(in_camera) if warp is Warp.NORMAL else uv_from_direction(in_camera)

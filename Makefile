@@ -1,0 +1,49 @@
+# Every target sets up what it needs; the virtual environment is made once and again when its versions change.
+VENV := .venv
+PYTHON := $(VENV)/bin/python
+READY := $(VENV)/.ready
+
+.PHONY: help demo test test-quick test-gui lint extension bench clean
+
+help:
+	@echo "make demo        capture two materials, preview them and compare with Cycles; pictures under demo/"
+	@echo "make test        all tests (make test-quick: under two minutes)"
+	@echo "make lint        ruff and mypy"
+	@echo "make extension   dist/rsibr-*.zip, to be installed in Blender"
+	@echo "make test-gui    the built extension in a Blender of its own"
+	@echo "make bench       how long captures and previews take here"
+	@echo "make clean       remove everything that these targets made"
+
+$(READY): pyproject.toml .python-version .ci/constraints.txt
+	@$(PYTHON) -c 'import sys; sys.exit("%d.%d" % sys.version_info[:2] != "'$$(cat .python-version)'")' 2>/dev/null \
+	  || { python=$$(.ci/find-python) && "$$python" -m venv --clear $(VENV); }
+	$(PYTHON) -m pip install --quiet --disable-pip-version-check --constraint .ci/constraints.txt --editable '.[dev]'
+	@$(PYTHON) .ci/check_bpy.py
+	@touch $@
+
+demo: $(READY)
+	PATH="$(CURDIR)/$(VENV)/bin:$$PATH" docs/demo.sh demo
+
+test: $(READY)
+	$(PYTHON) -m pytest
+
+test-quick: $(READY)
+	$(PYTHON) -m pytest -m "not slow" --ignore tests/cycles --ignore tests/gui
+
+test-gui: extension
+	RSIBR_REQUIRE=gui $(PYTHON) -m pytest tests/gui
+
+lint: $(READY)
+	$(PYTHON) -m ruff check
+	$(PYTHON) -m ruff format --check
+	$(PYTHON) -m mypy
+
+extension: $(READY)
+	$(PYTHON) .ci/build_extension.py
+
+bench: $(READY)
+	$(PYTHON) .ci/bench.py
+
+clean:
+	rm -rf $(VENV) build demo dist wheels rsibr.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +

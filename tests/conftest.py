@@ -1,0 +1,104 @@
+"""What tests need: a test's folder says it, and here it is looked for and prepared.
+
+A dependency that is missing skips its tests, and the run's summary says which and why. Named in the
+environment variable RSIBR_REQUIRE (comma-separated: gl, bpy, cycles, gui), it fails them instead.
+"""
+
+import functools
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+TESTS = Path(__file__).parent
+BLENDER_WINDOW = TESTS.parents[1] / "shared" / "blender-window" / "run.sh"
+
+NEEDS = {"glsl": ("gl",), "blender": ("bpy",), "cycles": ("bpy", "cycles"), "gui": ("gui",)}
+"""Folder of tests -> what its tests need; the other folders need numpy and OpenEXR only."""
+
+
+def _start_bpy() -> None:
+    import bpy
+
+    bpy.app.version_string.strip()
+
+
+def _start_gl() -> None:
+    import gpu
+
+    gpu.init()
+
+
+def _start_cycles() -> None:
+    import bpy
+
+    bpy.context.scene.render.engine = "CYCLES"
+
+
+def _start_gui() -> None:
+    if not BLENDER_WINDOW.exists():
+        raise FileNotFoundError("../shared/blender-window, which starts a Blender in a window, is not there")
+
+
+START: dict[str, Callable[[], None]] = {
+    "bpy": _start_bpy,
+    "gl": _start_gl,
+    "cycles": _start_cycles,
+    "gui": _start_gui,
+}
+
+
+@functools.cache
+def absence(dependency: str) -> str | None:
+    """Why `dependency` cannot be had, in words, or None when it can."""
+    try:
+        if dependency in ("gl", "cycles"):
+            _start_bpy()
+        START[dependency]()
+    except Exception as error:  # whatever goes wrong is the reason to report
+        return f"{dependency} is missing: {error}"
+    return None
+
+
+def require(dependencies: tuple[str, ...]) -> None:
+    """Skip, or fail where RSIBR_REQUIRE names it, when one of `dependencies` is missing."""
+    required = os.environ.get("RSIBR_REQUIRE", "").replace(",", " ").split()
+    if unknown := set(required) - START.keys():
+        pytest.fail(f"RSIBR_REQUIRE names {', '.join(sorted(unknown))}; it knows {', '.join(START)}")
+    for dependency in dependencies:
+        if reason := absence(dependency):
+            if dependency in required:
+                pytest.fail(f"{reason} (and RSIBR_REQUIRE asks for it)", pytrace=False)
+            pytest.skip(reason, allow_module_level=True)
+
+
+def folder_needs(path: Path) -> tuple[str, ...]:
+    """What the folder of the test file `path` promises to its tests."""
+    return NEEDS.get(path.relative_to(TESTS).parts[0], ())
+
+
+class CheckedModule(pytest.Module):
+    """A test file that is only imported when what its folder needs is there."""
+
+    def collect(self) -> list[pytest.Item | pytest.Collector]:
+        require(folder_needs(self.path))
+        return list(super().collect())
+
+
+def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> pytest.Module:
+    return CheckedModule.from_parent(parent, path=module_path)
+
+
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    for marker in item.iter_markers("needs"):
+        require(marker.args)
+
+
+@pytest.fixture(autouse=True)
+def _factory_file(request: pytest.FixtureRequest) -> None:
+    """Start tests that may use Blender's data with its factory file: a cube, a light, a camera."""
+    if "bpy" in folder_needs(request.path):
+        import bpy
+
+        bpy.ops.wm.read_factory_settings()

@@ -1,0 +1,122 @@
+"""Who may know whom, by the imports of every module; and what the manifest and the package agree on."""
+
+import ast
+import subprocess
+import sys
+import tomllib
+from collections.abc import Iterator
+from fnmatch import fnmatch
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+
+LAYERS: dict[str, set[str]] = {
+    "core": set(),
+    "job": {"core"},
+    "files": {"core"},
+    "host": {"core"},
+    "device": {"core"},
+    "tasks": {"core", "job", "files", "host", "device"},
+    "command_line": {"core", "job", "files", "tasks"},
+    "operators": {"core", "job", "host", "tasks"},
+    "registration": {"command_line", "operators"},
+    "__init__": {"registration"},
+}
+"""Layer -> the other layers of ours that it may import."""
+
+THIRD_PARTY: dict[str, set[str]] = {
+    "core": {"numpy"},
+    "job": set(),
+    "files": {"numpy", "OpenEXR"},
+    "host": {"numpy", "bpy", "bmesh", "mathutils"},
+    "device": {"numpy", "bpy", "gpu", "gpu_extras", "mathutils"},
+    "tasks": {"numpy"},
+    "command_line": {"numpy"},
+    "operators": {"bpy"},
+    "registration": {"bpy"},
+    "__init__": set(),
+}
+"""Layer -> what it may import besides the standard library."""
+
+MODULES = sorted(
+    path
+    for path in [
+        ROOT / "__init__.py",
+        *(ROOT / "operators").rglob("*.py"),
+        *(ROOT / "rsibr_addon").rglob("*.py"),
+    ]
+    if path != ROOT / "rsibr_addon" / "__init__.py"
+)
+
+
+def layer_of(dotted: tuple[str, ...]) -> str:
+    """Layer of a module, by its path from the root: ("rsibr_addon", "core", "camera") -> "core"."""
+    inner = dotted[1:] if dotted[:1] == ("rsibr_addon",) else dotted
+    return inner[0] if inner else "__init__"
+
+
+def dotted_name(path: Path) -> tuple[str, ...]:
+    """Path of a module from the root, without suffix: ("rsibr_addon", "core", "camera")."""
+    return path.relative_to(ROOT).with_suffix("").parts
+
+
+def imports(path: Path) -> Iterator[tuple[int, tuple[str, ...]]]:
+    """Each import of a module, lazy ones too: (dots of a relative import, dotted name from the root)."""
+    package = dotted_name(path)[:-1]
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            yield from ((0, tuple(alias.name.split("."))) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            base = package[: len(package) - node.level + 1] if node.level else ()
+            base += tuple(node.module.split(".")) if node.module else ()
+            names = [()] if node.module else [(alias.name,) for alias in node.names]
+            yield from ((node.level, base + name) for name in names)
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_a_module_imports_only_what_its_layer_may(path: Path) -> None:
+    layer = layer_of(dotted_name(path))
+    for level, name in imports(path):
+        if level:
+            other = layer_of(name)
+            assert other in LAYERS[layer] | {layer}, f"{layer} imports {'.'.join(name)}"
+        else:
+            allowed = sys.stdlib_module_names | THIRD_PARTY[layer]
+            assert name[0] in allowed, f"{layer} imports {name[0]}"
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_a_module_stays_readable(path: Path) -> None:
+    assert len(path.read_text().splitlines()) <= 400
+    assert "utils" not in "".join(dotted_name(path))
+
+
+def test_everything_but_blenders_layers_imports_without_blender() -> None:
+    modules = [
+        ".".join(("rsibr", *dotted_name(path))).removesuffix(".__init__")
+        for path in MODULES
+        if layer_of(dotted_name(path)) in {"core", "job", "files", "command_line", "registration", "__init__"}
+    ]
+    hidden = "import sys; sys.modules.update(bpy=None, gpu=None, mathutils=None)\n"
+    script = hidden + "".join(f"import {module}\n" for module in modules)
+    run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert run.returncode == 0, run.stderr
+
+
+def test_manifest_and_package_agree() -> None:
+    manifest = tomllib.loads((ROOT / "blender_manifest.toml").read_text())
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    assert manifest["version"] == project["version"]
+    assert manifest["license"] == [f"SPDX:{project['license']}"]
+    # The tests run with the OpenEXR that the zip ships, on each platform and for both Pythons
+    constraints = (ROOT / ".ci" / "constraints.txt").read_text().splitlines()
+    (openexr,) = (line.partition("==")[2] for line in constraints if line.startswith("OpenEXR=="))
+    wheels = [Path(wheel).stem.split("-") for wheel in manifest["wheels"]]
+    assert {(name, version) for name, version, *_ in wheels} == {("openexr", openexr)}
+    systems = ("manylinux*_x86_64", "macosx*_x86_64", "macosx*_arm64", "win_amd64")
+    expected = [(python, system) for python in ("cp313", "cp314") for system in systems]
+    for python, system in expected:
+        assert sum(wheel[3] == python and fnmatch(wheel[4], system) for wheel in wheels) == 1
+    assert len(wheels) == len(expected)

@@ -1,15 +1,14 @@
 """Import bpy, or say in one sentence which system libraries to install."""
 
+import ctypes
 import re
 import sys
+from pathlib import Path
 
-DEBIAN = (
-    "libegl1 libgl1 libgl1-mesa-dri libglx0 libice6 libopengl0 libsm6 libx11-6 libxext6 libxfixes3 libxi6 "
-    "libxkbcommon0 libxrender1 libxt6"
-)
+DEBIAN = Path(__file__).with_name("debian-libraries").read_text().strip()
 FEDORA = (
-    "libglvnd-egl libglvnd-glx libglvnd-opengl libICE libSM libX11 libXext libXfixes libXi libXrender libXt "
-    "libxkbcommon mesa-dri-drivers"
+    "libICE libSM libX11 libXext libXfixes libXi libXrender libxkbcommon "
+    "mesa-dri-drivers mesa-libEGL mesa-libGL"
 )
 
 
@@ -17,8 +16,12 @@ def main() -> int:
     """Return 0 when bpy runs, 1 after saying what it lacks."""
     try:
         import bpy  # noqa: F401
-    except ImportError as error:
-        missing = re.search(r"lib[\w.+-]+\.so[\w.]*", str(error))
+
+        if sys.platform == "linux":
+            # bpy opens it late, for graphics, and ends the process without it
+            ctypes.CDLL("libEGL.so.1")
+    except (ImportError, OSError) as error:
+        missing = re.match(r"lib[\w.+-]+\.so[\w.]*", str(error))
         if missing is None:
             raise
         print(

@@ -4,8 +4,10 @@ A dependency that is missing skips its tests, and the run's summary says which a
 environment variable RSIBR_REQUIRE (comma-separated: gl, bpy, cycles, gui), it fails them instead.
 """
 
+import ctypes
 import functools
 import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -19,14 +21,15 @@ NEEDS = {"glsl": ("gl",), "blender": ("bpy",), "cycles": ("bpy", "cycles"), "gui
 
 
 def _start_bpy() -> None:
-    import bpy
-
-    bpy.app.version_string.strip()
+    import bpy  # noqa: F401
 
 
 def _start_gl() -> None:
+    import bpy  # noqa: F401  (the module gpu is there once bpy is)
     import gpu
 
+    if sys.platform == "linux":
+        ctypes.CDLL("libEGL.so.1")  # without it gpu.init ends the process
     gpu.init()
 
 
@@ -53,8 +56,6 @@ START: dict[str, Callable[[], None]] = {
 def absence(dependency: str) -> str | None:
     """Why `dependency` cannot be had, in words, or None when it can."""
     try:
-        if dependency in ("gl", "cycles"):
-            _start_bpy()
         START[dependency]()
     except Exception as error:  # whatever goes wrong is the reason to report
         return f"{dependency} is missing: {error}"

@@ -1,0 +1,265 @@
+"""Meshes to shade: from Blender's objects, from files, and the two that everyone knows.
+
+A shader wants one position and one normal per vertex, Blender keeps normals per face corner: where
+corners at a vertex disagree, the vertex is split.
+"""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import bmesh
+import bpy
+import numpy as np
+
+from ..core.conventions import Array, Indices
+from ..core.errors import InputFileError, SceneError
+from .scenes import temporary_scene
+
+MESH_NAMES = ("sphere", "monkey")
+"""What `load_mesh` makes itself; anything else is a file."""
+
+SPHERE_RINGS = 160
+"""Bands of latitude of the tessellated sphere, which has twice as many meridians.
+
+No point of the sphere is further than half a cell's diagonal, pi / (160 sqrt 2) rad, from a
+vertex, so neither the surface nor the silhouette sags by more than 1 - cos of that: 9.7e-5.
+"""
+
+MONKEY_SUBDIVISIONS = 3
+"""Levels of Suzanne's subdivision surface: 62,976 triangles."""
+
+
+@dataclass(frozen=True)
+class TriangleMesh:
+    """Triangles with smooth normals, ready for upload.
+
+    Attributes
+    ----------
+    name : str
+        What a person calls it, for reports.
+    positions : ndarray, shape (V, 3), float32
+    normals : ndarray, shape (V, 3), float32
+        Unit vectors.
+    triangles : ndarray, shape (T, 3), int32
+        Vertex indices, counter-clockwise seen from outside.
+    """
+
+    name: str
+    positions: Array
+    normals: Array
+    triangles: Indices
+
+
+def load_mesh(spec: str) -> TriangleMesh:
+    """The mesh that a command's ``--mesh`` names, within the unit sphere about the origin.
+
+    Parameters
+    ----------
+    spec : str
+        ``sphere``: the unit sphere. ``monkey``: Suzanne, subdivided. Otherwise the path of a
+        Wavefront OBJ file; its Y up becomes Blender's Z up, its objects become one mesh. A file
+        that states neither normals nor smoothing groups is shaded smooth.
+
+    Returns
+    -------
+    TriangleMesh
+        All but the sphere are moved so that the centre of their bounding box is the origin, and
+        scaled so that the vertex farthest from it lies on the unit sphere.
+
+    Raises
+    ------
+    InputFileError
+        The file is missing, is no OBJ, has no faces or no extent, or holds positions that are
+        not finite.
+    """
+    if spec == "sphere":
+        return _sphere()
+    if spec == "monkey":
+        return _fitted(_monkey())
+    return _fitted(_read_obj(Path(spec)))
+
+
+def mesh_from_object(item: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> TriangleMesh:
+    """An object's surface as it is drawn: modifiers applied, smooth and custom normals kept.
+
+    Parameters
+    ----------
+    item : bpy.types.Object
+        Of any type that Blender can turn into a mesh.
+    depsgraph : bpy.types.Depsgraph
+        Evaluated, and holding `item`.
+
+    Returns
+    -------
+    TriangleMesh
+        In the object's own coordinates. Without faces it has no triangles.
+
+    Raises
+    ------
+    SceneError
+        The object has no geometry: a light, a camera, an empty.
+    """
+    evaluated = item.evaluated_get(depsgraph)
+    try:
+        mesh = evaluated.to_mesh()
+    except RuntimeError as error:
+        raise SceneError(f"{item.name} has no surface to shade: choose a mesh object.") from error
+    try:
+        return _split_where_normals_differ(mesh, item.name)
+    finally:
+        evaluated.to_mesh_clear()
+
+
+def add_mesh(scene: bpy.types.Scene, mesh: TriangleMesh, material: bpy.types.Material) -> bpy.types.Object:
+    """Put a mesh into a scene, with exactly its vertices and normals.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+    mesh : TriangleMesh
+    material : bpy.types.Material
+
+    Returns
+    -------
+    bpy.types.Object
+    """
+    data = bpy.data.meshes.new(mesh.name)
+    data.vertices.add(len(mesh.positions))
+    data.vertices.foreach_set("co", mesh.positions.ravel())
+    data.loops.add(mesh.triangles.size)
+    data.loops.foreach_set("vertex_index", mesh.triangles.ravel())
+    data.polygons.add(len(mesh.triangles))
+    data.polygons.foreach_set("loop_start", np.arange(0, mesh.triangles.size, 3, dtype=np.int32))
+    # As a float attribute Blender takes normals as they are; its usual int16 encoding rounds them.
+    normals = data.attributes.new("custom_normal", "FLOAT_VECTOR", "POINT")
+    normals.data.foreach_set("vector", mesh.normals.ravel())
+    data.update(calc_edges=True)
+    data.materials.append(material)
+    item = bpy.data.objects.new(mesh.name, data)
+    scene.collection.objects.link(item)
+    return item
+
+
+def _sphere() -> TriangleMesh:
+    rings, sectors = SPHERE_RINGS, 2 * SPHERE_RINGS
+    theta = np.pi * np.arange(rings + 1) / rings
+    phi = 2.0 * np.pi * np.arange(sectors) / sectors
+    x, y = np.outer(np.sin(theta), np.cos(phi)), np.outer(np.sin(theta), np.sin(phi))
+    z = np.broadcast_to(np.cos(theta)[:, None], x.shape)
+    positions = np.stack([x, y, z], axis=-1).reshape(-1, 3).astype(np.float32)
+    vertex = np.arange(positions.shape[0]).reshape(rings + 1, sectors)
+    eastwards = np.roll(vertex, -1, axis=1)
+    left = np.stack([vertex[:-1], vertex[1:], eastwards[1:]], axis=-1)
+    right = np.stack([vertex[:-1], eastwards[1:], eastwards[:-1]], axis=-1)
+    # At a pole, where a ring is one point, one of a cell's two triangles is empty.
+    triangles = np.concatenate([left[:-1].reshape(-1, 3), right[1:].reshape(-1, 3)])
+    return TriangleMesh("sphere", positions, positions, triangles.astype(np.int32))
+
+
+def _monkey() -> TriangleMesh:
+    with temporary_scene() as scene:
+        data = bpy.data.meshes.new("monkey")
+        suzanne = bmesh.new()
+        bmesh.ops.create_monkey(suzanne)
+        suzanne.to_mesh(data)
+        suzanne.free()
+        data.shade_smooth()
+        item = bpy.data.objects.new("monkey", data)
+        scene.collection.objects.link(item)
+        subdivision = item.modifiers.new("Subdivision", "SUBSURF")
+        subdivision.levels = MONKEY_SUBDIVISIONS
+        return _joined("monkey", scene)
+
+
+def _read_obj(path: Path) -> TriangleMesh:
+    """All faces of a file, in Blender's axes."""
+    if not path.is_file():
+        names = " or ".join(MESH_NAMES)
+        raise InputFileError(f"There is no mesh {path}: name {names}, or an existing OBJ file.")
+    with temporary_scene() as scene:
+        try:
+            with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[0]):
+                bpy.ops.wm.obj_import(filepath=str(path.resolve()), validate_meshes=False)
+        except RuntimeError as error:
+            raise InputFileError(f"{path} cannot be read as a Wavefront OBJ: check the file.") from error
+        for item in scene.objects:
+            if item.type == "MESH":
+                _repair(item.data, path)
+        mesh = _joined(path.name, scene)
+    if not len(mesh.triangles):
+        raise InputFileError(f"{path} holds no faces: give a Wavefront OBJ file of a surface.")
+    return mesh
+
+
+def _repair(data: bpy.types.Mesh, path: Path) -> None:
+    """Blender's own validation, less what it would hide, and normals for a file without any."""
+    unusable = int(np.count_nonzero(~np.isfinite(_read(data.vertices, "co", np.float32, 3))))
+    if unusable:
+        raise InputFileError(
+            f"{path} holds {unusable} coordinates that are NaN or infinite: repair the mesh."
+        )
+    data.validate(clean_customdata=False)
+    if data.normals_domain == "FACE" and not data.has_custom_normals:
+        data.shade_smooth()
+
+
+def _joined(name: str, scene: bpy.types.Scene) -> TriangleMesh:
+    """Everything in a scene as one mesh, in world coordinates."""
+    scene.view_layers[0].update()
+    depsgraph = scene.view_layers[0].depsgraph
+    positions, normals, triangles, count = [], [], [], 0
+    for item in scene.objects:
+        mesh = mesh_from_object(item, depsgraph)
+        matrix = np.array(item.matrix_world)
+        # The importer only rotates, so normals turn as positions do.
+        positions.append(mesh.positions @ matrix[:3, :3].T + matrix[:3, 3])
+        normals.append(mesh.normals @ matrix[:3, :3].T)
+        triangles.append(mesh.triangles + count)
+        count += len(mesh.positions)
+    empty = np.empty((0, 3))
+    return TriangleMesh(
+        name,
+        np.concatenate([empty, *positions]).astype(np.float32),
+        np.concatenate([empty, *normals]).astype(np.float32),
+        np.concatenate([empty, *triangles]).astype(np.int32),
+    )
+
+
+def _fitted(mesh: TriangleMesh) -> TriangleMesh:
+    """Centre the bounding box and scale the farthest vertex onto the unit sphere."""
+    positions = mesh.positions.astype(np.float64)
+    positions -= (positions.min(axis=0) + positions.max(axis=0)) / 2.0
+    radius = np.linalg.norm(positions, axis=-1).max()
+    if radius == 0.0:
+        raise InputFileError(f"All vertices of {mesh.name} are one point: give a mesh with an extent.")
+    return replace(mesh, positions=(positions / radius).astype(np.float32))
+
+
+def _split_where_normals_differ(mesh: bpy.types.Mesh, name: str) -> TriangleMesh:
+    mesh.calc_loop_triangles()
+    positions = _read(mesh.vertices, "co", np.float32, 3)
+    if mesh.normals_domain == "POINT":
+        normals = _read(mesh.vertex_normals, "vector", np.float32, 3)
+        triangles = _read(mesh.loop_triangles, "vertices", np.int32, 3)
+        return TriangleMesh(name, positions, normals, triangles)
+    corner_vertices = _read(mesh.loops, "vertex_index", np.int32, 1)
+    corner_normals = _read(mesh.corner_normals, "vector", np.float32, 3)
+    keys = np.concatenate([corner_vertices, corner_normals.view(np.int32)], axis=1)
+    # One sort of 16-byte keys instead of np.unique(axis=0)'s four columns.
+    _, first, vertex_of_corner = np.unique(
+        np.ascontiguousarray(keys).view("V16").ravel(), return_index=True, return_inverse=True
+    )
+    corners = _read(mesh.loop_triangles, "loops", np.int32, 3)
+    return TriangleMesh(
+        name,
+        positions[corner_vertices[first, 0]],
+        corner_normals[first],
+        vertex_of_corner[corners].astype(np.int32),
+    )
+
+
+def _read(items: bpy.types.bpy_prop_collection, field: str, kind: type, width: int) -> Array:
+    """A property of every item, shape (len(items), width), without a Python loop."""
+    values = np.empty(len(items) * width, dtype=kind)
+    items.foreach_get(field, values)
+    return values.reshape(-1, width)

@@ -1,0 +1,52 @@
+"""Radiance as pictures for people: PNG through Blender's own view transform."""
+
+import errno
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+from ..core.conventions import Array
+from .scenes import temporary_scene
+
+
+def save_png(path: Path, rgba: Array) -> None:
+    """Write scene-linear radiance as an 8-bit sRGB picture.
+
+    Parameters
+    ----------
+    path : Path
+        Written as it is, replaced if it exists.
+    rgba : ndarray, shape (height, width, 4)
+        Scene-linear Rec. 709 radiance premultiplied by coverage, and coverage in [0, 1]; row 0 is
+        the bottom row.
+
+    Raises
+    ------
+    OSError
+        Blender cannot write there: the folder is missing, the disk full.
+
+    Notes
+    -----
+    Through the view transform "Standard" without exposure or dither: the sRGB curve of radiance
+    clipped to [0, 1] and nothing else, so 0.18 becomes 118 of 255. Alpha is straight, as PNG has
+    it.
+    """
+    height, width = rgba.shape[:2]
+    with temporary_scene() as scene:
+        scene.display_settings.display_device = "sRGB"
+        scene.view_settings.view_transform = "Standard"
+        scene.render.dither_intensity = 0.0
+        settings = scene.render.image_settings
+        settings.media_type = "IMAGE"
+        settings.file_format, settings.color_mode, settings.color_depth = "PNG", "RGBA", "8"
+        image = bpy.data.images.new(path.name, width, height, alpha=True, float_buffer=True)
+        image.alpha_mode = "PREMUL"
+        image.pixels.foreach_set(np.ascontiguousarray(rgba, dtype=np.float32).ravel())
+        try:
+            image.save_render(str(path.resolve()), scene=scene)
+        except RuntimeError as error:
+            raise OSError(errno.EIO, "Blender cannot write the picture", str(path)) from error
+    # Blender says nothing when the disk is full; a PNG that lacks its last chunk does.
+    if path.read_bytes()[-8:-4] != b"IEND":
+        raise OSError(errno.ENOSPC, "the picture is not whole", str(path))

@@ -1,0 +1,190 @@
+"""OpenEXR files, single-part or multi-part: the one module that knows the OpenEXR package."""
+
+import contextlib
+import io
+import threading
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import numpy as np
+import OpenEXR  # type: ignore[import-not-found, unused-ignore]  # it has no stubs
+
+from ..core.conventions import Array, Indices
+from ..core.errors import InputFileError
+from .reading import opened
+
+MAGIC = b"\x76\x2f\x31\x01"
+"""The first four bytes of every OpenEXR file."""
+
+_reading = threading.Lock()
+
+
+@dataclass(frozen=True)
+class Part:
+    """One picture of a file.
+
+    Attributes
+    ----------
+    name : str
+        Unique in its file; may be empty when it is alone.
+    channels : dict of str to ndarray, shape (height, width)
+        Pixels by channel name, float32, float16 or uint32, row 0 at the bottom.
+    attributes : dict of str to object
+        The part's header as the package gives it; on writing, only attributes of our own.
+    """
+
+    name: str
+    channels: dict[str, Array]
+    attributes: dict[str, Any] = field(default_factory=dict)
+
+
+def read_attributes(path: str | Path) -> list[dict[str, Any]]:
+    """Read the headers of a file, not its pixels.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    list of dict
+        For each part its attributes by name, as the OpenEXR package gives them.
+
+    Raises
+    ------
+    InputFileError
+        The file is missing, unreadable, not OpenEXR, or damaged in its headers.
+    """
+    with opened(path) as stream, _package_file(path, stream, header_only=True) as file:
+        return [dict(part.header) for part in file.parts]
+
+
+def read_parts(path: str | Path) -> list[Part]:
+    """Read a file whole.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    list of Part
+        Every part that the headers announce, each with the pixels of its data window.
+
+    Raises
+    ------
+    InputFileError
+        As `read_attributes`; pixels of a part are missing or damaged; a part has deep pixels or
+        subsampled channels.
+    """
+    headers = read_attributes(path)
+    for header in headers:
+        if header["type"] not in (OpenEXR.scanlineimage, OpenEXR.tiledimage):
+            raise InputFileError(f"{path} holds deep pixels: flatten it, and save it as a plain OpenEXR.")
+        if any((channel.xSampling, channel.ySampling) != (1, 1) for channel in header["channels"]):
+            raise InputFileError(f"{path} holds subsampled chroma: save it with channels R, G and B.")
+    with opened(path) as stream, _package_file(path, stream, separate_channels=True) as file:
+        # The package leaves out, without an exception, each part whose pixels it cannot read
+        if len(file.parts) != len(headers):
+            raise InputFileError(
+                f"{path} is truncated or damaged (pixels of {len(headers) - len(file.parts)} of its "
+                f"{len(headers)} parts cannot be read): fetch or make it again."
+            )
+        return [
+            Part(
+                part.header.get("name", ""),
+                {name: channel.pixels[::-1] for name, channel in part.channels.items()},
+                dict(part.header),
+            )
+            for part in file.parts
+        ]
+
+
+def in_display_window(part: Part) -> Part:
+    """The whole picture of a part of which only a window has pixels, or more than the picture has.
+
+    Parameters
+    ----------
+    part : Part
+        As read.
+
+    Returns
+    -------
+    Part
+        With the pixels of its display window; those that the file does not store are 0.
+    """
+    low, high = (np.asarray(corner, dtype=int) for corner in part.attributes["dataWindow"])
+    first, last = (np.asarray(corner, dtype=int) for corner in part.attributes["displayWindow"])
+    if np.array_equal(low, first) and np.array_equal(high, last):
+        return part
+    width, height = last - first + 1
+    start, end = np.maximum(low, first), np.minimum(high, last) + 1
+    channels = {}
+    for name, pixels in part.channels.items():
+        picture = np.zeros((height, width), pixels.dtype)
+        if np.all(start < end):
+            # Windows count rows from the top
+            picture[::-1][_between(start - first, end - first)] = pixels[::-1][
+                _between(start - low, end - low)
+            ]
+        channels[name] = picture
+    return Part(part.name, channels, part.attributes)
+
+
+def _between(start: Indices, end: Indices) -> tuple[slice, slice]:
+    """Rows and columns from (x, y) `start` up to, not including, `end`."""
+    return slice(start[1], end[1]), slice(start[0], end[0])
+
+
+def write_parts(path: Path, parts: Sequence[Part]) -> None:
+    """Write a file with ZIP compression; equal parts give equal bytes.
+
+    Parameters
+    ----------
+    path : Path
+        Replaced if it exists: `written_aside` yields one.
+    parts : sequence of Part
+
+    Raises
+    ------
+    OSError
+        The system refuses, or the disk is full.
+    """
+    # The parts of a file must have one display window; each picture is its part's data window
+    sizes = [pixels.shape for part in parts for pixels in part.channels.values()]
+    corner = np.max(sizes, axis=0)[::-1] - 1
+    header = {
+        "type": OpenEXR.scanlineimage,
+        "compression": OpenEXR.ZIP_COMPRESSION,
+        "displayWindow": (np.zeros(2, np.int32), corner.astype(np.int32)),
+    }
+    described = [
+        OpenEXR.Part(
+            {**header, **part.attributes},
+            # The package reads the memory of an array without looking at its strides
+            {name: np.ascontiguousarray(pixels[::-1]) for name, pixels in part.channels.items()},
+            part.name,
+        )
+        for part in parts
+    ]
+    # Through a stream of ours, because the package's own drops the error of its last bytes
+    with path.open("wb") as stream:
+        OpenEXR.File(described).write(stream)
+
+
+@contextlib.contextmanager
+def _package_file(path: str | Path, stream: BinaryIO, **options: bool) -> Iterator[Any]:
+    """The package's view of an open file; its complaints become one sentence."""
+    if stream.read(len(MAGIC)) != MAGIC:
+        raise InputFileError(f"{path} is not an OpenEXR file: convert it, or give another.")
+    stream.seek(0)
+    try:
+        # It prints to Python's stdout, where a command's result belongs; one thread at a time may bend that
+        with _reading, contextlib.redirect_stdout(io.StringIO()):
+            file = OpenEXR.File(stream, **options)
+    except (RuntimeError, ValueError) as error:
+        raise InputFileError(f"{path} is truncated or damaged: fetch or make it again.") from error
+    with file:
+        yield file

@@ -1,0 +1,218 @@
+"""Map sets on disk: one multi-part OpenEXR file with its description inside (docs/map-set-format.md)."""
+
+import contextlib
+import hashlib
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..core.conventions import Array
+from ..core.errors import InputFileError, MapSetError, RangeError, ShapeError
+from .atomic import check_target, written_aside
+from .exr import Part, read_attributes, read_parts, write_parts
+from .map_set_header import FORMAT, check_header
+
+ATTRIBUTE = "rsibr"
+"""Name of the first part's string attribute that holds the description, as JSON."""
+
+DERIVED = ("size", "sha256")
+"""Fields of a part that follow from its pixels."""
+
+
+@dataclass(frozen=True)
+class MapSet:
+    """Maps that belong together, and what they are.
+
+    Attributes
+    ----------
+    kind : str
+        "radiance_views", "lobe_stack", "reflection_tables" or "mip_chain".
+    maps : dict of str to ndarray, shape (height, width, 3), float32
+        Radiance by part name, finite, row 0 at the bottom.
+    header : dict
+        The description of docs/map-set-format.md, less what follows from the rest: format, kind,
+        and each part's size and sha256. JSON values only; its "parts" are named and ordered as `maps`.
+    """
+
+    kind: str
+    maps: dict[str, Array]
+    header: dict[str, Any]
+
+
+def write_map_set(path: str | Path, map_set: MapSet, force: bool = False, half: bool = False) -> None:
+    """Write a map set; equal sets give equal bytes.
+
+    Parameters
+    ----------
+    path : str or Path
+        By custom NAME.rsibr.exr.
+    map_set : MapSet
+    force : bool
+        Whether an existing file is replaced.
+    half : bool
+        Store 16-bit floats: half the space, 11 significant bits (a relative error up to 2^-11, below
+        6e-5 an absolute one up to 2^-25), radiance up to 65504. Otherwise the maps come back bit by bit.
+
+    Raises
+    ------
+    OutputFileError
+        See `written_aside`; refused before anything is computed where that is possible.
+    MapSetError
+        The header is not what the format demands.
+    ShapeError
+        The maps are not those that the header lists, or one has not the shape (height, width, 3).
+    RangeError
+        A map holds NaN or infinite values, or more than half floats can hold.
+    """
+    check_target(path, force)
+    listed = [part.get("name") for part in map_set.header.get("parts", [])]
+    if listed != list(map_set.maps):
+        raise ShapeError(f"{path} would hold the maps {list(map_set.maps)}, but its header lists {listed}.")
+    stored = {name: _stored(name, pixels, half) for name, pixels in map_set.maps.items()}
+    header = {
+        "format": FORMAT,
+        "kind": map_set.kind,
+        **map_set.header,
+        "parts": [{**part, **_derived(stored[part["name"]])} for part in map_set.header["parts"]],
+    }
+    check_header(header, str(path))
+    text = json.dumps(header, allow_nan=False)
+    parts = [
+        Part(
+            name,
+            {channel: pixels[..., i] for i, channel in enumerate("RGB")},
+            {ATTRIBUTE: text} if name == listed[0] else {},
+        )
+        for name, pixels in stored.items()
+    ]
+    with written_aside(path, force) as aside:
+        write_parts(aside, parts)
+
+
+def read_map_set(path: str | Path, kind: str | None = None) -> MapSet:
+    """Read a map set, checking everything.
+
+    Parameters
+    ----------
+    path : str or Path
+    kind : str, optional
+        The kind that is needed.
+
+    Returns
+    -------
+    MapSet
+        Maps are float32 also where the file holds half floats.
+
+    Raises
+    ------
+    MapSetError
+        As `read_map_set_header`; or the set is of another kind, pixels are missing, differ from what
+        was written, or are not finite.
+    """
+    header = read_map_set_header(path)
+    if kind not in (None, header["kind"]):
+        raise MapSetError(f"{path} holds {header['kind']}, but {kind} are needed here: give another map set.")
+    with _as_map_set_error():
+        found = {part.name: part for part in read_parts(path)}
+    maps = {part["name"]: _checked_pixels(path, part, found.pop(part["name"])) for part in header["parts"]}
+    kept = {field: value for field, value in header.items() if field not in ("format", "kind")}
+    kept["parts"] = [
+        {field: value for field, value in part.items() if field not in DERIVED} for part in header["parts"]
+    ]
+    return MapSet(header["kind"], maps, kept)
+
+
+def read_map_set_header(path: str | Path) -> dict[str, Any]:
+    """Read what a map set is, without its pixels.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    dict
+        The whole description of docs/map-set-format.md.
+
+    Raises
+    ------
+    MapSetError
+        The file is missing, unreadable, not OpenEXR, a picture without a description, of a newer
+        version or an unknown kind; the description is damaged, incomplete, or lists other parts or
+        sizes than the file holds.
+    """
+    with _as_map_set_error():
+        attributes = read_attributes(path)
+    text = attributes[0].get(ATTRIBUTE) if attributes else None
+    if not isinstance(text, str):
+        raise MapSetError(f"{path} is a picture, not a map set: make one with `rsibr capture`.")
+    try:
+        header: dict[str, Any] = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise MapSetError(f"{path} holds a description that is not JSON: make the map set again.") from error
+    check_header(header, str(path))
+    listed = {part["name"]: part["size"] for part in header["parts"]}
+    found = {part.get("name", ""): _size(part) for part in attributes}
+    for name in [*listed, *found]:
+        if listed.get(name) != found.get(name):
+            raise MapSetError(
+                f"{path} does not hold what it lists (part {name!r}: {_words(listed.get(name))} in its list, "
+                f"{_words(found.get(name))} in fact): make it again."
+            )
+    return header
+
+
+def _stored(name: str, pixels: Array, half: bool) -> Array:
+    """Pixels as the file holds them."""
+    if pixels.ndim != 3 or pixels.shape[2] != 3 or not pixels.size:
+        raise ShapeError(f"Map {name} must have the shape (height, width, 3), not {pixels.shape}.")
+    with np.errstate(over="ignore"):
+        stored: Array = np.ascontiguousarray(pixels, dtype="<f2" if half else "<f4")
+    unusable = int(np.count_nonzero(~np.isfinite(stored)))
+    if unusable:
+        beyond = " or too large for half floats" if half else ""
+        raise RangeError(f"Map {name} holds {unusable} values that are NaN, infinite{beyond}: make it again.")
+    return stored
+
+
+def _derived(stored: Array) -> dict[str, Any]:
+    height, width = stored.shape[:2]
+    return {"size": [width, height], "sha256": hashlib.sha256(stored.data).hexdigest()}
+
+
+def _checked_pixels(path: str | Path, listed: dict[str, Any], part: Part) -> Array:
+    """A part's pixels as float32, if they are the ones that were written."""
+    types = {pixels.dtype.name for pixels in part.channels.values()}
+    if part.channels.keys() != set("RGB") or types not in ({"float32"}, {"float16"}):
+        raise MapSetError(f"{path} has in part {part.name!r} not R, G and B in float or half: make it again.")
+    stored = np.stack([part.channels[channel] for channel in "RGB"], axis=-1)
+    if _derived(stored)["sha256"] != listed["sha256"]:
+        raise MapSetError(f"{path} is damaged: part {part.name!r} is not as written; fetch or make it again.")
+    unusable = int(np.count_nonzero(~np.isfinite(stored)))
+    if unusable:
+        raise MapSetError(
+            f"{path} holds {unusable} values that are NaN or infinite in part {part.name!r}: make it again."
+        )
+    return stored.astype(np.float32, copy=False)
+
+
+def _size(attributes: dict[str, Any]) -> list[int]:
+    low, high = attributes["dataWindow"]
+    return [int(high[axis]) - int(low[axis]) + 1 for axis in (0, 1)]
+
+
+def _words(size: list[int] | None) -> str:
+    return "missing" if size is None else "{}x{}".format(*size)
+
+
+@contextlib.contextmanager
+def _as_map_set_error() -> Iterator[None]:
+    """Whatever is wrong with a file that should hold a map set is a `MapSetError`."""
+    try:
+        yield
+    except InputFileError as error:
+        raise MapSetError(str(error)) from error

@@ -1,0 +1,38 @@
+"""Opening a file to read it, with sentences for what can be in the way."""
+
+import contextlib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import BinaryIO
+
+from ..core.errors import InputFileError
+
+
+@contextlib.contextmanager
+def opened(path: str | Path) -> Iterator[BinaryIO]:
+    """Open `path` for reading.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Yields
+    ------
+    BinaryIO
+        Its bytes, from the first.
+
+    Raises
+    ------
+    InputFileError
+        The file is missing or a folder, or the system refuses to read it, now or in the body.
+    """
+    path = Path(path)
+    if path.is_dir():
+        raise InputFileError(f"{path} is a folder: give the name of a file in it.")
+    try:
+        with path.open("rb") as stream:
+            yield stream
+    except FileNotFoundError as error:
+        raise InputFileError(f"{path} does not exist: check the name and the folder.") from error
+    except OSError as error:
+        raise InputFileError(f"{path} cannot be read ({error.strerror}): check its permissions.") from error

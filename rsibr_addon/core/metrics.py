@@ -1,0 +1,57 @@
+"""How far a picture is from its reference."""
+
+import numpy as np
+
+from .conventions import Array, ArrayLike
+from .directions import dot
+from .errors import RangeError
+
+
+def relative_rmse(ours: ArrayLike, reference: ArrayLike, weight: ArrayLike) -> float:
+    """Weighted root-mean-square error over the reference's own weighted root mean square.
+
+    Parameters
+    ----------
+    ours, reference : array_like, shape (..., channels)
+        Radiance.
+    weight : array_like, shape (...,)
+        How much each pixel counts, at least 0: its coverage, say.
+
+    Returns
+    -------
+    float
+        sqrt(sum w |ours - reference|^2 / sum w |reference|^2) over all pixels and channels: 0 for
+        equal pictures, 1 for a black one. Pictures stacked into one array give their pooled error.
+
+    Raises
+    ------
+    RangeError
+        The reference is black wherever it counts, so that nothing is relative to it.
+    """
+    reference = np.asarray(reference, dtype=np.float64)
+    difference = np.asarray(ours, dtype=np.float64) - reference
+    weight = np.asarray(weight, dtype=np.float64)
+    power = np.sum(weight * dot(reference, reference))
+    if not power > 0.0:
+        raise RangeError("A reference that is black all over has no relative error: light the scene.")
+    return float(np.sqrt(np.sum(weight * dot(difference, difference)) / power))
+
+
+def unpremultiplied(rgba: Array) -> Array:
+    """Mean radiance of the covered part of each pixel.
+
+    Parameters
+    ----------
+    rgba : ndarray, shape (..., 4)
+        Radiance times coverage, and coverage in [0, 1].
+
+    Returns
+    -------
+    ndarray, shape (..., 3), float64
+        Radiance; 0 where nothing is covered.
+    """
+    premultiplied, coverage = np.split(np.asarray(rgba, dtype=np.float64), [3], axis=-1)
+    radiance: Array = np.divide(
+        premultiplied, coverage, out=np.zeros_like(premultiplied), where=coverage > 0.0
+    )
+    return radiance

@@ -1,0 +1,34 @@
+"""What the extension adds to Blender, and how it is taken away again."""
+
+from collections.abc import Sequence
+from contextlib import ExitStack
+
+_registered = ExitStack()
+"""Undoes what `register` did, last first."""
+
+
+def register() -> None:
+    """Register the operators and the command `rsibr`; when one is refused, none stays."""
+    import bpy
+
+    from ..operators import CLASSES
+
+    with ExitStack() as undo:
+        for cls in CLASSES:
+            bpy.utils.register_class(cls)
+            undo.callback(bpy.utils.unregister_class, cls)
+        command = bpy.utils.register_cli_command("rsibr", _run_command)
+        undo.callback(bpy.utils.unregister_cli_command, command)
+        _registered.push(undo.pop_all())
+
+
+def unregister() -> None:
+    """Take away everything that `register` added."""
+    _registered.close()
+
+
+def _run_command(argv: Sequence[str]) -> int:
+    """Run `blender --command rsibr ARGV`; loads the commands only then."""
+    from .command_line.main import run
+
+    return run(argv)

@@ -1,0 +1,44 @@
+"""A scene of our own, for as long as it is needed."""
+
+import contextlib
+from collections.abc import Iterator
+
+import bpy
+
+
+@contextlib.contextmanager
+def temporary_scene() -> Iterator[bpy.types.Scene]:
+    """Work in a new, empty scene; afterwards the file is as it was, also when something is raised.
+
+    Yields
+    ------
+    bpy.types.Scene
+        Not shown in any window. Everything that is added to the file in the body is removed after
+        it: not only to the scene, but also materials, images, appended data, the render result.
+
+    Notes
+    -----
+    Whatever appears meanwhile counts as ours, so the body must not let go of control: no ``yield``
+    of a task in it. Handlers (``bpy.app.handlers``) rest, so that an artist's own, say at each
+    render, do not meet our scene.
+    """
+    with _resting_handlers():
+        before = {item.session_uid for item in bpy.data.all_ids}
+        try:
+            yield bpy.data.scenes.new("RSIBR")
+        finally:
+            bpy.data.batch_remove([item for item in bpy.data.all_ids if item.session_uid not in before])
+
+
+@contextlib.contextmanager
+def _resting_handlers() -> Iterator[None]:
+    named = (getattr(bpy.app.handlers, name) for name in dir(bpy.app.handlers))
+    handlers = [functions for functions in named if isinstance(functions, list)]
+    resting = [functions.copy() for functions in handlers]
+    for functions in handlers:
+        functions.clear()
+    try:
+        yield
+    finally:
+        for functions, rested in zip(handlers, resting, strict=True):
+            functions[:] = rested

@@ -23,6 +23,13 @@ class Warp(StrEnum):
     MIRROR = "mirror"
 
 
+TRUSTED_COSINE = 0.6
+"""Cosine between a source's normal and its view above which the source is trusted in full."""
+
+LEAST_CONFIDENCE = 1e-3
+"""What remains at the singularity itself, so that a source that stands alone still counts."""
+
+
 def source_uv(warp: Warp, normal: ArrayLike, view_dir: ArrayLike, source_frame: ArrayLike) -> Array:
     """Where a source map shows the central direction that a surface point has.
 
@@ -47,3 +54,36 @@ def source_uv(warp: Warp, normal: ArrayLike, view_dir: ArrayLike, source_frame: 
     central = np.asarray(normal) if warp is Warp.NORMAL else reflect(view_dir, normal)
     in_camera = np.einsum("...ji,...j->...i", np.asarray(source_frame), central)
     return uv_from_normal(in_camera) if warp is Warp.NORMAL else uv_from_direction(in_camera)
+
+
+def confidence(warp: Warp, normal: ArrayLike, view_dir: ArrayLike, source_view_dir: ArrayLike) -> Array:
+    """How far a source map can be trusted for a surface point.
+
+    Parameters
+    ----------
+    warp : Warp
+    normal, view_dir, source_view_dir : array_like, shape (..., 3)
+        Unit vectors in world coordinates.
+
+    Returns
+    -------
+    ndarray, shape (...,), float64
+        In [LEAST_CONFIDENCE, 1].
+
+    Notes
+    -----
+    [Cabral1999] section 3.3 fades a source near its singularity, where the warp leads to the rim
+    of the source's map, by the distance in the destination map. This takes the cosine at which
+    the source saw what it is asked for: zero at the same place, but a measure of the pinching
+    itself, the same for both warps and for a fragment without a destination map, and closer to
+    Cycles (docs/accuracy.md).
+    GLSL twin: gpu_shaders/lib/reflection_warp_lib.glsl `confidence`, 1e-5.
+    """
+    normal, source = np.asarray(normal), np.asarray(source_view_dir)
+    if warp is Warp.NORMAL:
+        cosine = dot(normal, source)
+    else:
+        # The source's normal is the half vector of its view and the reflected direction.
+        cosine = 0.5 * np.linalg.norm(reflect(view_dir, normal) + source, axis=-1)
+    trusted: Array = np.clip(cosine / TRUSTED_COSINE, LEAST_CONFIDENCE, 1.0)
+    return trusted

@@ -1,0 +1,63 @@
+// Twin of rsibr_addon/core/geodesic.py. The sphere comes as a texture (see device/geodesic_texture.py):
+// row 0 holds the vertices, row 1 + k the triangles of subdivision level k as three vertex indices.
+
+vec3 geodesic_vertex(sampler2D sphere, int index)
+{
+  return texelFetch(sphere, ivec2(index, 0), 0).xyz;
+}
+
+ivec3 geodesic_triangle(sampler2D sphere, int level, int index)
+{
+  return ivec3(texelFetch(sphere, ivec2(index, 1 + level), 0).xyz + 0.5);
+}
+
+// Vertex indices of the triangle under a view direction: a descent through the subdivisions.
+ivec3 find_triangle(sampler2D sphere, int last_level, vec3 view_dir)
+{
+  int found = 0;
+  float nearest = -2.0;
+  for (int i = 0; i < 20; i++) {
+    ivec3 ids = geodesic_triangle(sphere, 0, i);
+    vec3 centre = geodesic_vertex(sphere, ids.x) + geodesic_vertex(sphere, ids.y) +
+                  geodesic_vertex(sphere, ids.z);
+    float cosine = dot(view_dir, centre);
+    if (cosine > nearest) {
+      nearest = cosine;
+      found = i;
+    }
+  }
+  for (int level = 1; level <= last_level; level++) {
+    ivec3 middle = geodesic_triangle(sphere, level, 4 * found + 3);
+    vec3 ab = geodesic_vertex(sphere, middle.x);
+    vec3 bc = geodesic_vertex(sphere, middle.y);
+    vec3 ca = geodesic_vertex(sphere, middle.z);
+    int child = 3;
+    if (dot(view_dir, cross(ca, ab)) < 0.0) {
+      child = 0;
+    }
+    else if (dot(view_dir, cross(ab, bc)) < 0.0) {
+      child = 1;
+    }
+    else if (dot(view_dir, cross(bc, ca)) < 0.0) {
+      child = 2;
+    }
+    found = 4 * found + child;
+  }
+  return geodesic_triangle(sphere, last_level, found);
+}
+
+// Signed area of a spherical triangle, [VanOosterom1983].
+float spherical_excess(vec3 a, vec3 b, vec3 c)
+{
+  return 2.0 * atan(dot(a, cross(b, c)), 1.0 + dot(a, b) + dot(b, c) + dot(c, a));
+}
+
+// [Cabral1999] section 3.4.
+vec3 barycentric_weights(vec3 view_dir, vec3 a, vec3 b, vec3 c)
+{
+  vec3 areas = vec3(spherical_excess(view_dir, b, c),
+                    spherical_excess(view_dir, c, a),
+                    spherical_excess(view_dir, a, b));
+  areas = max(areas, 0.0);
+  return areas / (areas.x + areas.y + areas.z);
+}

@@ -1,0 +1,15 @@
+// Twin of core/shading.py `destination_lookup`: shades from the sphere map of one view.
+#include "lib/directions_lib.glsl"
+#include "lib/draw_lib.glsl"
+#include "lib/sphere_map_lib.glsl"
+
+void main()
+{
+  vec3 unit_normal = normalize(world_normal);
+  vec3 view_dir = view_direction(draw.eye, world_position);
+  mat3 frame = mat3(blend.frame);
+  vec2 normal_uv = uv_from_normal(unit_normal * frame);
+  vec2 mirror_uv = uv_from_direction(reflect_dir(view_dir, unit_normal) * frame);
+  radiance.rgb = textureLod(by_normal, normal_uv, 0.0).rgb + textureLod(by_mirror, mirror_uv, 0.0).rgb;
+  radiance.a = 1.0;
+}

@@ -1,0 +1,108 @@
+"""Arrays to the GPU and back."""
+
+import gpu
+import numpy as np
+from gpu_extras.batch import batch_for_shader
+
+from ..core.conventions import Array, Indices
+
+
+def texture(image: Array) -> gpu.types.GPUTexture:
+    """Upload one map, to be looked up bilinearly within its edges.
+
+    Parameters
+    ----------
+    image : ndarray, shape (height, width, 4)
+        Row 0 at the bottom.
+
+    Returns
+    -------
+    GPUTexture, RGBA32F
+    """
+    height, width = image.shape[:2]
+    uploaded = gpu.types.GPUTexture((width, height), format="RGBA32F", data=_buffer(image))
+    _look_up_within_edges(uploaded)
+    return uploaded
+
+
+def texture_array(images: Array) -> gpu.types.GPUTexture:
+    """Upload maps of one size as layers of one texture.
+
+    Parameters
+    ----------
+    images : ndarray, shape (layers, height, width, 4)
+
+    Returns
+    -------
+    GPUTexture, RGBA32F
+    """
+    layers, height, width = images.shape[:3]
+    uploaded = gpu.types.GPUTexture((width, height), layers=layers, format="RGBA32F", data=_buffer(images))
+    _look_up_within_edges(uploaded)
+    return uploaded
+
+
+def render_target(size: int) -> gpu.types.GPUTexture:
+    """An empty square map to be drawn to and looked up, RGBA32F."""
+    target = gpu.types.GPUTexture((size, size), format="RGBA32F")
+    _look_up_within_edges(target)
+    return target
+
+
+def uniform_block(*fields: Array) -> gpu.types.GPUUniformBuf:
+    """Upload a block of mat4 and vec4 fields.
+
+    Parameters
+    ----------
+    *fields : ndarray
+        In the block's order: vectors of up to 4 numbers, filled up with 0; matrices of shape
+        (4, 4) for column vectors; arrays of vectors of shape (n, 3) or (n, 4).
+
+    Returns
+    -------
+    GPUUniformBuf
+    """
+    return gpu.types.GPUUniformBuf(_buffer(np.concatenate([_rows_of_four(field) for field in fields])))
+
+
+def pixels(framebuffer: gpu.types.GPUFrameBuffer, size: int) -> Array:
+    """Read the first colour target back, shape (size, size, 4), float32, row 0 at the bottom."""
+    read = framebuffer.read_color(0, 0, size, size, 4, 0, "FLOAT")
+    return np.array(read, dtype=np.float32)
+
+
+def triangles(
+    shader: gpu.types.GPUShader, attributes: dict[str, Array], indices: Indices
+) -> gpu.types.GPUBatch:
+    """Upload a triangle mesh.
+
+    Parameters
+    ----------
+    shader : GPUShader
+        A program with those vertex attributes.
+    attributes : dict of str to ndarray, shape (V, n)
+    indices : ndarray of int, shape (F, 3)
+
+    Returns
+    -------
+    GPUBatch
+    """
+    contiguous = {name: np.ascontiguousarray(values, np.float32) for name, values in attributes.items()}
+    return batch_for_shader(shader, "TRIS", contiguous, indices=np.ascontiguousarray(indices, np.int32))
+
+
+def _rows_of_four(field: Array) -> Array:
+    if field.shape == (4, 4):
+        return field.T  # GLSL stores matrices by column.
+    rows = np.atleast_2d(field)
+    return np.pad(rows, ((0, 0), (0, 4 - rows.shape[1])))
+
+
+def _buffer(values: Array) -> gpu.types.Buffer:
+    flat = np.ascontiguousarray(values, dtype=np.float32).reshape(-1)
+    return gpu.types.Buffer("FLOAT", flat.size, flat)
+
+
+def _look_up_within_edges(texture: gpu.types.GPUTexture) -> None:
+    texture.filter_mode(True)
+    texture.extend_mode("EXTEND")

@@ -1,0 +1,25 @@
+"""Blender's graphics context, in a window or without one."""
+
+import bpy
+import gpu
+
+from ..core.errors import DeviceError
+
+
+def ensure_context() -> None:
+    """Make Blender's `gpu` module usable, also in a background Blender and in the bpy module.
+
+    Raises
+    ------
+    DeviceError
+        There is no graphics driver that Blender can use.
+    """
+    if not bpy.app.background:
+        return
+    try:
+        gpu.init()
+    except (SystemError, RuntimeError) as error:
+        raise DeviceError(
+            f"Blender found no graphics driver ({error}): install one; Mesa's software driver "
+            f"(Debian: libegl1 and libgl1-mesa-dri) is enough."
+        ) from error

@@ -1,0 +1,98 @@
+"""The GPU programs: their interfaces; their sources stand in `gpu_shaders`."""
+
+from functools import cache
+
+import gpu
+
+from ..core.errors import DeviceError
+from .shader_source import shader_source
+
+# Uniform blocks hold vec4 and mat4 alone: the layout is then the same for every driver.
+_DRAW_BLOCK = "struct Draw { mat4 model; mat4 normal_matrix; mat4 view; mat4 projection; vec4 eye; };"
+_BLEND_BLOCK = "struct Blend { mat4 frame; vec4 source_dirs[3]; vec4 weights; vec4 sources; };"
+_MODE_BLOCK = "struct Mode { float split; float last_level; float unused_0; float unused_1; };"
+
+
+@cache
+def views_fragment_shader() -> gpu.types.GPUShader:
+    """Draws a mesh from radiance views, `fragment` mode.
+
+    Raises
+    ------
+    DeviceError
+        The driver refuses the program; so for every function here.
+    """
+    info = _mesh_interface(_MODE_BLOCK)
+    info.uniform_buf(1, "Mode", "mode")
+    info.sampler(0, "FLOAT_2D_ARRAY", "views")
+    info.sampler(1, "FLOAT_2D", "sphere")
+    return _build("views_fragment", info, "mesh_vert.glsl", "views_fragment_frag.glsl")
+
+
+@cache
+def views_destination_shader() -> gpu.types.GPUShader:
+    """Draws a mesh from the destination maps of one view."""
+    info = _mesh_interface(_BLEND_BLOCK)
+    info.uniform_buf(1, "Blend", "blend")
+    info.sampler(0, "FLOAT_2D", "by_normal")
+    info.sampler(1, "FLOAT_2D", "by_mirror")
+    return _build("views_destination", info, "mesh_vert.glsl", "views_destination_frag.glsl")
+
+
+@cache
+def views_texel_shader() -> gpu.types.GPUShader:
+    """Makes the destination maps of one view, `texel` mode."""
+    info = _destination_interface()
+    varyings = gpu.types.GPUStageInterfaceInfo("rsibr_screen")
+    varyings.smooth("VEC2", "map_uv")
+    info.vertex_out(varyings)
+    return _build("views_texel", info, "screen_vert.glsl", "views_texel_frag.glsl")
+
+
+@cache
+def views_disk_shader() -> gpu.types.GPUShader:
+    """Makes the destination maps of one view, `paper` mode, drawn on the tessellated disk."""
+    info = _destination_interface()
+    varyings = gpu.types.GPUStageInterfaceInfo("rsibr_disk")
+    for warp in ("normal", "mirror"):
+        for source in range(3):
+            varyings.smooth("VEC3", f"{warp}_seen_{source}")
+    info.vertex_out(varyings)
+    return _build("views_disk", info, "views_disk_vert.glsl", "views_disk_frag.glsl")
+
+
+def _mesh_interface(second_block: str) -> gpu.types.GPUShaderCreateInfo:
+    info = gpu.types.GPUShaderCreateInfo()
+    info.typedef_source(_DRAW_BLOCK + second_block)  # Once: a second call would replace the first.
+    info.uniform_buf(0, "Draw", "draw")
+    info.vertex_in(0, "VEC3", "position")
+    info.vertex_in(1, "VEC3", "normal")
+    varyings = gpu.types.GPUStageInterfaceInfo("rsibr_surface")
+    varyings.smooth("VEC3", "world_position")
+    varyings.smooth("VEC3", "world_normal")
+    info.vertex_out(varyings)
+    info.fragment_out(0, "VEC4", "radiance")
+    return info
+
+
+def _destination_interface() -> gpu.types.GPUShaderCreateInfo:
+    info = gpu.types.GPUShaderCreateInfo()
+    info.typedef_source(_BLEND_BLOCK + _MODE_BLOCK)
+    info.uniform_buf(0, "Blend", "blend")
+    info.uniform_buf(1, "Mode", "mode")
+    info.sampler(0, "FLOAT_2D_ARRAY", "views")
+    info.vertex_in(0, "VEC2", "position")
+    info.fragment_out(0, "VEC4", "by_normal")
+    info.fragment_out(1, "VEC4", "by_mirror")
+    return info
+
+
+def _build(name: str, info: gpu.types.GPUShaderCreateInfo, vertex: str, fragment: str) -> gpu.types.GPUShader:
+    info.vertex_source(shader_source(vertex))
+    info.fragment_source(shader_source(fragment))
+    try:
+        return gpu.shader.create_from_info(info)
+    except Exception as error:  # Blender raises a bare Exception; the driver's log is on stderr.
+        raise DeviceError(
+            f"The graphics driver refused the shader {name} ({error}): update the driver."
+        ) from error

@@ -1,0 +1,212 @@
+"""Pictures of a mesh in a captured material: one, or a turn around it."""
+
+import tempfile
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from ..core.camera import Camera
+from ..core.conventions import Array
+from ..core.errors import OutputFileError, RangeError
+from ..core.progress import Progress, Steps
+from ..device.preview import PreviewRenderer
+from ..device.radiance_views import Mode
+from ..files.atomic import check_target, written_aside
+from ..files.pictures import write_exr
+from ..host.meshes import TriangleMesh, load_mesh
+from ..host.movies import save_movie
+from ..host.pictures import save_png
+from .captured import read_captured
+
+LARGEST = 2048
+"""Width and height of the largest picture: drawn at four times that, it takes 1 GiB."""
+
+SHEET_COLUMNS, SHEET_ROWS = 4, 3
+"""A contact sheet shows at most so many frames, evenly spaced in time."""
+
+
+@dataclass(frozen=True)
+class PreviewSettings:
+    """What to draw, from where, and how.
+
+    Attributes
+    ----------
+    camera : Camera
+    mesh : str
+        As `host.meshes.load_mesh` takes it.
+    size : int
+        Width and height in pixels, 1 to `LARGEST`.
+    mode : Mode
+    split : bool
+        Warp diffuse radiance by the normal and glossy by the mirror direction; else the whole by
+        the mirror direction.
+
+    Raises
+    ------
+    RangeError
+        `size` is out of range.
+    """
+
+    camera: Camera
+    mesh: str = "sphere"
+    size: int = 512
+    mode: Mode = Mode.FRAGMENT
+    split: bool = True
+
+    def __post_init__(self) -> None:
+        if not 1 <= self.size <= LARGEST:
+            raise RangeError(f"A picture cannot be {self.size} pixels wide: choose 1 to {LARGEST}.")
+
+
+def preview(map_set: Path, settings: PreviewSettings, output: Path, force: bool = False) -> Steps[Path]:
+    """Draw one picture.
+
+    Parameters
+    ----------
+    map_set : Path
+        A map set of radiance views.
+    settings : PreviewSettings
+    output : Path
+        NAME.exr for linear radiance, premultiplied, with coverage in alpha; NAME.png for a picture
+        through the view transform "Standard".
+    force : bool
+        Whether an existing file is replaced.
+
+    Yields
+    ------
+    Progress
+
+    Returns
+    -------
+    Path
+        `output`.
+
+    Raises
+    ------
+    MapSetError, InputFileError, OutputFileError, DeviceError
+    """
+    _check_picture_target(output, force)
+    yield Progress(0, 2, f"reading {map_set.name}")
+    draw = _Studio(map_set, settings)
+    yield Progress(1, 2, f"drawing {output.name}")
+    _write_picture(output, draw(settings.camera), force)
+    return output
+
+
+def turntable(
+    map_set: Path, settings: PreviewSettings, frame_count: int, output: Path, force: bool = False
+) -> Steps[tuple[Path, Path]]:
+    """Draw a turn around the world's Z axis, as a movie and a contact sheet.
+
+    Parameters
+    ----------
+    map_set : Path
+        A map set of radiance views.
+    settings : PreviewSettings
+        Its camera is the first frame's; an even size, as H.264 demands.
+    frame_count : int
+        At least 2; the movie shows 24 a second and loops.
+    output : Path
+        The contact sheet, NAME.png or NAME.exr. The movie is NAME.mp4 beside it; there, what the
+        mesh does not cover is black.
+    force : bool
+        Whether existing files are replaced.
+
+    Yields
+    ------
+    Progress
+
+    Returns
+    -------
+    sheet, movie : Path
+
+    Raises
+    ------
+    RangeError
+        There are fewer than 2 frames, the size is odd, or the view points along the axis.
+    MapSetError, InputFileError, OutputFileError, DeviceError, RenderError
+    """
+    movie = output.with_suffix(".mp4")
+    _check_picture_target(output, force)
+    check_target(movie, force)
+    if settings.size % 2:
+        raise RangeError(f"A movie cannot be {settings.size} pixels wide: choose an even size.")
+    cameras = list(_orbit(settings.camera, frame_count))
+    yield Progress(0, frame_count + 1, f"reading {map_set.name}")
+    draw = _Studio(map_set, settings)
+    shown = _spaced(frame_count)
+    sheet = []
+    with tempfile.TemporaryDirectory() as folder:
+        frames = [Path(folder) / f"{number:06d}.png" for number in range(frame_count)]
+        for number, (camera, frame) in enumerate(zip(cameras, frames, strict=True)):
+            yield Progress(number, frame_count + 1, f"drawing frame {number + 1} of {frame_count}")
+            picture = draw(camera)
+            save_png(frame, picture)
+            if number in shown:
+                sheet.append(picture)
+        yield Progress(frame_count, frame_count + 1, f"writing {movie.name}")
+        with written_aside(movie, force) as aside:
+            save_movie(aside, frames)
+    _write_picture(output, _contact_sheet(sheet), force)
+    return output, movie
+
+
+class _Studio:
+    """A map set and a mesh, uploaded, to be drawn from any camera."""
+
+    def __init__(self, map_set: Path, settings: PreviewSettings) -> None:
+        self._settings = settings
+        self._mesh: TriangleMesh = load_mesh(settings.mesh)
+        self._renderer = PreviewRenderer(read_captured(map_set).views)
+
+    def __call__(self, camera: Camera) -> Array:
+        mesh, settings = self._mesh, self._settings
+        return self._renderer.draw(
+            mesh.positions, mesh.normals, mesh.triangles, camera, settings.size, settings.mode, settings.split
+        )
+
+
+def _orbit(camera: Camera, frame_count: int) -> Iterator[Camera]:
+    """Cameras spaced evenly about Z, counter-clockwise seen from above."""
+    if frame_count < 2:
+        raise RangeError(f"A turntable of {frame_count} frames does not turn: ask for 2 or more.")
+    x, y, z = camera.view_dir
+    if np.hypot(x, y) < 1e-6:
+        raise RangeError("A turntable turns about Z, so its view cannot be along Z: look from aside.")
+    for angle in 2.0 * np.pi * np.arange(frame_count) / frame_count:
+        cosine, sine = np.cos(angle), np.sin(angle)
+        yield replace(camera, view_dir=(cosine * x - sine * y, sine * x + cosine * y, z))
+
+
+def _spaced(frame_count: int) -> set[int]:
+    """Numbers of the frames that a contact sheet shows."""
+    shown = min(frame_count, SHEET_COLUMNS * SHEET_ROWS)
+    return {number * frame_count // shown for number in range(shown)}
+
+
+def _contact_sheet(pictures: list[Array]) -> Array:
+    """Pictures side by side in rows, the first at the top left."""
+    size = len(pictures[0])
+    columns = min(len(pictures), SHEET_COLUMNS)
+    rows = -(-len(pictures) // columns)
+    sheet = np.zeros((rows, size, columns, size, 4), dtype=np.float32)
+    for number, picture in enumerate(pictures):
+        row, column = divmod(number, columns)
+        sheet[rows - 1 - row, :, column] = picture
+    return sheet.reshape(rows * size, columns * size, 4)
+
+
+def _check_picture_target(path: Path, force: bool) -> None:
+    if path.suffix.lower() not in (".exr", ".png"):
+        raise OutputFileError(f"{path} would be of an unknown kind: give a name that ends in .exr or .png.")
+    check_target(path, force)
+
+
+def _write_picture(path: Path, rgba: Array, force: bool) -> None:
+    if path.suffix.lower() == ".exr":
+        write_exr(path, rgba, force)
+        return
+    with written_aside(path, force) as aside:
+        save_png(aside, rgba)

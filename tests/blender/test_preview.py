@@ -1,0 +1,181 @@
+"""Previews: right against the closed form, the right way up in every file, refused in words."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.core.camera import Camera
+from rsibr.rsibr_addon.core.conventions import texel_centres
+from rsibr.rsibr_addon.core.directions import reflect
+from rsibr.rsibr_addon.core.errors import MapSetError, OutputFileError, RangeError
+from rsibr.rsibr_addon.core.maps import sphere_map
+from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.device.radiance_views import Mode
+from rsibr.rsibr_addon.files.map_set import write_map_set
+from rsibr.rsibr_addon.files.pictures import read_exr
+from rsibr.rsibr_addon.tasks.preview import PreviewSettings, preview, turntable
+from rsibr.tests.mirror_capture import BRIGHT_DIR, mirror_map_set, radiance_from, write_mirror_capture
+
+pytestmark = pytest.mark.needs("gl")
+
+VIEW = (0.3, -0.8, 0.45)
+SIZE = 48
+
+
+def mirrored_sphere(camera: Camera, size: int) -> tuple[np.ndarray, np.ndarray]:
+    """An orthographic picture of the mirror: radiance, and which pixels lie within radius 0.9."""
+    points = 2.0 * texel_centres(size, size) - 1.0
+    normals = sphere_map.normal_from_uv(texel_centres(size, size)) @ camera.frame.T
+    seen = reflect(np.broadcast_to(camera.view_dir, normals.shape), normals)
+    return radiance_from(seen), np.linalg.norm(points, axis=-1) < 0.9
+
+
+@pytest.mark.parametrize("mode", Mode)
+@pytest.mark.parametrize("split", [True, False])
+def test_a_mirrored_sphere_shows_its_surroundings(tmp_path: Path, mode: Mode, split: bool) -> None:
+    path = write_mirror_capture(tmp_path / "mirror.rsibr.exr")
+    camera = Camera(VIEW)
+    settings = PreviewSettings(camera, size=SIZE, mode=mode, split=split)
+    output = drain(preview(path, settings, tmp_path / "out.exr"))
+    assert output == tmp_path / "out.exr"
+    rgba = read_exr(output)
+    expected, inside = mirrored_sphere(camera, SIZE)
+    # A mirror's views agree about every direction, so blending adds nothing. What is left is the
+    # maps' interpolation: h^2 / 8 times a second derivative, with h = 1/32 and, along a radius up to
+    # 0.9 where the direction turns by 2 / sqrt(1 - r^2) = 4.6 a unit, 4 (4.6)^2 at the lobe's peak
+    # of 1: 1e-2; a pixel's average over 1/24 adds a third of it.
+    assert np.abs(rgba[..., :3] - expected)[inside].max() < 0.015
+    assert np.all(rgba[inside, 3] == 1.0)
+    # pi / 4 of the frame, as fine as 16 samples a pixel on a rim of 48 pi pixels tell.
+    assert rgba[..., 3].mean() == pytest.approx(np.pi / 4.0, abs=2e-3)
+
+
+def test_png_and_exr_agree(tmp_path: Path, stored_bytes: Callable) -> None:
+    path = write_mirror_capture(tmp_path / "mirror.rsibr.exr", size=32)
+    settings = PreviewSettings(Camera(VIEW), size=SIZE)
+    linear = read_exr(drain(preview(path, settings, tmp_path / "out.exr")))
+    shown = stored_bytes(drain(preview(path, settings, tmp_path / "out.png")))
+    np.testing.assert_allclose(shown[..., 3], 255.0 * linear[..., 3], atol=0.51)
+    opaque = linear[..., 3] == 1.0
+    brightest = np.argmax(np.where(opaque, linear[..., 0], 0.0))
+    assert np.where(opaque, shown[..., 0], 0.0).flat[brightest] == shown[opaque, 0].max()
+
+
+def test_perspective_looks_from_the_eye(tmp_path: Path) -> None:
+    path = write_mirror_capture(tmp_path / "mirror.rsibr.exr", view_count=42)
+    camera = Camera(VIEW, field_of_view=np.radians(60.0))
+    rgba = read_exr(drain(preview(path, PreviewSettings(camera, size=SIZE), tmp_path / "out.exr")))
+    # Rays through pixel centres, and where they meet the unit sphere first.
+    spread = np.tan(0.5 * camera.field_of_view)
+    screen = spread * (2.0 * texel_centres(SIZE, SIZE) - 1.0)
+    rays = np.concatenate([screen, np.full((SIZE, SIZE, 1), -1.0)], axis=-1) @ camera.frame.T
+    rays /= np.linalg.norm(rays, axis=-1, keepdims=True)
+    eye = camera.eye[:3]
+    along = rays @ eye
+    root = along**2 - (eye @ eye - 1.0)
+    inside = root > 0.1
+    normals = eye + rays * (-along - np.sqrt(np.maximum(root, 0.0)))[..., None]
+    expected = radiance_from(reflect(-rays, normals))
+    # As in the orthographic test; root > 0.1 keeps within 0.95 of the silhouette's radius.
+    assert np.abs(rgba[..., :3] - expected)[inside].max() < 0.02
+
+
+@pytest.mark.parametrize("suffix", [".png", ".exr"])
+def test_a_turntable_turns_once(tmp_path: Path, suffix: str, stored_bytes: Callable) -> None:
+    path = write_mirror_capture(tmp_path / "mirror.rsibr.exr", size=32)
+    settings = PreviewSettings(Camera(VIEW), size=32)
+    steps = turntable(path, settings, 6, tmp_path / f"turn{suffix}")
+    progress = []
+    while True:
+        try:
+            progress.append(next(steps))
+        except StopIteration as end:
+            sheet, movie = end.value
+            break
+    assert [step.done for step in progress] == sorted(step.done for step in progress)
+    assert all(step.total == progress[0].total > step.done for step in progress)
+    assert (sheet, movie) == (tmp_path / f"turn{suffix}", tmp_path / "turn.mp4")
+    assert sorted(each.name for each in tmp_path.iterdir()) == sorted(
+        ["mirror.rsibr.exr", sheet.name, "turn.mp4"]
+    )
+    assert movie.read_bytes()[4:8] == b"ftyp"
+    if suffix == ".exr":
+        shown = read_exr(sheet)
+        assert shown.shape == (64, 128, 4)
+        # Six frames, four to a row, from the top left; the last two places are empty.
+        assert not shown[:32, 64:].any()
+        for number in range(6):
+            row, column = divmod(number, 4)
+            frame = shown[32 * (1 - row) :, 32 * column :][:32, :32]
+            angle = number * np.pi / 3.0
+            turned = (
+                np.cos(angle) * VIEW[0] - np.sin(angle) * VIEW[1],
+                np.sin(angle) * VIEW[0] + np.cos(angle) * VIEW[1],
+                VIEW[2],
+            )
+            expected, inside = mirrored_sphere(Camera(turned), 32)
+            assert np.abs(frame[..., :3] - expected)[inside].mean() < 0.01
+
+
+def test_an_objs_picture_is_upright(tmp_path: Path) -> None:
+    """A flat arrow that points up along Y in the file, seen from the front."""
+    path = write_mirror_capture(tmp_path / "mirror.rsibr.exr", size=32)
+    arrow = tmp_path / "arrow.obj"
+    arrow.write_text("v -1 -1 0\nv 1 -1 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n")
+    settings = PreviewSettings(Camera((0.0, -1.0, 0.0)), mesh=str(arrow), size=32)
+    alpha = read_exr(drain(preview(path, settings, tmp_path / "out.exr")))[..., 3]
+    widths = (alpha > 0.5).sum(axis=1)
+    assert widths[8] > widths[16] > widths[24] > 0
+    # One normal towards the eye: the mirror shows the eye's own direction everywhere.
+    rgba = read_exr(tmp_path / "out.exr")
+    ahead = radiance_from(np.array([0.0, -1.0, 0.0]))
+    np.testing.assert_allclose(
+        rgba[alpha == 1.0, :3], np.broadcast_to(ahead, (np.sum(alpha == 1.0), 3)), atol=5e-3
+    )
+
+
+def test_existing_files_and_odd_names_are_refused_before_anything_is_read(tmp_path: Path) -> None:
+    absent = tmp_path / "absent.rsibr.exr"
+    settings = PreviewSettings(Camera(VIEW), size=32)
+    (tmp_path / "there.png").touch()
+    (tmp_path / "turn.mp4").touch()
+    with pytest.raises(OutputFileError, match=r"there\.png exists"):
+        drain(preview(absent, settings, tmp_path / "there.png"))
+    with pytest.raises(OutputFileError, match=r"there\.jpg would be of an unknown kind"):
+        drain(preview(absent, settings, tmp_path / "there.jpg"))
+    with pytest.raises(OutputFileError, match=r"turn\.mp4 exists"):
+        drain(turntable(absent, settings, 4, tmp_path / "turn.png"))
+    with pytest.raises(MapSetError, match=r"absent\.rsibr\.exr"):
+        drain(preview(absent, settings, tmp_path / "new.png"))
+    assert not (tmp_path / "new.png").exists()
+
+
+@pytest.mark.parametrize(
+    ("camera", "size", "frames", "complaint"),
+    [
+        (Camera(VIEW), 31, 4, "31 pixels wide: choose an even size"),
+        (Camera(VIEW), 32, 1, "of 1 frames does not turn"),
+        (Camera((0.0, 0.0, 2.0)), 32, 4, "cannot be along Z"),
+    ],
+)
+def test_a_turntable_that_cannot_be_is_refused(
+    tmp_path: Path, camera: Camera, size: int, frames: int, complaint: str
+) -> None:
+    with pytest.raises(RangeError, match=complaint):
+        drain(turntable(tmp_path / "m", PreviewSettings(camera, size=size), frames, tmp_path / "t.png"))
+
+
+@pytest.mark.parametrize("size", [0, -3, 4096])
+def test_sizes_have_limits(size: int) -> None:
+    with pytest.raises(RangeError, match="choose 1 to 2048"):
+        PreviewSettings(Camera(VIEW), size=size)
+
+
+def test_views_from_elsewhere_are_refused(tmp_path: Path) -> None:
+    map_set = mirror_map_set(size=16)
+    for part in map_set.header["parts"][1:]:
+        part["view_dir"] = BRIGHT_DIR.tolist()
+    write_map_set(tmp_path / "bent.rsibr.exr", map_set)
+    with pytest.raises(MapSetError, match="other directions than RSIBR's own"):
+        drain(preview(tmp_path / "bent.rsibr.exr", PreviewSettings(Camera(VIEW)), tmp_path / "out.png"))

@@ -7,7 +7,9 @@ environment variable RSIBR_REQUIRE (comma-separated: gl, bpy, cycles, gui), it f
 import ctypes
 import functools
 import os
+import subprocess
 import sys
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
@@ -41,7 +43,9 @@ def _start_cycles() -> None:
 
 def _start_gui() -> None:
     if not BLENDER_WINDOW.exists():
-        raise FileNotFoundError("../shared/blender-window, which starts a Blender in a window, is not there")
+        raise FileNotFoundError("../shared/blender-window, which runs a Blender in a window, is not there")
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([BLENDER_WINDOW, folder, "--version"], check=True, capture_output=True)
 
 
 START: dict[str, Callable[[], None]] = {
@@ -103,3 +107,9 @@ def _factory_file(request: pytest.FixtureRequest) -> None:
         import bpy
 
         bpy.ops.wm.read_factory_settings()
+
+
+@pytest.fixture(scope="session")
+def blender_window() -> Path:
+    """The command `run.sh FOLDER [ARGUMENTS]`: a Blender that sees FOLDER as /job."""
+    return BLENDER_WINDOW

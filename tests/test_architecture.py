@@ -19,8 +19,8 @@ LAYERS: dict[str, set[str]] = {
     "host": {"core"},
     "device": {"core"},
     "tasks": {"core", "job", "files", "host", "device"},
-    "command_line": {"core", "job", "files", "tasks"},
-    "operators": {"core", "job", "host", "tasks"},
+    "command_line": {"core", "job", "files", "host", "device", "tasks"},
+    "operators": {"core", "job", "files", "host", "device", "tasks"},
     "registration": {"command_line", "operators"},
     "__init__": {"registration"},
 }

@@ -1,0 +1,81 @@
+"""The built zip in a Blender of its own, whose Python is not the one of the other tests."""
+
+import json
+import shutil
+import subprocess
+import sys
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+type Blender = Callable[..., subprocess.CompletedProcess[str]]
+
+
+@pytest.fixture(scope="module")
+def extension() -> Path:
+    """The zip, freshly built."""
+    subprocess.run([sys.executable, ROOT / ".ci" / "build_extension.py"], check=True)
+    (archive,) = (ROOT / "dist").glob("rsibr-*.zip")
+    return archive
+
+
+@pytest.fixture(scope="module")
+def blender(extension: Path, blender_window: Path, tmp_path_factory: pytest.TempPathFactory) -> Blender:
+    """Blender with the extension installed and enabled; sees the folder of its files as /job."""
+    folder = tmp_path_factory.mktemp("blender")
+    shutil.copy(extension, folder / "extension.zip")
+
+    def run(*arguments: str) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            [blender_window, folder, *arguments], capture_output=True, text=True, check=False, timeout=300
+        )
+
+    install = run("--command", "extension", "install-file", "-r", "user_default", "-e", "/job/extension.zip")
+    assert install.returncode == 0, install.stderr
+    return run
+
+
+def test_the_zip_holds_what_runs_and_nothing_else(extension: Path) -> None:
+    with zipfile.ZipFile(extension) as archive:
+        names = {name for name in archive.namelist() if not name.endswith("/")}
+    sources = [*(ROOT / "rsibr_addon").rglob("*.py"), *(ROOT / "operators").rglob("*.py")]
+    sources += (ROOT / "gpu_shaders").rglob("*.glsl")
+    expected = {path.relative_to(ROOT).as_posix() for path in sources}
+    expected |= {"__init__.py", "LICENSE", "blender_manifest.toml"}
+    assert {name for name in names if not name.startswith("wheels/")} == expected
+    assert sum(name.startswith("wheels/") for name in names) == 8
+
+
+def test_the_command_is_registered(blender: Blender) -> None:
+    process = blender("--command", "rsibr", "--help")
+    assert process.returncode == 0
+    assert process.stdout.startswith("usage: rsibr")
+
+
+def test_exit_codes_and_json_reach_the_caller(blender: Blender) -> None:
+    failed = blender("--command", "rsibr", "info", "/job/missing.rsibr.exr", "--json")
+    assert failed.returncode == 1
+    assert "/job/missing.rsibr.exr" in json.loads(failed.stdout.splitlines()[-1])["error"]
+    assert blender("--command", "rsibr", "info").returncode == 2
+
+
+def test_disabling_leaves_nothing_behind(blender: Blender) -> None:
+    script = """
+import addon_utils, bpy, sys
+name = "bl_ext.user_default.rsibr"
+def of_ours():
+    return [kind for kind in dir(bpy.types) if kind.startswith("RSIBR_")] + list(dir(bpy.ops.rsibr))
+enabled = of_ours()
+for _ in range(2):
+    addon_utils.disable(name)
+    assert of_ours() == [], of_ours()
+    assert addon_utils.enable(name) is not None
+    assert of_ours() == enabled
+"""
+    process = blender("-b", "--python-exit-code", "3", "--python-expr", script)
+    assert process.returncode == 0, process.stderr
+    assert "Traceback" not in process.stdout + process.stderr

@@ -82,7 +82,7 @@ class Camera:
                     [0.0, 0.0, 0.0, 1.0],
                 ]
             )
-        near = max(near, 1e-3 * far)
+        near = max(near, 0.5 * (self.distance - 1.0))  # between the eye and the unit sphere
         scale = 1.0 / np.tan(self.field_of_view / 2.0)
         return np.array(
             [

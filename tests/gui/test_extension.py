@@ -42,8 +42,8 @@ def blender(extension: Path, blender_window: Path, tmp_path_factory: pytest.Temp
 def test_the_zip_holds_what_runs_and_nothing_else(extension: Path) -> None:
     with zipfile.ZipFile(extension) as archive:
         names = {name for name in archive.namelist() if not name.endswith("/")}
-    sources = [*(ROOT / "rsibr_addon").rglob("*.py"), *(ROOT / "operators").rglob("*.py")]
-    sources += (ROOT / "gpu_shaders").rglob("*.glsl")
+    folders = [ROOT / "rsibr_addon", ROOT / "operators", ROOT / "gpu_shaders"]
+    sources = [path for folder in folders for path in folder.rglob("*.*") if path.suffix != ".pyc"]
     expected = {path.relative_to(ROOT).as_posix() for path in sources}
     expected |= {"__init__.py", "LICENSE", "blender_manifest.toml"}
     assert {name for name in names if not name.startswith("wheels/")} == expected

@@ -1,0 +1,92 @@
+"""The command line: `rsibr ...` beside the bpy module, `blender --command rsibr ...` within Blender.
+
+Results go to standard output (with ``--json`` one JSON object, its last line); progress, warnings,
+errors and whatever Blender says go to standard error. Exit codes: 0 done, 1 failed, 2 usage.
+"""
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+
+from ..core.errors import RsibrError
+from . import capture, compare, info, preview
+from .report import Report, result_stream
+
+COMMANDS = {"capture": capture, "preview": preview, "compare": compare, "info": info}
+
+
+def console() -> int:
+    """Run with the arguments of the process: the entry point of `rsibr`."""
+    return run(sys.argv[1:])
+
+
+def run(argv: Sequence[str]) -> int:
+    """Run one command.
+
+    Parameters
+    ----------
+    argv : sequence of str
+        The arguments after `rsibr`.
+
+    Returns
+    -------
+    int
+        0 done, 1 failed, 2 wrong usage.
+    """
+    try:
+        arguments = _parser().parse_args(_with_joined_directions(argv))
+    except SystemExit as end:  # argparse has said why, or has printed the help
+        return int(end.code or 0)
+    report = Report(arguments.progress)
+    with result_stream() as out, report.hearing_warnings():
+        try:
+            result = {"ok": True, **arguments.run(arguments, report)}
+        except (RsibrError, OSError, KeyboardInterrupt) as error:
+            result = {"ok": False, "error": _sentence(error)}
+            print(f"rsibr: error: {result['error']}", file=sys.stderr)
+        result["warnings"] = report.warnings
+        for line in [json.dumps(result)] if arguments.json else report.lines:
+            print(line, file=out)
+    return 0 if result["ok"] else 1
+
+
+def _parser() -> argparse.ArgumentParser:
+    common = argparse.ArgumentParser(add_help=False)
+    common.add_argument("--json", action="store_true", help="print the result as one JSON object")
+    common.add_argument(
+        "--progress",
+        choices=["auto", "bar", "json", "none"],
+        default="auto",
+        help="on standard error: a bar, a JSON object a line, or nothing (default: a bar on a terminal)",
+    )
+    parser = argparse.ArgumentParser(prog="rsibr", description="Prefiltered reflection maps with Blender.")
+    commands = parser.add_subparsers(metavar="COMMAND", required=True)
+    for name, module in COMMANDS.items():
+        summary = (module.__doc__ or "").splitlines()[0]
+        command = commands.add_parser(
+            name, help=summary, description=summary, parents=[common], allow_abbrev=False
+        )
+        module.add_arguments(command)
+        command.set_defaults(run=module.run)
+    return parser
+
+
+def _with_joined_directions(argv: Sequence[str]) -> list[str]:
+    """Make `--view -1,0,0` one argument: argparse would take -1,0,0 for an option."""
+    joined: list[str] = []
+    for argument in argv:
+        if joined and joined[-1] == "--view":
+            joined[-1] = f"--view={argument}"
+        else:
+            joined.append(argument)
+    return joined
+
+
+def _sentence(error: RsibrError | OSError | KeyboardInterrupt) -> str:
+    """What to tell of an error, naming the file where the system knows it."""
+    if isinstance(error, KeyboardInterrupt):
+        return "Interrupted: give the same command again; a capture keeps its finished views."
+    if isinstance(error, OSError) and error.filename is not None:
+        return f"{error.filename}: {error.strerror}."
+    return str(error)

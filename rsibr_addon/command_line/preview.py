@@ -1,0 +1,76 @@
+"""Draw a mesh in a captured material, once or as a turntable."""
+
+import argparse
+from typing import Any
+
+from . import options
+from .report import Report
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what `run` reads."""
+    options.add_map_set(parser)
+    options.add_scene(parser, size=512)
+    parser.add_argument(
+        "--view",
+        metavar="X,Y,Z",
+        type=options.direction,
+        default=(0.0, -1.0, 0.0),
+        help="from the object to the eye (default: 0,-1,0, the front)",
+    )
+    parser.add_argument(
+        "--mode",
+        choices=["paper", "texel", "fragment"],
+        default="fragment",
+        help="warp once a frame on a tessellated disk, once a frame for each texel, or for each fragment "
+        "with its own view (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--warp",
+        choices=["split", "single"],
+        default="split",
+        help="normal warp for diffuse and mirror warp for glossy radiance, or mirror warp for the whole "
+        "(default: %(default)s)",
+    )
+    parser.add_argument(
+        "--turntable",
+        metavar="N",
+        type=options.positive,
+        help="N frames around the object: a contact sheet in OUT and a movie beside it, OUT.mp4",
+    )
+    options.add_output(parser, "OUT.exr|OUT.png", "EXR holds linear radiance, and coverage in alpha")
+
+
+def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
+    """Draw the picture, or the turntable.
+
+    Returns
+    -------
+    dict
+        "picture", the path of the picture or contact sheet; of a turntable "movie" too.
+
+    Raises
+    ------
+    RsibrError
+        See `tasks.preview`.
+    """
+    from ..core.camera import Camera
+    from ..device.radiance_views import Mode
+    from ..tasks.preview import PreviewSettings, preview, turntable
+
+    settings = PreviewSettings(
+        camera=Camera(arguments.view, options.radians_or_none(arguments.perspective)),
+        mesh=arguments.mesh,
+        size=arguments.size,
+        mode=Mode(arguments.mode),
+        split=arguments.warp == "split",
+    )
+    target = arguments.output, arguments.force
+    if arguments.turntable is None:
+        picture = report.steps(preview(arguments.map_set, settings, *target))
+        report.say(f"{picture}")
+        return {"picture": str(picture)}
+    sheet, movie = report.steps(turntable(arguments.map_set, settings, arguments.turntable, *target))
+    report.say(f"{sheet}")
+    report.say(f"{movie}")
+    return {"picture": str(sheet), "movie": str(movie)}

@@ -1,0 +1,197 @@
+"""The command line: what it promises scripts that call it, and people."""
+
+import ctypes
+import json
+import os
+import subprocess
+import sys
+import warnings
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from rsibr.rsibr_addon.command_line import info
+from rsibr.rsibr_addon.command_line.main import run
+from rsibr.rsibr_addon.core.errors import RsibrError, RsibrWarning
+from rsibr.rsibr_addon.core.progress import Progress
+
+CAPTURE = ["capture", "--environment", "forest", "--material", "copper", "-o", "out.rsibr.exr"]
+
+
+@pytest.mark.parametrize(
+    ("argv", "told"),
+    [
+        ([], "COMMAND"),
+        (["bake"], "bake"),
+        (["info"], "NAME.rsibr.exr"),
+        (["capture", "--environment", "forest"], "--material"),
+        ([*CAPTURE, "--views", "13"], "13"),
+        ([*CAPTURE, "--size", "0"], "'0' is not a whole number from 1"),
+        ([*CAPTURE, "--size", "²"], "'²' is not a whole number from 1"),
+        ([*CAPTURE, "--seed", "-1"], "--seed"),
+        (["preview", "a.exr", "-o", "b.png", "--view", "1,2"], "'1,2' is not X,Y,Z"),
+        (["preview", "a.exr", "-o", "b.png", "--view", "0,0,0"], "'0,0,0' points nowhere"),
+        (["preview", "a.exr", "-o", "b.png", "--view", "nan,0,1"], "'nan,0,1' points nowhere"),
+        (["preview", "a.exr", "-o", "b.png", "--perspective", "180"], "'180' is not an angle"),
+        (["preview", "a.exr", "-o", "b.png", "--mode", "magic"], "magic"),
+    ],
+)
+def test_wrong_usage_is_2_and_says_what(
+    argv: list[str], told: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert run(argv) == 2
+    out, err = capfd.readouterr()
+    assert out == ""
+    assert err.startswith("usage: rsibr")
+    assert told in err.splitlines()[-1]
+
+
+@pytest.mark.parametrize("command", ["capture", "preview", "compare", "info"])
+def test_every_command_explains_itself(command: str, capfd: pytest.CaptureFixture[str]) -> None:
+    assert run([command, "--help"]) == 0
+    out, _ = capfd.readouterr()
+    assert out.startswith(f"usage: rsibr {command}")
+    assert "--json" in out
+    assert "--progress" in out
+
+
+@pytest.mark.parametrize(
+    "argv",
+    [
+        ["info", "missing.exr"],
+        ["preview", "missing.exr", "-o", "out.png"],
+        ["compare", "missing.exr", "-o", "out"],
+        ["capture", "--environment", "missing.exr", "--material", "copper", "-o", "out.rsibr.exr"],
+        ["capture", "--environment", "forest", "--material", "missing.exr.blend:M", "-o", "out.rsibr.exr"],
+    ],
+    ids=lambda argv: "-".join(argv[:3]),
+)
+def test_a_missing_file_is_1_and_one_sentence_that_names_it(
+    argv: list[str], capfd: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert run([*argv, "--progress", "none"]) == 1
+    out, err = capfd.readouterr()
+    assert out == ""
+    (line,) = (line for line in err.splitlines() if line.startswith("rsibr: "))
+    assert line.startswith("rsibr: error: ")
+    assert "missing.exr" in line
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.fixture
+def work(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[str]]:
+    """Replace `rsibr info` by long work with every kind of noise; says how it was left."""
+    left: list[str] = []
+
+    def steps():
+        try:
+            os.write(1, b"noise at the descriptor\n")
+            ctypes.CDLL(None).puts(b"noise in C's buffer")
+            yield Progress(0, 2, "beginning")
+            for _ in range(2):
+                warnings.warn("The sky is dark: light it.", RsibrWarning, stacklevel=1)
+            yield Progress(1, 2, "ending")
+            if "fail" in left:
+                raise RsibrError("The sky fell: hold it up.")
+            if "interrupt" in left:
+                raise KeyboardInterrupt
+            if "system" in left:
+                Path("missing.txt").read_text()
+        finally:
+            left.append("cleaned up")
+        return 42
+
+    def work(arguments, report):
+        print("noise of Python")  # noqa: T201
+        answer = report.steps(steps())
+        report.say(f"The answer is {answer}.")
+        return {"answer": answer}
+
+    monkeypatch.setattr(info, "run", work)
+    yield left
+    assert left[-1] == "cleaned up"
+
+
+@pytest.mark.usefixtures("work")
+def test_the_result_is_all_of_standard_output(capfd: pytest.CaptureFixture[str]) -> None:
+    assert run(["info", "x", "--progress", "none"]) == 0
+    out, err = capfd.readouterr()
+    assert out == "The answer is 42.\n"
+    # The same warning twice is told once
+    assert sorted(err.splitlines()) == [
+        "noise at the descriptor",
+        "noise in C's buffer",
+        "noise of Python",
+        "rsibr: warning: The sky is dark: light it.",
+    ]
+
+
+@pytest.mark.usefixtures("work")
+def test_json_result_holds_warnings(capfd: pytest.CaptureFixture[str]) -> None:
+    assert run(["info", "x", "--json"]) == 0
+    out, _ = capfd.readouterr()
+    assert json.loads(out) == {"ok": True, "answer": 42, "warnings": ["The sky is dark: light it."]}
+
+
+@pytest.mark.parametrize(
+    ("how", "sentence"),
+    [
+        ("fail", "The sky fell: hold it up."),
+        ("interrupt", "Interrupted: give the same command again; a capture keeps its finished views."),
+        ("system", "missing.txt: No such file or directory."),
+    ],
+)
+def test_failure_is_1_on_both_streams(
+    how: str, sentence: str, work: list[str], capfd: pytest.CaptureFixture[str]
+) -> None:
+    work.append(how)
+    assert run(["info", "x", "--json"]) == 1
+    out, err = capfd.readouterr()
+    assert json.loads(out) == {"ok": False, "error": sentence, "warnings": ["The sky is dark: light it."]}
+    assert f"rsibr: error: {sentence}" in err.splitlines()
+
+
+@pytest.mark.usefixtures("work")
+def test_progress_as_json_lines(capfd: pytest.CaptureFixture[str]) -> None:
+    assert run(["info", "x", "--progress", "json"]) == 0
+    _, err = capfd.readouterr()
+    assert [json.loads(line) for line in err.splitlines() if line.startswith("{")] == [
+        {"progress": {"done": 0, "total": 2, "what": "beginning"}},
+        {"progress": {"done": 1, "total": 2, "what": "ending"}},
+    ]
+
+
+@pytest.mark.usefixtures("work")
+def test_progress_bar_fills_and_is_wiped(capfd: pytest.CaptureFixture[str]) -> None:
+    assert run(["info", "x", "--progress", "bar"]) == 0
+    _, err = capfd.readouterr()
+    assert "[........................] 0/2 beginning" in err
+    assert "[############............] 1/2 ending" in err
+    assert err.endswith("\r\x1b[2K")
+
+
+def test_a_bug_keeps_its_traceback(monkeypatch: pytest.MonkeyPatch) -> None:
+    def steps():
+        yield Progress(0, 1, "stumbling")
+        raise ZeroDivisionError
+
+    monkeypatch.setattr(info, "run", lambda arguments, report: report.steps(steps()))
+    with pytest.raises(ZeroDivisionError):
+        run(["info", "x"])
+
+
+def test_help_loads_neither_blender_nor_numpy() -> None:
+    script = (
+        "import sys; from rsibr.rsibr_addon.command_line.main import run; run(['--help'])\n"
+        "print({'bpy', 'gpu', 'numpy', 'OpenEXR'} & set(sys.modules), file=sys.stderr)"
+    )
+    process = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert process.stderr == "set()\n"
+
+
+def test_console_is_the_installed_command() -> None:
+    command = Path(sys.executable).with_name("rsibr")
+    process = subprocess.run([command, "info", "missing.exr"], capture_output=True, text=True, check=False)
+    assert process.returncode == 1
+    assert process.stderr.startswith("rsibr: error: missing.exr")

@@ -34,15 +34,13 @@ def rec709_from(chromaticities: ArrayLike) -> Array:
     Raises
     ------
     ValueError
-        The chromaticities span no colour space.
+        The primaries lie on a line, the white has no luminance, or a number is NaN.
     """
     source, source_white = _xyz_from_rgb(chromaticities)
     target, target_white = _xyz_from_rgb(REC_709)
     gains = (BRADFORD @ target_white) / (BRADFORD @ source_white)
     adapted = np.linalg.solve(BRADFORD, gains[:, None] * (BRADFORD @ source))
     matrix: Array = np.linalg.solve(target, adapted)
-    if not np.all(np.isfinite(matrix)):
-        raise ValueError("chromaticities span no colour space")
     return np.eye(3) if np.max(np.abs(matrix - np.eye(3))) < ROUNDING else matrix
 
 
@@ -50,11 +48,8 @@ def _xyz_from_rgb(chromaticities: ArrayLike) -> tuple[Array, Array]:
     """The matrix whose columns are the primaries' XYZ, and the white's XYZ at Y = 1."""
     x, y = np.asarray(chromaticities, dtype=np.float64).reshape(4, 2).T
     xyz = np.stack([x, y, 1.0 - x - y])
-    if y[3] <= 0.0:
-        raise ValueError("white has no luminance")
+    # The determinant is twice the area of the primaries' triangle
+    if not np.all(np.isfinite(xyz)) or abs(np.linalg.det(xyz[:, :3])) < 1e-6 or y[3] <= 0.0:
+        raise ValueError("its chromaticities span no colours")
     white = xyz[:, 3] / y[3]
-    try:
-        amounts = np.linalg.solve(xyz[:, :3], white)
-    except np.linalg.LinAlgError as error:
-        raise ValueError("primaries lie on a line") from error
-    return xyz[:, :3] * amounts, white
+    return xyz[:, :3] * np.linalg.solve(xyz[:, :3], white), white

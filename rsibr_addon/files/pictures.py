@@ -90,7 +90,9 @@ def _rec709_picture(path: str | Path, part: Part, names: list[str]) -> Array:
     if len(names) >= 3 and "chromaticities" in part.attributes:
         try:
             matrix = rec709_from(part.attributes["chromaticities"])
-        except ValueError as error:
-            raise InputFileError(f"{path} has impossible chromaticities ({error}): save it again.") from error
+        except (TypeError, ValueError) as error:  # TypeError: they are no numbers at all
+            raise InputFileError(
+                f"{path} cannot be converted to Rec. 709 ({error}): save it again."
+            ) from error
         pixels[..., :3] = pixels[..., :3] @ matrix.T
     return pixels

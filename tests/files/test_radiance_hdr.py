@@ -1,0 +1,210 @@
+"""Radiance pictures, written here by the format's description and read back."""
+
+import itertools
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.core.errors import InputFileError
+from rsibr.rsibr_addon.files.chromaticities import XYZ, rec709_from
+from rsibr.rsibr_addon.files.radiance_hdr import read_hdr
+
+HEADER = b"#?RADIANCE\n# a comment\nFORMAT=32-bit_rle_rgbe\n"
+
+
+def flat(line: np.ndarray) -> bytes:
+    return line.tobytes()
+
+
+def older_runs(line: np.ndarray) -> bytes:
+    """A pixel, then for each run the digits of its remaining length as (1, 1, 1, digit)."""
+    coded = b""
+    for pixel, run in itertools.groupby(line.tolist()):
+        rest = len(list(run)) - 1
+        coded += bytes(pixel)
+        while rest:
+            coded += bytes([1, 1, 1, rest % 256])
+            rest //= 256
+    return coded
+
+
+def newer_runs(line: np.ndarray) -> bytes:
+    """Components one after another, each in runs (128 + n, value) and literals (n, values)."""
+    coded = bytes([2, 2, len(line) >> 8, len(line) & 255])
+    for component in line.T.tolist():
+        for value, run in itertools.groupby(component):
+            length = len(list(run))
+            while length:
+                step = min(length, 127)
+                coded += bytes([128 + step, value]) if step > 2 else bytes([step]) + bytes([value] * step)
+                length -= step
+    return coded
+
+
+def values(rgbe: np.ndarray) -> np.ndarray:
+    """What the bytes stand for, in double precision."""
+    scale = np.where(rgbe[..., 3:] > 0, 2.0 ** (rgbe[..., 3:].astype(float) - 136.0), 0.0)
+    return rgbe[..., :3] * scale
+
+
+@pytest.fixture
+def rgbe() -> np.ndarray:
+    """A picture with long and short runs, noise, black, and the format's extremes."""
+    rng = np.random.default_rng(0)
+    picture = rng.integers(2, 256, (6, 700, 4), dtype=np.uint8)
+    picture[1, 20:620] = picture[1, 20]  # 599 repeats: two digits to the base 256
+    picture[2] = (200, 100, 50, 130)
+    picture[3, ::3] = 0
+    picture[4, :, 1] = 7
+    picture[5, 0], picture[5, 1] = (255, 255, 255, 255), (128, 3, 3, 1)
+    return picture
+
+
+@pytest.mark.parametrize("code", [flat, older_runs, newer_runs])
+def test_every_coding_reads_back(tmp_path: Path, rgbe: np.ndarray, code) -> None:
+    path = tmp_path / "a.hdr"
+    path.write_bytes(HEADER + b"\n-Y 6 +X 700\n" + b"".join(map(code, rgbe)))
+    # Powers of two times whole numbers: exact in float32; the first line of the file is the top row
+    np.testing.assert_array_equal(read_hdr(path), values(rgbe)[::-1])
+
+
+def test_codings_may_change_from_line_to_line(tmp_path: Path, rgbe: np.ndarray) -> None:
+    codes = itertools.cycle([newer_runs, flat, older_runs])
+    path = tmp_path / "a.hdr"
+    path.write_bytes(
+        HEADER + b"\n-Y 6 +X 700\n" + b"".join(code(line) for code, line in zip(codes, rgbe, strict=False))
+    )
+    np.testing.assert_array_equal(read_hdr(path), values(rgbe)[::-1])
+
+
+@pytest.mark.parametrize("width", [1, 7, 8, 127, 128, 255, 256, 32767, 32768])
+def test_widths_at_the_limits_of_the_codings(tmp_path: Path, width: int) -> None:
+    line = np.random.default_rng(1).integers(2, 256, (1, width, 4), dtype=np.uint8)
+    path = tmp_path / "a.hdr"
+    code = newer_runs if 8 <= width < 32768 else older_runs
+    path.write_bytes(HEADER + b"\n-Y 1 +X %d\n" % width + code(line[0]))
+    np.testing.assert_array_equal(read_hdr(path), values(line))
+
+
+@pytest.mark.parametrize("slow_sign", "+-")
+@pytest.mark.parametrize("fast_sign", "+-")
+@pytest.mark.parametrize("axes", ["YX", "XY"])
+def test_every_order_of_the_axes(tmp_path: Path, axes: str, slow_sign: str, fast_sign: str) -> None:
+    # Pixel (x, y), y from the bottom, is worth (x + 1, y + 1, 1), whatever order it is stored in
+    width, height = 3, 5
+    size = {"X": width, "Y": height}
+    lines = b""
+    slow_range, fast_range = range(size[axes[0]]), range(size[axes[1]])
+    for slow in slow_range if slow_sign == "+" else reversed(slow_range):
+        for fast in fast_range if fast_sign == "+" else reversed(fast_range):
+            x, y = (fast, slow) if axes == "YX" else (slow, fast)
+            lines += bytes([x + 1, y + 1, 1, 136]) if (x, y) != (0, 0) else bytes([2, 2, 2, 135])
+    resolution = f"{slow_sign}{axes[0]} {size[axes[0]]} {fast_sign}{axes[1]} {size[axes[1]]}\n"
+    path = tmp_path / "a.hdr"
+    path.write_bytes(HEADER + b"\n" + resolution.encode() + lines)
+    picture = read_hdr(path)
+    x, y = np.meshgrid(np.arange(width), np.arange(height))
+    np.testing.assert_array_equal(picture, np.stack([x + 1, y + 1, np.ones_like(x)], axis=-1))
+
+
+PIXEL = np.array([[[128, 64, 32, 136]]], np.uint8)
+
+
+@pytest.mark.parametrize(
+    ("lines", "factors"),
+    [
+        (b"EXPOSURE=2\nEXPOSURE= 4.0\n", (8, 8, 8)),
+        (b"COLORCORR=1 2 4\nEXPOSURE=0.5\n", (0.5, 1, 2)),
+        (b"EXPOSURE=0\n", (1, 1, 1)),  # as FreeImage writes
+        (b"GAMMA=2.2\n\tEXPOSURE=3\n", (1, 1, 1)),  # an indented line is another program's history
+    ],
+)
+def test_what_was_multiplied_in_is_divided_out(tmp_path: Path, lines: bytes, factors: tuple) -> None:
+    path = tmp_path / "a.hdr"
+    path.write_bytes(HEADER + lines + b"\n-Y 1 +X 1\n" + PIXEL.tobytes())
+    np.testing.assert_array_equal(read_hdr(path), np.float32(values(PIXEL) / factors))
+
+
+@pytest.mark.parametrize(
+    ("lines", "matrix"),
+    [
+        (b"FORMAT=32-bit_rle_xyze\n", rec709_from(XYZ)),
+        (
+            b"PRIMARIES= .708 .292 .170 .797 .131 .046 .3127 .3290\n",
+            rec709_from((0.708, 0.292, 0.170, 0.797, 0.131, 0.046, 0.3127, 0.3290)),
+        ),
+    ],
+)
+def test_other_primaries_become_rec_709(tmp_path: Path, lines: bytes, matrix: np.ndarray) -> None:
+    path = tmp_path / "a.hdr"
+    path.write_bytes(b"#?RADIANCE\n" + lines + b"\n-Y 1 +X 1\n" + PIXEL.tobytes())
+    # float32 arithmetic: three products of size up to 4 * 128
+    np.testing.assert_allclose(read_hdr(path), values(PIXEL) @ matrix.T, rtol=0, atol=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("content", "sentence"),
+    [
+        (b"no picture", "not a Radiance picture"),
+        (b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n", "does not end"),
+        (b"#?RADIANCE\nFORMAT=16-bit\n\n-Y 1 +X 1\n1234", "its format is 16-bit"),
+        (b"#?RADIANCE\nEXPOSURE=much\n\n-Y 1 +X 1\n1234", "cannot be read"),
+        (b"#?RADIANCE\nCOLORCORR=1 1\n\n-Y 1 +X 1\n1234", "are not 3 numbers"),
+        (b"#?RADIANCE\n\n-Y 1 +Y 1\n1234", "states no size"),
+        (b"#?RADIANCE\n\n-Y 0 +X 1\n1234", "states no size"),
+        (b"#?RADIANCE\n\n-Y 1 +X 1", "states no size"),
+        (b"#?RADIANCE\n\n-Y 2 +X 1\n1234", "scanline 2 of 2"),
+        (b"#?RADIANCE\n\n-Y 1 +X 9\n\2\2\0\7" + b"\x8f\1" * 9, "scanline 1 of 1"),  # says 7 pixels, not 9
+        (b"#?RADIANCE\n\n-Y 1 +X 9\n\2\2\0\x09" + b"\xff\1" * 9, "scanline 1 of 1"),  # a run beyond the end
+        (b"#?RADIANCE\n\n-Y 1 +X 4\n\1\1\1\4", "scanline 1 of 1"),  # a run of nothing
+        (b"#?RADIANCE\n\n-Y 1 +X 4\n\x80\1\1\x80\1\1\1\7", "scanline 1 of 1"),  # a run beyond the end
+        (b"#?RADIANCE\n\n-Y 1 +X 9\n\x80\1\1\x80" + b"\1\1\1\xff" * 5, "scanline 1 of 1"),
+    ],
+)
+def test_damaged_files_are_refused_in_words(tmp_path: Path, content: bytes, sentence: str) -> None:
+    path = tmp_path / "a.hdr"
+    path.write_bytes(content)
+    with pytest.raises(InputFileError, match=sentence) as caught:
+        read_hdr(path)
+    assert str(path) in str(caught.value)
+
+
+@pytest.mark.parametrize("code", [flat, older_runs, newer_runs])
+def test_a_truncated_file_is_refused_wherever_it_ends(tmp_path: Path, rgbe: np.ndarray, code) -> None:
+    path = tmp_path / "a.hdr"
+    whole = HEADER + b"\n-Y 6 +X 700\n" + b"".join(map(code, rgbe))
+    for length in {*range(0, len(whole), 97), len(whole) - 1}:
+        path.write_bytes(whole[:length])
+        with pytest.raises(InputFileError):
+            read_hdr(path)
+
+
+PUBLISHED = {
+    "grace": ("grace_cathedral", 3.190),
+    "galileo": ("galileos_tomb", 4.984),
+    "beach": ("funston_beach_sunset", 2.492),
+    "kitchen": ("vine_street_kitchen", 9.97),
+}
+"""Light probe -> its name among the published coefficients, and the file's scale relative to those."""
+
+
+@pytest.mark.parametrize("probe", PUBLISHED)
+def test_light_probes_have_their_published_coefficients(probes: Path, probe: str) -> None:
+    # Spherical harmonics up to order 1 of Debevec's angular maps, as [Ramamoorthi2001] tabulates them:
+    # they tell the scale, the order of the rows and that of the channels
+    name, scale = PUBLISHED[probe]
+    table = json.loads((probes / "sh_coefficients.json").read_text())["probes"][name]
+    published = scale * np.array([table[key] for key in ("L00", "L1m1", "L10", "L11")])
+    picture = read_hdr(probes / "angular" / f"{probe}_probe.hdr").astype(float)
+    height, width = picture.shape[:2]
+    u = 2 * (np.arange(width) + 0.5) / width - 1
+    v = 2 * (np.arange(height)[:, None] + 0.5) / height - 1
+    radius = np.hypot(u, v)  # theta = pi radius, hence d omega = sin(theta) / radius pi du dv
+    solid_angle = np.where(radius < 1, np.sinc(radius) * (2 * np.pi / width) * (2 * np.pi / height), 0.0)
+    sine_over_radius = np.pi * np.sinc(radius)
+    x, y, z = sine_over_radius * u, sine_over_radius * v, np.cos(np.pi * radius)
+    basis = np.stack([np.full_like(x, 0.282095), 0.488603 * y, 0.488603 * z, 0.488603 * x])
+    coefficients = np.einsum("khw,hw,hwc->kc", basis, solid_angle, picture)
+    # The scale has three digits, and the tables came from a program that adds half a step to mantissas
+    np.testing.assert_allclose(coefficients, published, rtol=0, atol=0.01 * published[0].max())

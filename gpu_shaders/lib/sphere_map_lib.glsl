@@ -11,8 +11,8 @@ vec2 uv_from_normal(vec3 normal)
 {
   vec2 xy = normal.xy;
   float radius = length(xy);
-  if (normal.z < 0.0 && radius > 0.0) {
-    xy /= radius;
+  if (normal.z < 0.0) {
+    xy = (radius > 0.0) ? xy / radius : vec2(1.0, 0.0);
   }
   return 0.5 * xy + 0.5;
 }

@@ -44,7 +44,7 @@ def uv_from_normal(normal: ArrayLike) -> Array:
     Parameters
     ----------
     normal : array_like, shape (..., 3)
-        Unit normals in camera coordinates.
+        Unit normals in camera coordinates; (0, 0, -1) is taken to the rim's rightmost point.
 
     Returns
     -------
@@ -58,9 +58,8 @@ def uv_from_normal(normal: ArrayLike) -> Array:
     normal = np.asarray(normal, dtype=np.float64)
     xy = normal[..., :2]
     radius = np.linalg.norm(xy, axis=-1, keepdims=True)
-    hidden = (normal[..., 2:] < 0.0) & (radius > 0.0)
-    xy = np.where(hidden, xy / np.where(hidden, radius, 1.0), xy)
-    return 0.5 * xy + 0.5
+    on_rim = np.where(radius > 0.0, xy / np.where(radius > 0.0, radius, 1.0), (1.0, 0.0))
+    return 0.5 * np.where(normal[..., 2:] < 0.0, on_rim, xy) + 0.5
 
 
 def direction_from_uv(uv: ArrayLike) -> Array:

@@ -1,4 +1,4 @@
-// Twin of rsibr_addon/core/geodesic.py. The sphere comes as a texture (see device/geodesic_texture.py):
+// Twin of rsibr_addon/core/geodesic.py. The sphere comes as a texture (see device/radiance_views.py):
 // row 0 holds the vertices, row 1 + k the triangles of subdivision level k as three vertex indices.
 
 vec3 geodesic_vertex(sampler2D sphere, int index)

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..core.conventions import Array
 from .scenes import temporary_scene
+from .working_space import working_from_rec709
 
 
 def save_png(path: Path, rgba: Array) -> None:
@@ -42,7 +43,9 @@ def save_png(path: Path, rgba: Array) -> None:
         settings.file_format, settings.color_mode, settings.color_depth = "PNG", "RGBA", "8"
         image = bpy.data.images.new(path.name, width, height, alpha=True, float_buffer=True)
         image.alpha_mode = "PREMUL"
-        image.pixels.foreach_set(np.ascontiguousarray(rgba, dtype=np.float32).ravel())
+        working = np.array(rgba, dtype=np.float32)
+        working[..., :3] = working_from_rec709(working[..., :3])
+        image.pixels.foreach_set(working.ravel())
         try:
             image.save_render(str(path.resolve()), scene=scene)
         except RuntimeError as error:

@@ -19,6 +19,7 @@ from ..host.meshes import TriangleMesh, load_mesh
 from ..host.movies import save_movie
 from ..host.pictures import save_png
 from .captured import read_captured
+from .contact_sheet import contact_sheet
 
 LARGEST = 2048
 """Width and height of the largest picture: drawn at four times that, it takes 1 GiB."""
@@ -149,7 +150,7 @@ def turntable(
         yield Progress(frame_count, frame_count + 1, f"writing {movie.name}")
         with written_aside(movie, force) as aside:
             save_movie(aside, frames)
-    _write_picture(output, _contact_sheet(sheet), force)
+    _write_picture(output, contact_sheet(sheet, SHEET_COLUMNS), force)
     return output, movie
 
 
@@ -184,18 +185,6 @@ def _spaced(frame_count: int) -> set[int]:
     """Numbers of the frames that a contact sheet shows."""
     shown = min(frame_count, SHEET_COLUMNS * SHEET_ROWS)
     return {number * frame_count // shown for number in range(shown)}
-
-
-def _contact_sheet(pictures: list[Array]) -> Array:
-    """Pictures side by side in rows, the first at the top left."""
-    size = len(pictures[0])
-    columns = min(len(pictures), SHEET_COLUMNS)
-    rows = -(-len(pictures) // columns)
-    sheet = np.zeros((rows, size, columns, size, 4), dtype=np.float32)
-    for number, picture in enumerate(pictures):
-        row, column = divmod(number, columns)
-        sheet[rows - 1 - row, :, column] = picture
-    return sheet.reshape(rows * size, columns * size, 4)
 
 
 def _check_picture_target(path: Path, force: bool) -> None:

@@ -44,6 +44,14 @@ def test_known_values(
     assert stored_bytes(tmp_path / "patch.png")[1, 2].tolist() == list(stored)
 
 
+def test_the_files_working_space_does_not_matter(tmp_path: Path, stored_bytes: Callable) -> None:
+    bpy.ops.wm.set_working_color_space(working_space="ACEScg")
+    save_png(tmp_path / "patch.png", np.full((4, 4, 4), (0.8, 0.1, 0.02, 1.0), dtype=np.float32))
+    expected = np.rint(255.0 * srgb_from_linear(np.array([0.8, 0.1, 0.02])))
+    # There and back through float32 matrices, then rounded.
+    assert np.abs(stored_bytes(tmp_path / "patch.png")[1, 2, :3] - expected).max() <= 1.0
+
+
 def test_a_picture_is_the_right_way_up_and_left_to_right(tmp_path: Path, stored_bytes: Callable) -> None:
     rgba = np.zeros((6, 9, 4), dtype=np.float32)
     rgba[0, 8] = 1.0  # bottom right

@@ -1,0 +1,161 @@
+"""Hold pictures drawn from a map set against Cycles' own, as numbers and as pages for people."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+from ..core.camera import Camera
+from ..core.conventions import Array
+from ..core.directions import normalize
+from ..core.errors import MapSetError
+from ..core.metrics import relative_rmse, unpremultiplied
+from ..core.progress import Progress, Steps
+from ..device.preview import PreviewRenderer
+from ..files.folders import check_folder_target, folder_written_aside
+from ..host.meshes import load_mesh
+from .captured import Captured, read_captured
+from .comparison import Comparison, ComparisonSettings, Way, WayError
+from .comparison_page import comparison_page
+from .comparison_pictures import save_sheets
+from .references import Reference, Subject, check_material, render_reference
+
+RESULT = "comparison.json"
+"""The file by which a comparison's folder is known."""
+
+
+def compare(
+    map_set: Path, settings: ComparisonSettings, output: Path, force: bool = False
+) -> Steps[Comparison]:
+    """Render random views with Cycles, draw the same views from a map set, and tell the difference.
+
+    Parameters
+    ----------
+    map_set : Path
+        Radiance views, with the environment that they were captured in.
+    settings : ComparisonSettings
+    output : Path
+        A folder to be made: comparison.json (`Comparison.to_json`), index.html, which shows all of
+        it by itself, and its pictures as images/*.png.
+    force : bool
+        Whether an earlier comparison in `output` is replaced.
+
+    Yields
+    ------
+    Progress
+
+    Returns
+    -------
+    Comparison
+
+    Raises
+    ------
+    MapSetError
+        The map set does not hold its environment.
+    InputFileError
+        The material is gone, or is not what it was; or the mesh cannot be used.
+    OutputFileError, RangeError, RenderError, DeviceError
+
+    Notes
+    -----
+    Errors are those of radiance where both pictures cover a pixel, weighted by the lesser coverage,
+    so that how each samples a silhouette does not count.
+    """
+    check_folder_target(output, RESULT, force)
+    total = settings.views + 2
+    yield Progress(0, total, f"reading {map_set.name}")
+    captured = read_captured(map_set)
+    subject = _subject(map_set, captured, settings)
+    easel = _Easel(captured, settings)
+    cameras = _cameras(settings)
+    references: list[Reference] = []
+    drawn: dict[Way, list[Array]] = {way: [] for way in easel.ways}
+    for number, camera in enumerate(cameras):
+        yield Progress(number + 1, total, f"rendering reference {number + 1} of {settings.views}")
+        seed = settings.seed + 2 * number
+        references.append(render_reference(subject, camera, settings.size, settings.samples, seed))
+        for way, pictures in drawn.items():
+            pictures.append(easel.draw(way, camera))
+    yield Progress(total - 1, total, f"writing {output.name}")
+    comparison = Comparison(
+        map_set=map_set.name,
+        environment=subject.environment.name,
+        material=subject.material,
+        map_size=captured.views.size,
+        settings=settings,
+        view_dirs=tuple(camera.view_dir for camera in cameras),
+        reference_noise=_noise(references),
+        errors=tuple(_error(way, pictures, references) for way, pictures in drawn.items()),
+    )
+    with folder_written_aside(output, RESULT, force) as folder:
+        sheets = save_sheets(folder / "images", [reference.rgba for reference in references], drawn)
+        (folder / "index.html").write_text(comparison_page(comparison, sheets), encoding="utf-8")
+        (folder / RESULT).write_text(json.dumps(comparison.to_json(), indent=1), encoding="utf-8")
+    return comparison
+
+
+def random_directions(count: int, seed: int) -> Array:
+    """Directions that are equally likely everywhere on the sphere.
+
+    Parameters
+    ----------
+    count, seed : int
+
+    Returns
+    -------
+    ndarray, shape (count, 3), float64
+        Unit vectors; the first of more are the same as fewer.
+    """
+    # Normal distributions along three axes favour no direction.
+    return normalize(np.random.default_rng(seed).standard_normal((count, 3)))
+
+
+class _Easel:
+    """A map set and a mesh, uploaded, to be drawn in every way asked for."""
+
+    def __init__(self, captured: Captured, settings: ComparisonSettings) -> None:
+        self._mesh = load_mesh(settings.mesh)
+        self._size = settings.size
+        whole = len(captured.views.diffuse)
+        counts = settings.captured_views or (whole,)
+        self._renderers = {count: PreviewRenderer(captured.views.coarser(count)) for count in counts}
+        self.ways = [
+            Way(count, mode, split)
+            for count in counts
+            for mode in settings.modes
+            for split in settings.splits
+        ]
+
+    def draw(self, way: Way, camera: Camera) -> Array:
+        """A picture of radiance times coverage, and coverage, shape (size, size, 4)."""
+        mesh = self._mesh.positions, self._mesh.normals, self._mesh.triangles
+        return self._renderers[way.captured_views].draw(*mesh, camera, self._size, way.mode, way.split)
+
+
+def _cameras(settings: ComparisonSettings) -> list[Camera]:
+    directions = random_directions(settings.views, settings.seed).tolist()
+    return [Camera((x, y, z), settings.field_of_view) for x, y, z in directions]
+
+
+def _subject(map_set: Path, captured: Captured, settings: ComparisonSettings) -> Subject:
+    if captured.environment is None:
+        raise MapSetError(
+            f"{map_set} does not hold the environment to render a reference in: capture it again."
+        )
+    check_material(captured.material["spec"], captured.material["fingerprint"])
+    mesh = None if settings.mesh == "sphere" else load_mesh(settings.mesh)
+    return Subject(captured.material["spec"], captured.environment, mesh)
+
+
+def _error(way: Way, pictures: list[Array], references: list[Reference]) -> WayError:
+    ours, theirs = np.stack(pictures), np.stack([reference.rgba for reference in references])
+    compared = unpremultiplied(ours), unpremultiplied(theirs), np.minimum(ours[..., 3], theirs[..., 3])
+    per_view = tuple(relative_rmse(*each) for each in zip(*compared, strict=True))
+    return WayError(way, per_view, pooled=relative_rmse(*compared))
+
+
+def _noise(references: list[Reference]) -> float:
+    rgba = np.stack([reference.rgba for reference in references])
+    radiance = unpremultiplied(rgba)
+    noise = np.stack([reference.noise for reference in references])
+    return relative_rmse(radiance + noise, radiance, rgba[..., 3])

@@ -6,7 +6,7 @@ import numpy as np
 
 from .conventions import Array
 from .directions import camera_frame
-from .errors import ShapeError
+from .errors import RangeError, ShapeError
 from .geodesic import GeodesicSphere, geodesic_sphere
 
 
@@ -63,6 +63,10 @@ class RadianceViews:
         RangeError
             There are not that many views, or not a sphere of that many.
         """
+        if vertex_count > len(self.diffuse):
+            raise RangeError(
+                f"There are only {len(self.diffuse)} views, not {vertex_count}: use fewer or capture more."
+            )
         return RadianceViews(self.diffuse[:vertex_count], self.glossy[:vertex_count])
 
     @property

@@ -16,7 +16,7 @@ LAYERS: dict[str, set[str]] = {
     "core": set(),
     "job": {"core"},
     "files": {"core"},
-    "host": {"core"},
+    "host": {"core", "files"},
     "device": {"core"},
     "tasks": {"core", "job", "files", "host", "device"},
     "command_line": {"core", "job", "files", "host", "device", "tasks"},

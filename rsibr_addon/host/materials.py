@@ -1,0 +1,195 @@
+"""Materials by name, and what tells one from another."""
+
+import hashlib
+import json
+import re
+from collections.abc import Collection
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ..core.errors import InputFileError, SceneError
+from .presets import PRESETS, build_preset
+
+NAMES_SHOWN = 8
+"""So many materials of a file are listed when one is asked for that it does not hold."""
+
+
+def load_material(spec: str) -> bpy.types.Material:
+    """The material that `spec` names.
+
+    Parameters
+    ----------
+    spec : str
+        One of `PRESETS`; or ``FILE.blend:NAME``, a material of that file; or ``:NAME``, one of the
+        open file.
+
+    Returns
+    -------
+    bpy.types.Material
+        In the open file, so to be called within a `temporary_scene`.
+
+    Raises
+    ------
+    InputFileError
+        There is no such preset or file, or Blender cannot read it.
+    SceneError
+        The file holds no such material, or the material has no surface.
+    """
+    file, name = _parsed(spec)
+    if file is None:
+        material = build_preset(name)
+    elif not file or _is_open(Path(file)):
+        material = _named("This file", name, bpy.data.materials)
+    else:
+        material = _appended(Path(file), name)
+    if surface_output(material) is None:
+        raise SceneError(
+            f"Material {material.name} has no surface: link a shader to the Surface of its Material Output."
+        )
+    return material
+
+
+def surface_output(material: bpy.types.Material) -> bpy.types.Node | None:
+    """The output node that Cycles takes a material's surface from; None where there is no surface."""
+    tree = material.node_tree
+    output = tree.get_output_node("CYCLES") if tree else None
+    return output if output and output.inputs["Surface"].is_linked else None
+
+
+def material_name(spec: str) -> str:
+    """The name alone of what `load_material` takes."""
+    return _parsed(spec)[1]
+
+
+def lasting_spec(spec: str) -> str:
+    """What names the same material also when another file is open, as far as this one has a name."""
+    return f"{bpy.data.filepath}{spec}" if spec.startswith(":") else spec
+
+
+def fingerprint(material: bpy.types.Material) -> str:
+    """A hash of what a material is.
+
+    Parameters
+    ----------
+    material : bpy.types.Material
+
+    Returns
+    -------
+    str
+        SHA-256 of its nodes with all properties, unlinked inputs, links, groups and the content of
+        images; names of datablocks, and how nodes are laid out, do not count.
+    """
+    content = {"nodes": _tree_content(material.node_tree), "cycles": _struct_content(material.cycles)}
+    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
+
+
+def _parsed(spec: str) -> tuple[str | None, str]:
+    """File and name; None for the file of a preset, an empty one for the open file."""
+    if spec in PRESETS:
+        return None, spec
+    # Names may hold colons, and so may paths: C:\materials.blend:red:dark
+    parsed = re.fullmatch(r"(|.+?\.blend\d*):(.+)", spec, flags=re.IGNORECASE | re.DOTALL)
+    if parsed is None:
+        raise InputFileError(
+            f"There is no material {spec}: name one of {', '.join(PRESETS)}, or FILE.blend:NAME."
+        )
+    return parsed[1], parsed[2]
+
+
+def _is_open(path: Path) -> bool:
+    return bool(bpy.data.filepath) and path.exists() and path.samefile(bpy.data.filepath)
+
+
+def _appended(path: Path, name: str) -> bpy.types.Material:
+    if not path.is_file():
+        raise InputFileError(f"There is no file {path}: check the path before the colon.")
+    try:
+        with bpy.data.libraries.load(str(path)) as (found, wanted):
+            _named(str(path), name, found.materials)
+            wanted.materials = [name]
+    except OSError as error:
+        version = ".".join(map(str, bpy.app.version[:2]))
+        raise InputFileError(
+            f"{path} is no file that Blender {version} can read: save it with Blender {version}."
+        ) from error
+    return wanted.materials[0]
+
+
+def _named(where: str, name: str, found: Any) -> Any:
+    """The entry of `found` of that name; `found` holds materials or their names."""
+    names = {getattr(item, "name", item): item for item in found}
+    if name not in names:
+        shown = ", ".join(list(names)[:NAMES_SHOWN]) + (", ..." if len(names) > NAMES_SHOWN else "")
+        raise SceneError(f"{where} holds no material {name}: choose one of {shown or 'another file'}.")
+    return names[name]
+
+
+# What of a node is content: everything but what all nodes have, less a few things of that.
+_LAYOUT = set(bpy.types.Node.bl_rna.properties.keys()) - {"mute"}
+
+
+def _tree_content(tree: bpy.types.NodeTree | None) -> Any:
+    if tree is None:
+        return None
+    links = [
+        (link.from_node.name, link.from_socket.identifier, link.to_node.name, link.to_socket.identifier)
+        for link in tree.links
+        if not link.is_muted
+    ]
+    nodes = {node.name: _node_content(node) for node in tree.nodes if node.bl_idname != "NodeFrame"}
+    return {"nodes": nodes, "links": sorted(links)}
+
+
+def _node_content(node: bpy.types.Node) -> Any:
+    # The nodes Value and RGB keep what they are in their output.
+    sockets = [("input", socket) for socket in node.inputs if not socket.is_linked]
+    sockets += [("output", socket) for socket in node.outputs]
+    values = {
+        f"{side} {socket.identifier}": _content(socket.default_value)
+        for side, socket in sockets
+        if hasattr(socket, "default_value")
+    }
+    return {"type": node.bl_idname, "values": values, **_struct_content(node, _LAYOUT)}
+
+
+def _struct_content(struct: bpy.types.bpy_struct, skipped: Collection[str] = ()) -> dict[str, Any]:
+    names = {prop.identifier for prop in struct.bl_rna.properties} - {"rna_type", "select", *skipped}
+    return {name: _content(getattr(struct, name)) for name in names}
+
+
+def _content(value: Any) -> Any:
+    """Anything a property holds, as JSON values."""
+    match value:
+        case None | bool() | int() | float() | str():
+            return value
+        case set():
+            return sorted(value)
+        case bpy.types.NodeTree():
+            return _tree_content(value)
+        case bpy.types.Image():
+            return _image_content(value)
+        case bpy.types.Text():
+            return value.as_string()
+        case bpy.types.ID() | bpy.types.Node():
+            return value.name
+        case bpy.types.bpy_struct():
+            return _struct_content(value)
+        case _:  # vectors, colours, collections
+            return [_content(item) for item in value]
+
+
+def _image_content(image: bpy.types.Image) -> Any:
+    file = Path(bpy.path.abspath(image.filepath, library=image.library))
+    if image.packed_file:
+        data = image.packed_file.data
+    elif image.filepath and file.is_file() and not image.is_dirty:
+        data = file.read_bytes()
+    else:
+        pixels = np.empty(len(image.pixels), dtype=np.float32)
+        image.pixels.foreach_get(pixels)
+        data = pixels.tobytes()
+    interpretation = (image.source, image.alpha_mode, image.colorspace_settings.name)
+    return [*interpretation, hashlib.sha256(data).hexdigest()]

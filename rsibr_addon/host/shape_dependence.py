@@ -1,0 +1,135 @@
+"""Why a material's look may depend on more than normal and view: then no radiance map can hold it."""
+
+from collections.abc import Iterator
+
+import bpy
+
+from .materials import surface_output
+
+SHAPE_OUTPUTS = {
+    "ShaderNodeTexCoord": {"Generated", "UV", "Object", "Camera", "Window"},
+    "ShaderNodeNewGeometry": {"Position", "Tangent", "Parametric", "Pointiness", "Random Per Island"},
+}
+"""Type of node -> its outputs that tell points of equal normal apart."""
+
+SHAPE_NODES = {
+    "ShaderNodeAmbientOcclusion": "it looks at what is near the surface",
+    "ShaderNodeAttribute": "it reads an attribute of the object",
+    "ShaderNodeBevel": "it looks at what is near the surface",
+    "ShaderNodeCameraData": "it depends on the distance to the camera",
+    "ShaderNodeHairInfo": "it depends on strands of hair",
+    "ShaderNodeObjectInfo": "it depends on the object",
+    "ShaderNodeParticleInfo": "it depends on particles",
+    "ShaderNodePointInfo": "it depends on points",
+    "ShaderNodeRaycast": "it looks at what is near the surface",
+    "ShaderNodeScript": "its script may depend on anything",
+    "ShaderNodeTangent": "it depends on the tangent",
+    "ShaderNodeUVAlongStroke": "it depends on texture coordinates",
+    "ShaderNodeUVMap": "it depends on texture coordinates",
+    "ShaderNodeVertexColor": "it reads an attribute of the object",
+    "ShaderNodeVolumeInfo": "it depends on a volume",
+    "ShaderNodeWireframe": "it depends on the mesh",
+}
+"""Type of node -> what is wrong with all of its outputs."""
+
+LETS_THROUGH = {
+    "ShaderNodeBsdfGlass",
+    "ShaderNodeBsdfHair",
+    "ShaderNodeBsdfHairPrincipled",
+    "ShaderNodeBsdfRayPortal",
+    "ShaderNodeBsdfRefraction",
+    "ShaderNodeBsdfTranslucent",
+    "ShaderNodeBsdfTransparent",
+    "ShaderNodeHoldout",
+    "ShaderNodeSubsurfaceScattering",
+}
+"""Types of node whose light passes through the object."""
+
+PASSED_THROUGH = "light passes through the object"
+ANISOTROPIC = "its highlights depend on the tangent (anisotropy)"
+
+INERT_VALUES = {
+    "Anisotropic": (0.0, ANISOTROPIC),
+    "Anisotropy": (0.0, ANISOTROPIC),
+    "Alpha": (1.0, PASSED_THROUGH),
+    "Subsurface Weight": (0.0, PASSED_THROUGH),
+    "Transmission Weight": (0.0, PASSED_THROUGH),
+}
+"""Input of a BSDF node -> the value at which it does nothing, and what is wrong with any other."""
+
+
+def shape_dependence(material: bpy.types.Material) -> list[str]:
+    """Why a radiance map can show a material only as it looks on a sphere.
+
+    A radiance map holds one radiance for each normal and view, so it cannot hold what depends on
+    the place on a surface, on its tangent, or on what lies behind it.
+
+    Parameters
+    ----------
+    material : bpy.types.Material
+        With a surface.
+
+    Returns
+    -------
+    list of str
+        Each reason once, as "its highlights depend on the tangent (anisotropy) (node Glossy BSDF)";
+        empty for a material that a radiance map can hold.
+    """
+    output = surface_output(material)
+    reasons = [
+        f"it has a {name.lower()}" for name in ("Volume", "Displacement") if output.inputs[name].is_linked
+    ]
+    for socket in _outputs_behind([output.inputs["Surface"]], set()):
+        reasons += [f"{reason} (node {socket.node.label or socket.node.name})" for reason in _reasons(socket)]
+    return list(dict.fromkeys(reasons))
+
+
+def _outputs_behind(inputs: list[bpy.types.NodeSocket], seen: set[int]) -> Iterator[bpy.types.NodeSocket]:
+    """Every node output that can reach one of `inputs`, also within groups."""
+    for link in (link for socket in inputs for link in socket.links if not link.is_muted):
+        socket = link.from_socket
+        if socket.as_pointer() in seen:
+            continue
+        seen.add(socket.as_pointer())
+        yield socket
+        yield from _outputs_behind(_group_inputs(socket), seen)
+        yield from _outputs_behind([each for each in socket.node.inputs if not each.is_unavailable], seen)
+
+
+def _group_inputs(socket: bpy.types.NodeSocket) -> list[bpy.types.NodeSocket]:
+    """Within a group, what becomes its output `socket`."""
+    tree = getattr(socket.node, "node_tree", None)
+    ends = [node for node in tree.nodes if node.bl_idname == "NodeGroupOutput"] if tree else []
+    return [
+        each
+        for end in ends
+        if end.is_active_output
+        for each in end.inputs
+        if each.identifier == socket.identifier
+    ]
+
+
+def _reasons(socket: bpy.types.NodeSocket) -> Iterator[str]:
+    node, kind = socket.node, socket.node.bl_idname
+    if node.mute:
+        return
+    if kind in SHAPE_NODES:
+        yield SHAPE_NODES[kind]
+    if socket.name in SHAPE_OUTPUTS.get(kind, ()):
+        yield f"it depends on the place on the surface ({socket.name})"
+    if kind in LETS_THROUGH:
+        yield PASSED_THROUGH
+    if kind == "ShaderNodeNormalMap" and node.space == "TANGENT":
+        yield "it depends on the tangent"
+    if kind.startswith("ShaderNodeTex") and _is_placed_by_default(node):
+        yield "its texture is placed by default coordinates"
+    if kind.startswith("ShaderNodeBsdf"):
+        for each in node.inputs:
+            inert, reason = INERT_VALUES.get(each.name, (None, ""))
+            if reason and (each.is_linked or each.default_value != inert):
+                yield reason
+
+
+def _is_placed_by_default(texture: bpy.types.Node) -> bool:
+    vector = texture.inputs.get("Vector")
+    return vector is not None and vector.enabled and not vector.is_linked

@@ -1,0 +1,53 @@
+"""The sphere that materials are captured on."""
+
+import bpy
+
+CORE_RADIUS = 0.9999
+"""Of the black core: too close beneath the surface to show at its rim."""
+
+
+def add_sphere(scene: bpy.types.Scene, material: bpy.types.Material) -> bpy.types.Object:
+    """Put the unit sphere about the origin into a scene.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        To be rendered by Cycles.
+    material : bpy.types.Material
+
+    Returns
+    -------
+    bpy.types.Object
+
+    Notes
+    -----
+    A point cloud of one point, which Cycles intersects as a sphere: its normals are exact. A black
+    core that only the camera sees stands behind what a transparent material lets through, so that
+    coverage is the sphere's own. What is refracted leaves without meeting the sphere again.
+    """
+    core = _ball(scene, CORE_RADIUS, _black())
+    core.visible_diffuse = core.visible_glossy = core.visible_transmission = False
+    core.visible_volume_scatter = core.visible_shadow = False
+    return _ball(scene, 1.0, material)
+
+
+def _ball(scene: bpy.types.Scene, radius: float, material: bpy.types.Material) -> bpy.types.Object:
+    cloud = bpy.data.pointclouds.new("RSIBR sphere")
+    cloud.resize(1)
+    cloud.points[0].co = (0.0, 0.0, 0.0)
+    cloud.points[0].radius = radius
+    cloud.materials.append(material)
+    item = bpy.data.objects.new("RSIBR sphere", cloud)
+    scene.collection.objects.link(item)
+    return item
+
+
+def _black() -> bpy.types.Material:
+    material = bpy.data.materials.new("RSIBR black")
+    nodes = material.node_tree.nodes
+    nodes.clear()
+    nothing = nodes.new("ShaderNodeEmission")
+    nothing.inputs["Strength"].default_value = 0.0
+    output = nodes.new("ShaderNodeOutputMaterial")
+    material.node_tree.links.new(nothing.outputs[0], output.inputs["Surface"])
+    return material

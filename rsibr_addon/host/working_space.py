@@ -1,0 +1,42 @@
+"""The colours that Blender computes in, which a file's author may choose, and Rec. 709."""
+
+import numpy as np
+from mathutils import Color
+
+from ..core.conventions import Array
+
+
+def working_from_rec709(radiance: Array) -> Array:
+    """Express scene-linear Rec. 709 radiance in the working space of the open file.
+
+    Parameters
+    ----------
+    radiance : ndarray, shape (..., 3)
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        As the nodes of shaders and the pixels of float images have it.
+
+    Notes
+    -----
+    The same numbers, bit by bit, unless the file works in ACEScg or Rec. 2020.
+    """
+    return _converted(radiance, _working_matrix())
+
+
+def rec709_from_working(radiance: Array) -> Array:
+    """The inverse of `working_from_rec709`."""
+    return _converted(radiance, np.linalg.inv(_working_matrix()))
+
+
+def _working_matrix() -> Array:
+    """Columns: the Rec. 709 primaries in the working space."""
+    return np.stack([Color(axis).from_rec709_linear_to_scene_linear() for axis in np.eye(3)], axis=1)
+
+
+def _converted(radiance: Array, matrix: Array) -> Array:
+    if np.array_equal(matrix, np.eye(3)):
+        return radiance
+    converted: Array = (radiance @ matrix.T).astype(radiance.dtype)
+    return converted

@@ -40,7 +40,7 @@ def comparison_page(comparison: Comparison, sheets: Sheets) -> str:
         occlusion="" if comparison.settings.mesh == "sphere" else OCCLUSION,
         view_count=count,
         noise=_percent(comparison.reference_noise),
-        full_difference=_percent(FULL_DIFFERENCE),
+        full_difference=f"{100.0 * FULL_DIFFERENCE:g}&thinsp;%",
         brighter=_css_colour(BRIGHTER),
         darker=_css_colour(DARKER),
         sheet_size=f"{100 * min(count, COLUMNS)}% {100 * math.ceil(count / COLUMNS)}%",
@@ -117,7 +117,8 @@ def _mesh(comparison: Comparison) -> str:
 
 
 def _percent(ratio: float) -> str:
-    return f"{100.0 * ratio:.3g}&thinsp;%"
+    percent = 100.0 * ratio
+    return f"{percent:.{1 if percent >= 10.0 else 2}f}&thinsp;%"
 
 
 def _css_colour(linear: tuple[float, float, float]) -> str:

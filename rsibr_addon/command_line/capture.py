@@ -59,7 +59,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
         samples=arguments.samples,
         denoise=arguments.denoise,
         seed=arguments.seed,
-        output=arguments.output,
+        output=str(arguments.output),
         force=arguments.force,
     )
     path = report.steps(capture(job))

@@ -46,4 +46,9 @@ def _size(size: list[int]) -> str:
 
 
 def _fields(fields: dict[str, Any]) -> str:
-    return ", ".join(f"{name} {value}" for name, value in fields.items())
+    """What people can read of an object: a fingerprint is for programs."""
+    shown = {name: value for name, value in fields.items() if name != "fingerprint"}
+    return ", ".join(
+        f"{name} {value:.3g}" if isinstance(value, float) else f"{name} {value}"
+        for name, value in shown.items()
+    )

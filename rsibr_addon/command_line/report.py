@@ -87,7 +87,8 @@ class Report:
             bar = "#" * filled + "." * (BAR_WIDTH - filled)
             line = f"[{bar}] {progress.done}/{progress.total} {progress.what}"
             columns = shutil.get_terminal_size().columns
-            print(CLEAR_LINE + line[: columns - 1], end="", file=sys.stderr, flush=True)
+            # Back at the line's begin, so that what Blender logs meanwhile writes over the bar
+            print(CLEAR_LINE + line[: columns - 1], end="\r", file=sys.stderr, flush=True)
         elif self.progress == "json":
             print(json.dumps({"progress": vars(progress)}), file=sys.stderr, flush=True)
 

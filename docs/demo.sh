@@ -11,10 +11,10 @@ for material in copper plastic; do
         -o "$material.rsibr.exr" --force
     rsibr info "$material.rsibr.exr"
     for mesh in monkey sphere; do
-        rsibr preview "$material.rsibr.exr" --mesh "$mesh" --view 0.3,-1,0.3 --size 256 --turntable 48 \
+        rsibr preview "$material.rsibr.exr" --mesh "$mesh" --view 0.3,-1,0.3 --size 256 --turntable 24 \
             -o "$material-$mesh.png" --force
     done
-    rsibr compare "$material.rsibr.exr" --views 3 -o "$material-compare" --force >>errors.txt
+    rsibr compare "$material.rsibr.exr" --views 3 --samples 64 -o "$material-compare" --force >>errors.txt
 done
 
 echo

@@ -55,7 +55,7 @@ def test_capture_info_preview_compare(rsibr: Command, tmp_path: Path) -> None:
     assert turned["movie"] == "turn.mp4"
     assert {"turn.png", "turn.mp4"} <= {path.name for path in tmp_path.iterdir()}
 
-    limits = ["--views", "1", "--size", "8", "--samples", "2", "--mode", "fragment", "--warp", "split"]
+    limits = ["--views", "1", "--size", "8", "--samples", "4", "--mode", "fragment", "--warp", "split"]
     compared = rsibr("compare", "copper.rsibr.exr", *limits, "-o", "compare")
     assert Path(compared["page"]).exists()
     assert compared["comparison"] == json.loads(Path("compare/comparison.json").read_text())

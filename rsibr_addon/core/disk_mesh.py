@@ -15,8 +15,8 @@ RINGS = 32
 SECTORS = 64
 MARGIN = 1.25
 """Radius of the outermost vertices: the disk is drawn beyond its rim, whose texture coordinates
-are kept, so that bilinear lookups at the rim find the rim's own radiance. At least
-1 / cos(pi / SECTORS) + the width of a texel."""
+are kept, so that bilinear lookups at the rim find the rim's own radiance. That much covers the
+texels that such a lookup can reach, a diagonal beyond the rim, of maps of 12 texels or more."""
 
 
 @dataclass(frozen=True)
@@ -79,7 +79,7 @@ def interpolate(points: ArrayLike, values: ArrayLike) -> Array:
     Parameters
     ----------
     points : array_like, shape (..., 2)
-        Points of the disk, within radius 1.
+        Points of the disk and its margin, within radius 0.99 MARGIN.
     values : array_like, shape (V, channels)
         One row a vertex.
 

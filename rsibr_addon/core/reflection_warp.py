@@ -77,7 +77,7 @@ def confidence(warp: Warp, normal: ArrayLike, view_dir: ArrayLike, source_view_d
     the source saw what it is asked for: zero at the same place, but a measure of the pinching
     itself, the same for both warps and for a fragment without a destination map, and closer to
     Cycles (docs/accuracy.md).
-    GLSL twin: gpu_shaders/lib/reflection_warp_lib.glsl `confidence`, 1e-5.
+    GLSL twin: gpu_shaders/lib/reflection_warp_lib.glsl `confidence`, 2e-6.
     """
     normal, source = np.asarray(normal), np.asarray(source_view_dir)
     if warp is Warp.NORMAL:

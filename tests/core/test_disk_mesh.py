@@ -46,8 +46,8 @@ def test_it_is_finer_towards_the_rim() -> None:
 
 
 def test_the_margin_holds_a_texel_beyond_the_rim() -> None:
-    # A lookup at the rim of the smallest sensible map, 16 texels, reaches one texel along each axis.
-    assert MARGIN * np.cos(np.pi / SECTORS) > 1.0 + np.sqrt(2.0) * 2.0 / 16.0
+    # A lookup at the rim reaches one texel along each axis: here of a map of 12 texels over [-1, 1].
+    assert MARGIN * np.cos(np.pi / SECTORS) > 1.0 + np.sqrt(2.0) * 2.0 / 12.0
 
 
 def test_planes_are_kept() -> None:

@@ -1,0 +1,355 @@
+"""Every function of gpu_shaders/lib against its numpy twin."""
+
+import re
+from collections.abc import Callable
+from functools import cache
+
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.core import directions, geodesic, reflection_warp
+from rsibr.rsibr_addon.core.directions import camera_frame, dot, normalize
+from rsibr.rsibr_addon.core.geodesic import VERTEX_COUNTS, geodesic_sphere
+from rsibr.rsibr_addon.core.maps import sphere_map
+from rsibr.rsibr_addon.core.radiance_views import RadianceViews
+from rsibr.rsibr_addon.core.reflection_warp import Warp
+from rsibr.rsibr_addon.core.resample import bilinear
+from rsibr.rsibr_addon.core.shading import views_fragment
+from rsibr.rsibr_addon.device import buffers
+from rsibr.rsibr_addon.device.radiance_views import _geodesic_texels, _layers
+from rsibr.rsibr_addon.device.shader_source import SHADER_FOLDER
+from rsibr.tests.glsl.evaluation import Samplers, evaluate
+from rsibr.tests.glsl.twins import (
+    AXES,
+    COUNT,
+    ULP,
+    Twin,
+    check,
+    disk_points,
+    near_singularity,
+    single,
+    unit_vectors,
+)
+from rsibr.tests.synthetic_views import random_views
+
+
+def frames_as_rows(frames: np.ndarray) -> np.ndarray:
+    """Columns of (n, 3, 3) matrices as results, shape (n, 3, 3)."""
+    return np.swapaxes(frames, -1, -2)
+
+
+NEAR_POLES = normalize([(1e-6, 0.0, 1.0), (0.0, -1e-6, -1.0), (3e-6, 4e-6, 1.0), (-1e-3, 1e-4, -1.0)])
+
+DIRECTIONS = {
+    "reflect_dir": Twin(
+        "directions_lib.glsl",
+        "result_0.xyz = reflect_dir(in_0.xyz, in_1.xyz);",
+        lambda: [unit_vectors(1), unit_vectors(2, -AXES)],
+        directions.reflect,
+        1e-6,
+    ),
+    "camera_frame": Twin(
+        "directions_lib.glsl",
+        "mat3 frame = camera_frame(in_0.xyz);"
+        "result_0.xyz = frame[0]; result_1.xyz = frame[1]; result_2.xyz = frame[2];",
+        lambda: [unit_vectors(1, np.concatenate([AXES, NEAR_POLES]))],
+        lambda view_dir: frames_as_rows(camera_frame(view_dir)),
+        1e-6,
+        results=3,
+    ),
+}
+
+
+def eyes() -> np.ndarray:
+    """Homogeneous eyes: directions, and positions at least half a radius above the unit sphere."""
+    rng = np.random.default_rng(5)
+    at_infinity = rng.random(COUNT) < 0.5
+    distance = np.where(at_infinity, 1.0, 10.0 ** rng.uniform(np.log10(1.5), 2.0, COUNT))
+    return single(np.c_[unit_vectors(1) * distance[:, None], np.where(at_infinity, 0.0, 1.0)])
+
+
+def inner_points() -> np.ndarray:
+    """Points of the unit ball."""
+    return single(unit_vectors(2) * np.random.default_rng(6).random((COUNT, 1)))
+
+
+DRAW = {
+    "view_direction": Twin(
+        "draw_lib.glsl",
+        "result_0.xyz = view_direction(in_0, in_1.xyz);",
+        lambda: [eyes(), inner_points()],
+        lambda eye, position: normalize(eye[:, :3] - eye[:, 3:] * position),
+        1e-6,
+    )
+}
+
+
+def root_error(uv: np.ndarray) -> np.ndarray:
+    """Error of z = sqrt(1 - r^2): six roundings of r^2, over 2 z, or their root where z is smaller."""
+    z = sphere_map.normal_from_uv(uv)[:, 2]
+    return 6.0 * ULP / np.maximum(z, np.sqrt(6.0 * ULP))
+
+
+SPHERE_MAP = {
+    "normal_from_uv": Twin(
+        "sphere_map_lib.glsl",
+        "result_0.xyz = normal_from_uv(in_0.xy);",
+        lambda: [disk_points()],
+        sphere_map.normal_from_uv,
+        lambda uv: np.stack([np.full(COUNT, 1e-6), np.full(COUNT, 1e-6), root_error(uv)], axis=-1)[:, None],
+    ),
+    "uv_from_normal": Twin(
+        "sphere_map_lib.glsl",
+        "result_0.xy = uv_from_normal(in_0.xyz);",
+        lambda: [unit_vectors(1, np.concatenate([AXES, near_singularity()]))],
+        sphere_map.uv_from_normal,
+        1e-6,
+    ),
+    "direction_from_uv": Twin(
+        "sphere_map_lib.glsl",
+        "result_0.xyz = direction_from_uv(in_0.xy);",
+        lambda: [disk_points()],
+        sphere_map.direction_from_uv,
+        lambda uv: np.stack([2.0 * root_error(uv)] * 2 + [np.full(COUNT, 2e-6)], axis=-1)[:, None],
+    ),
+    "uv_from_direction": Twin(
+        "sphere_map_lib.glsl",
+        "result_0.xy = uv_from_direction(in_0.xyz);",
+        lambda: [unit_vectors(1, np.concatenate([AXES, near_singularity()]))],
+        sphere_map.uv_from_direction,
+        1e-6,
+    ),
+}
+
+
+def triangles_and_directions(count: int) -> list[np.ndarray]:
+    """Directions, vertices and middles of edges among them, and the corners of their triangles."""
+    sphere = geodesic_sphere(count)
+    a, b, c = np.moveaxis(sphere.vertices[sphere.triangles], 1, 0)
+    edges = np.concatenate([sphere.vertices, normalize(a + b), normalize(0.9 * b + 0.1 * c), AXES])
+    view_dir = unit_vectors(1, edges)
+    corners = single(sphere.vertices[geodesic.find_triangle(sphere, view_dir)])
+    return [view_dir, corners[:, 0], corners[:, 1], corners[:, 2]]
+
+
+def geodesic_sampler(count: int) -> Callable[[], Samplers]:
+    return lambda: {"sphere": ("FLOAT_2D", buffers.texture(_geodesic_texels(geodesic_sphere(count))))}
+
+
+GEODESIC = {
+    "spherical_excess": Twin(
+        "geodesic_lib.glsl",
+        "result_0.x = spherical_excess(in_0.xyz, in_1.xyz, in_2.xyz);",
+        lambda: triangles_and_directions(12)[:3],
+        lambda a, b, c: geodesic.spherical_excess(a, b, c)[:, None],
+        # Products of unit vectors, and the driver's arctangent: 2e-5 of its value.
+        lambda a, b, c: (1e-6 + 3e-5 * np.abs(geodesic.spherical_excess(a, b, c)))[:, None, None],
+    ),
+    "barycentric_weights": Twin(
+        "geodesic_lib.glsl",
+        "result_0.xyz = barycentric_weights(in_0.xyz, in_1.xyz, in_2.xyz, in_3.xyz);",
+        lambda: triangles_and_directions(162),
+        lambda view_dir, *corners: geodesic.barycentric_weights(view_dir, np.stack(corners, axis=1)),
+        2e-5,
+    ),
+}
+
+
+@pytest.mark.parametrize("count", VERTEX_COUNTS)
+def test_geodesic_vertex(count: int) -> None:
+    index = np.arange(count, dtype=np.float64)[:, None]
+    found = evaluate(
+        "geodesic_lib.glsl",
+        "result_0.xyz = geodesic_vertex(sphere, int(in_0.x));",
+        [index],
+        samplers=geodesic_sampler(count)(),
+    )
+    np.testing.assert_array_equal(found[:, 0, :3], single(geodesic_sphere(count).vertices))
+
+
+@pytest.mark.parametrize("count", VERTEX_COUNTS)
+def test_geodesic_triangle(count: int) -> None:
+    levels = geodesic_sphere(count).levels
+    places = np.array([(level, i) for level, triangles in enumerate(levels) for i in range(len(triangles))])
+    found = evaluate(
+        "geodesic_lib.glsl",
+        "result_0.xyz = vec3(geodesic_triangle(sphere, int(in_0.x), int(in_0.y)));",
+        [places],
+        samplers=geodesic_sampler(count)(),
+    )
+    np.testing.assert_array_equal(found[:, 0, :3], np.concatenate(levels))
+
+
+@pytest.mark.parametrize("count", VERTEX_COUNTS)
+def test_find_triangle(count: int) -> None:
+    sphere = geodesic_sphere(count)
+    view_dir = triangles_and_directions(count)[0]
+    found = evaluate(
+        "geodesic_lib.glsl",
+        f"result_0.xyz = vec3(find_triangle(sphere, {len(sphere.levels) - 1}, in_0.xyz));",
+        [view_dir],
+        samplers=geodesic_sampler(count)(),
+    )[:, 0, :3].astype(int)
+    corners = sphere.vertices[found]
+    beyond_edges = dot(np.cross(corners, np.roll(corners, -1, axis=1)), view_dir[:, None]).min(axis=-1)
+    # A direction on an edge may fall to either side, by what rounding makes of a triple product.
+    assert np.all(beyond_edges > -1e-6)
+    clear = beyond_edges > 1e-6
+    assert np.count_nonzero(clear) > 0.98 * COUNT
+    np.testing.assert_array_equal(found[clear], geodesic.find_triangle(sphere, view_dir)[clear])
+
+
+@cache
+def points_and_sources() -> list[np.ndarray]:
+    """Normals towards the eye, view directions, and a source's axes: x, y and z, its view direction."""
+    view_dir, normal = unit_vectors(1), unit_vectors(2, -AXES)
+    normal = np.where(dot(normal, view_dir)[:, None] < 0.0, -normal, normal)
+    frame = single(camera_frame(unit_vectors(3, np.roll(AXES, 1, axis=0))))
+    return [normal, view_dir, frame[:, :, 0], frame[:, :, 1], frame[:, :, 2]]
+
+
+def place_or_anywhere(warp: Warp) -> Callable[..., np.ndarray]:
+    """1e-5 where the source is trusted, beyond which no place is promised."""
+    return lambda normal, view_dir, x, y, z: np.where(
+        reflection_warp.confidence(warp, normal, view_dir, z) > 0.1, 1e-5, 1.0
+    )[:, None, None]
+
+
+def warp_twins(warp: Warp) -> dict[str, Twin]:
+    number = f"WARP_{warp.name}"
+    return {
+        f"source_uv {warp}": Twin(
+            "reflection_warp_lib.glsl",
+            f"result_0.xy = source_uv({number}, in_0.xyz, in_1.xyz, mat3(in_2.xyz, in_3.xyz, in_4.xyz));",
+            points_and_sources,
+            lambda normal, view_dir, *axes: reflection_warp.source_uv(
+                warp, normal, view_dir, np.stack(axes, axis=-1)
+            ),
+            place_or_anywhere(warp),
+        ),
+        f"confidence {warp}": Twin(
+            "reflection_warp_lib.glsl",
+            f"result_0.x = confidence({number}, in_0.xyz, in_1.xyz, in_2.xyz);",
+            lambda: [points_and_sources()[i] for i in (0, 1, 4)],
+            lambda *vectors: reflection_warp.confidence(warp, *vectors)[:, None],
+            2e-6,
+        ),
+        f"confidences {warp}": Twin(
+            "radiance_views_lib.glsl",
+            "vec3 sources[3] = vec3[3](in_2.xyz, in_3.xyz, in_4.xyz);"
+            f"result_0.xyz = confidences({number}, in_0.xyz, in_1.xyz, sources);",
+            points_and_sources,
+            lambda normal, view_dir, *sources: np.stack(
+                [reflection_warp.confidence(warp, normal, view_dir, source) for source in sources], axis=-1
+            ),
+            2e-6,
+        ),
+    }
+
+
+REFLECTION_WARP = warp_twins(Warp.NORMAL) | warp_twins(Warp.MIRROR)
+
+VIEWS = random_views(12, 8)
+FILTERING = 2.0 / 512.0
+"""Hardware may round the weight of a texel to 8 bits along each axis; neighbours here differ by up to 1."""
+
+
+def views_sampler() -> Samplers:
+    return {"views": ("FLOAT_2D_ARRAY", buffers.texture_array(_layers(VIEWS)))}
+
+
+def lookup_twin(name: str, maps: np.ndarray, tolerance: float) -> Twin:
+    return Twin(
+        "radiance_views_lib.glsl",
+        f"result_0.xyz = {name}(views, int(in_1.x), in_0.xy);",
+        lambda: [disk_points(), np.random.default_rng(7).integers(0, 12, (COUNT, 1)).astype(np.float64)],
+        lambda uv, view: bilinear(maps, uv, sphere_map.wrap, layer=view[:, 0].astype(int)),
+        tolerance,
+        samplers=views_sampler,
+    )
+
+
+@cache
+def blend_arguments() -> list[np.ndarray]:
+    """Normals, view directions, and the indices and weights of the three views around each."""
+    view_dir, normal = unit_vectors(1), unit_vectors(2, -AXES)
+    # Grazing normals are looked up where a mirror's map is pinched, and places are not known well.
+    normal = single(
+        normalize(np.where(dot(normal, view_dir)[:, None] < 0.0, -normal, normal) + 0.2 * view_dir)
+    )
+    sources = geodesic.find_triangle(VIEWS.sphere, view_dir)
+    weights = geodesic.barycentric_weights(view_dir, VIEWS.sphere.vertices[sources])
+    return [normal, view_dir, sources.astype(np.float64), single(weights)]
+
+
+def blend_twin(name: str, split: bool, reference: RadianceViews | None) -> Twin:
+    """`name` in one mode; `reference` are views whose split shading is what it should say, or None for 0."""
+    vertices = ", ".join(f"vec3({x!r}, {y!r}, {z!r})" for x, y, z in VIEWS.sphere.vertices.tolist())
+    return Twin(
+        "radiance_views_lib.glsl",
+        f"vec3 vertices[12] = vec3[12]({vertices});"
+        "ivec3 sources = ivec3(in_2.xyz + 0.5);"
+        "vec3 source_dirs[3] = vec3[3](vertices[sources.x], vertices[sources.y], vertices[sources.z]);"
+        f"bool split = {str(split).lower()};"
+        f"result_0.xyz = {name}(views, split, in_0.xyz, in_1.xyz, sources, source_dirs, in_3.xyz);",
+        blend_arguments,
+        lambda normal, view_dir, *_: (
+            np.zeros_like(normal) if reference is None else views_fragment(reference, normal, view_dir, True)
+        ),
+        # Filtering, and places off by 1e-5 of the map, 8e-5 of a texel, along each axis.
+        2.0 * (FILTERING + 2.0 * 8e-5),
+        samplers=views_sampler,
+    )
+
+
+def weights_and_trust() -> list[np.ndarray]:
+    """Weights, those of vertices and edges among them, and confidences."""
+    rng = np.random.default_rng(8)
+    edges = [*np.eye(3), (0.5, 0.5, 0.0), (0.0, 0.1, 0.9)]
+    weights = np.concatenate([edges, rng.dirichlet((0.5, 0.5, 0.5), COUNT - len(edges))])
+    return [single(weights), single(10.0 ** rng.uniform(-3.0, 0.0, (COUNT, 3)))]
+
+
+NOTHING = np.zeros_like(VIEWS.diffuse)
+
+RADIANCE_VIEWS = {
+    "blend_shares": Twin(
+        "radiance_views_lib.glsl",
+        "result_0.xyz = blend_shares(in_0.xyz, in_1.xyz);",
+        weights_and_trust,
+        lambda weights, trust: weights * trust / (weights * trust).sum(axis=-1, keepdims=True),
+        1e-6,
+    ),
+    "diffuse_radiance": lookup_twin("diffuse_radiance", VIEWS.diffuse, FILTERING),
+    "glossy_radiance": lookup_twin("glossy_radiance", VIEWS.glossy, FILTERING),
+    "combined_radiance": lookup_twin("combined_radiance", VIEWS.combined, 2.0 * FILTERING),
+    "warped_by_normal single": blend_twin("warped_by_normal", False, None),
+    "warped_by_normal split": blend_twin("warped_by_normal", True, RadianceViews(VIEWS.diffuse, NOTHING)),
+    "warped_by_mirror single": blend_twin("warped_by_mirror", False, RadianceViews(NOTHING, VIEWS.combined)),
+    "warped_by_mirror split": blend_twin("warped_by_mirror", True, RadianceViews(NOTHING, VIEWS.glossy)),
+}
+
+TWINS = DIRECTIONS | DRAW | SPHERE_MAP | GEODESIC | REFLECTION_WARP | RADIANCE_VIEWS
+
+
+@pytest.mark.parametrize("name", TWINS)
+def test_a_function_says_what_its_twin_says(name: str) -> None:
+    check(TWINS[name])
+
+
+def test_the_singularity_has_one_answer_here_too() -> None:
+    nowhere = np.array([(0.0, 0.0, -1.0)])
+    for function in ("uv_from_direction", "uv_from_normal"):
+        found = evaluate("sphere_map_lib.glsl", f"result_0.xy = {function}(in_0.xyz);", [nowhere])
+        np.testing.assert_array_equal(found[0, 0, :2], (1.0, 0.5))
+
+
+def test_no_function_of_the_library_goes_untested() -> None:
+    defined = set()
+    for path in sorted((SHADER_FOLDER / "lib").glob("*.glsl")):
+        # Definitions start a line; what functions hold is indented.
+        functions = re.findall(r"^\w+ (\w+)\(", path.read_text(), flags=re.MULTILINE)
+        assert functions, path
+        defined.update(functions)
+    tested = {name.partition(" ")[0] for name in TWINS}
+    tested |= {name.removeprefix("test_") for name in globals() if name.startswith("test_")} & defined
+    assert tested == defined

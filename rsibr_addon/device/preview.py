@@ -73,11 +73,15 @@ class PreviewRenderer:
             view_dir=np.asarray(camera.view_dir),
         )
         mesh = mesh_batch(positions, normals, triangles)
+        depth_test, depth_mask = gpu.state.depth_test_get(), gpu.state.depth_mask_get()
         with target.bind():
             target.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
             gpu.state.depth_test_set("LESS_EQUAL")
             gpu.state.depth_mask_set(True)
-            self._views.draw(mesh, placed, mode, split)
-            gpu.state.depth_test_set("NONE")
+            try:
+                self._views.draw(mesh, placed, mode, split)
+            finally:
+                gpu.state.depth_test_set(depth_test)
+                gpu.state.depth_mask_set(depth_mask)
             picture = buffers.pixels(target, fine)
         return picture.reshape(size, SAMPLES_PER_AXIS, size, SAMPLES_PER_AXIS, 4).mean(axis=(1, 3))

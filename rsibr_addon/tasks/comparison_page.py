@@ -61,13 +61,15 @@ def _rules(way: Way, sheets: Sheets) -> str:
 
 
 def _row(error: WayError, comparison: Comparison, checked: bool) -> str:
-    way, largest = error.way, max(each.pooled for each in comparison.errors)
+    way = error.way
+    # Errors below the noise may all be 0.
+    largest = max(each.pooled for each in comparison.errors) or 1.0
     button = f'<input type="radio" name="way" id="way-{way.slug}"{" checked" if checked else ""}>'
     numbers = "".join(
         f'<td class="number">{_percent(value)}</td>' for value in (error.pooled, error.median, error.worst)
     )
     bar = f'<td class="bar"><span style="width: {100.0 * error.pooled / largest:.1f}%"></span></td>'
-    name = f"{way.captured_views} views, {way.mode}, {way.warp} warp"
+    name = f"{way.captured_views} views, {way.mode}, {way.warping} warp"
     return f"<tr><td><label>{button}{name}</label></td>{numbers}{bar}</tr>"
 
 

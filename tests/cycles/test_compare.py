@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import InputFileError, MapSetError, OutputFileError, RangeError
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.device.radiance_views import Mode
+from rsibr.rsibr_addon.core.shading import Mode, Warping
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.host.materials import fingerprint, load_material
 from rsibr.rsibr_addon.host.scenes import temporary_scene
@@ -22,7 +22,7 @@ from rsibr.tests.mirror_capture import mirror_map_set
 
 pytestmark = pytest.mark.needs("gl")
 
-QUICK = ComparisonSettings(views=2, size=32, samples=8, modes=(Mode.FRAGMENT,), splits=(True,))
+QUICK = ComparisonSettings(views=2, size=32, samples=8, modes=(Mode.FRAGMENT,), warpings=(Warping.SPLIT,))
 
 BOX = """
 v -1 -2 -3
@@ -89,7 +89,7 @@ def test_a_flawless_capture_is_close_to_cycles_and_all_is_written(tmp_path: Path
     # A mirror has no noise but that of where a pixel is sampled: 16 points, on a slope.
     assert 0.0 < found.reference_noise < 0.02
     # Our own interpolation, see test_preview, is 1e-2 at worst and rare; the rest is that noise.
-    assert len(found.errors) == 6
+    assert len(found.errors) == len(Mode) * len(Warping)
     for error in found.errors:
         assert len(error.per_view) == 3
         assert min(error.per_view) <= error.median <= error.worst == max(error.per_view)
@@ -132,7 +132,7 @@ def test_meshes_stand_as_they_are_drawn(tmp_path: Path, capture: Path) -> None:
         size=32,
         samples=16,
         modes=(Mode.FRAGMENT,),
-        splits=(True,),
+        warpings=(Warping.SPLIT,),
     )
     found = drain(compare(capture, settings, tmp_path / "out"))
     # As for the sphere; where two faces meet within a pixel, both pictures average what they show.
@@ -142,7 +142,7 @@ def test_meshes_stand_as_they_are_drawn(tmp_path: Path, capture: Path) -> None:
 def test_coarser_captures_share_their_references(tmp_path: Path, mirror_fingerprint: str) -> None:
     write_map_set(tmp_path / "m.rsibr.exr", mirror_map_set(42, 32, mirror_fingerprint))
     settings = ComparisonSettings(
-        views=1, size=24, samples=4, modes=(Mode.TEXEL,), splits=(False,), captured_views=(12, 42)
+        views=1, size=24, samples=4, modes=(Mode.TEXEL,), warpings=(Warping.SINGLE,), captured_views=(12, 42)
     )
     found = drain(compare(tmp_path / "m.rsibr.exr", settings, tmp_path / "out"))
     assert [error.way.slug for error in found.errors] == ["12-texel-single", "42-texel-single"]

@@ -1,0 +1,1 @@
+"""Reflectance models, one per file: parameters with ranges, and one function of two directions."""

@@ -1,0 +1,139 @@
+"""Directional albedo: the share of light that a surface sends to one view, by quadrature."""
+
+import warnings
+from functools import cache
+
+import numpy as np
+
+from ..conventions import Array, ArrayLike
+from ..errors import RangeError, RsibrWarning
+from .model import BrdfFunction
+
+RADIAL_NODES, ARC_NODES = 8, 32
+NARROWEST = 1e-4
+"""Radians about the mirror and the view direction within which a lobe is taken as smooth."""
+
+CHECKED_ELEVATIONS = (np.arange(16) + 0.5) / 16.0
+TOLERATED_GAIN = 0.01
+"""How much more light than it gets a surface may reflect before somebody is told."""
+
+
+def hemisphere_quadrature(mu: float) -> tuple[Array, Array]:
+    """Directions and weights that integrate over the hemisphere what one view sees.
+
+    Parameters
+    ----------
+    mu : float
+        Cosine of the view's angle from the normal, in (0, 1]; the view is (sqrt(1 - mu^2), 0, mu).
+
+    Returns
+    -------
+    light_dir : ndarray, shape (N, 3), float64
+        Unit vectors above the horizon, dense about the mirror and the view direction.
+    weight : ndarray, shape (N,), float64
+        Solid angles [sr], sum 2 pi.
+
+    Raises
+    ------
+    RangeError
+        `mu` lies outside (0, 1].
+
+    Notes
+    -----
+    Either half of the hemisphere, forwards with the mirror direction and backwards with the view, is
+    cut into arcs about its direction, on which horizon and border are known in closed form. Arcs take
+    Gauss-Legendre nodes, which crowd at the ends, where the lobes of grazing views are thin; radii take
+    them in panels that halve towards the centre, with t^2 in t for the corners at horizon and border.
+    """
+    if not 0.0 < mu <= 1.0:
+        raise RangeError(f"An elevation has a cosine greater than 0 and at most 1, not {mu:g}.")
+    sine = max(np.sqrt(1.0 - mu**2), 1e-12)
+    radius, radial_weight = _radial_nodes(np.arccos(mu))
+    cot = 1.0 / np.tan(radius)
+    # Arc angle psi counts from straight down; the horizon cuts the start, the other half the end
+    start = np.arccos(np.minimum(1.0, cot * mu / sine))
+    end = np.arccos(-np.minimum(1.0, cot * sine / mu))
+    node, node_weight = np.polynomial.legendre.leggauss(ARC_NODES)
+    psi = start[:, None] + (end - start)[:, None] * (node + 1.0) / 2.0
+    weight = (radial_weight * np.sin(radius) * (end - start) / 2.0)[:, None] * node_weight
+    along, down = np.cos(radius)[:, None], np.sin(radius)[:, None] * np.cos(psi)
+    x, z = along * sine + down * mu, along * mu - down * sine
+    y = np.sin(radius)[:, None] * np.sin(psi)
+    quarter = np.stack([x, y, z], axis=-1).reshape(-1, 3)
+    light_dir = np.concatenate([quarter * (forwards, left, 1.0) for forwards in (1, -1) for left in (1, -1)])
+    return light_dir, np.tile(weight.ravel(), 4)
+
+
+def directional_albedo(brdf: BrdfFunction, mu: ArrayLike) -> Array:
+    """Share of uniform light that is reflected to a view: the integral of brdf times cosine.
+
+    Parameters
+    ----------
+    brdf : callable
+        A `Brdf`, or any isotropic function called like one.
+    mu : array_like, shape (...,)
+        Cosines of the views' angles from the normal, in (0, 1].
+
+    Returns
+    -------
+    ndarray, shape (..., 3), float64
+        In linear Rec. 709; at most 1 for a surface that gains no energy. To 5e-4 for lobes at least 0.01
+        wide (alpha) and elevations mu of at least 0.03.
+
+    Raises
+    ------
+    RangeError
+        An elevation lies outside (0, 1].
+    """
+    mu = np.asarray(mu, dtype=np.float64)
+    albedo = np.empty((mu.size, 3))
+    for index, cosine in enumerate(mu.ravel().tolist()):
+        light_dir, weight = hemisphere_quadrature(cosine)
+        view_dir = np.array([np.sqrt(1.0 - cosine**2), 0.0, cosine])
+        albedo[index] = (weight * light_dir[:, 2]) @ brdf(light_dir, view_dir)
+    return albedo.reshape(*mu.shape, 3)
+
+
+def warn_of_gain(brdf: BrdfFunction, name: str) -> None:
+    """Tell when a surface reflects more light than it gets.
+
+    Parameters
+    ----------
+    brdf : callable
+        A `Brdf`, or any isotropic function called like one.
+    name : str
+        What the sentence calls it.
+
+    Warns
+    -----
+    RsibrWarning
+        Its albedo exceeds 1 by more than `TOLERATED_GAIN` at one of sixteen elevations; says how much
+        and where.
+    """
+    albedo = directional_albedo(brdf, CHECKED_ELEVATIONS).max(axis=-1)
+    worst = int(np.argmax(albedo))
+    if albedo[worst] > 1.0 + TOLERATED_GAIN:
+        warnings.warn(
+            f"{name} reflects {albedo[worst]:.3g} times the light it gets at "
+            f"{np.degrees(np.arccos(CHECKED_ELEVATIONS[worst])):.0f} degrees from the normal; scale it down.",
+            RsibrWarning,
+            stacklevel=2,
+        )
+
+
+@cache
+def _panel() -> tuple[Array, Array]:
+    """Gauss-Legendre nodes and weights on [0, 1] in t^2."""
+    node, weight = np.polynomial.legendre.leggauss(RADIAL_NODES)
+    t = (node + 1.0) / 2.0
+    return t**2, weight * t
+
+
+def _radial_nodes(theta: float) -> tuple[Array, Array]:
+    """Radii in (0, pi/2) and their weights; panels end where arcs meet the horizon or the border."""
+    halvings = np.pi / 2.0 * 0.5 ** np.arange(np.ceil(np.log2(np.pi / 2.0 / NARROWEST)) + 1.0)
+    corners = [corner for corner in (theta, np.pi / 2.0 - theta) if NARROWEST < corner < np.pi / 2.0]
+    edges = np.unique([0.0, *halvings, *corners])
+    node, weight = _panel()
+    width = np.diff(edges)[:, None]
+    return (edges[:-1, None] + width * node).ravel(), (width * weight).ravel()

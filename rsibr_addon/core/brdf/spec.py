@@ -1,0 +1,246 @@
+"""Reflectance models as text: ``model:key=value,key=value``.
+
+Numbers are decimal; colours are one number or three, red/green/blue; models within models stand in
+parentheses::
+
+    ward:alpha=0.04,ks=0.8
+    ggx:alpha=0.3,metal=copper
+    ggx:alpha=0.3,eta=0.2/0.924/1.102,k=3.912/2.452/2.142
+    layered:coat=(ggx:alpha=0.05,eta=1.5),base=(lambert:kd=0.3/0.05/0.02)
+    sum:parts=(lambert:kd=0.2)+(phong:n=50,ks=0.5)
+    merl:path=gold-metallic-paint.binary
+"""
+
+import dataclasses
+from collections.abc import Callable
+from typing import Any, get_type_hints
+
+import numpy as np
+
+from ..errors import RangeError
+from .car_paint import CarPaint
+from .cook_torrance import CookTorrance
+from .fresnel import Fresnel, Index, Schlick
+from .ggx import Ggx
+from .he_torrance import HeTorrance
+from .lambert import Lambert
+from .layered import Layered, Sum
+from .measured_rgl import MeasuredRgl
+from .metals import METALS
+from .model import Brdf
+from .parameters import Color, parameter_ranges
+from .phong import Phong
+from .retroreflective import Retroreflective
+from .tabulated import Tabulated
+from .ward import Ward
+
+type ReadMeasured = Callable[[str, str], Brdf]
+"""What gets a measured model: from its format, one of `MEASURED`, and its path."""
+
+MODELS: dict[str, type[Brdf]] = {
+    owner.model: owner
+    for owner in (
+        Lambert, Phong, Ward, Ggx, CookTorrance, HeTorrance, Retroreflective, CarPaint, Layered, Sum,
+    )
+}  # fmt: skip
+"""Name -> model whose parameters are the spec's keys."""
+
+MEASURED = ("merl", "cornell", "rgl")
+"""Names of the formats of measured models, whose only key is path: all that follows it."""
+
+A_MODEL = "a model in parentheses, as (lambert:kd=0.5)"
+FRESNEL_KEYS = ("metal", "eta", "k", "f0", "f90")
+
+
+def brdf_from_spec(spec: str, read_measured: ReadMeasured) -> Brdf:
+    """Make the model that a text describes.
+
+    Parameters
+    ----------
+    spec : str
+        As above; blanks around names and values do not count.
+    read_measured : callable
+        Reads the models of `MEASURED`.
+
+    Returns
+    -------
+    Brdf
+
+    Raises
+    ------
+    RangeError
+        The model or a key does not exist, a key is missing or twice there, or a value is not what its
+        key takes; one sentence that names the key and what it takes.
+    InputFileError
+        From `read_measured`.
+    """
+    name, _, rest = (part.strip() for part in spec.partition(":"))
+    if name in MEASURED:
+        key, _, path = (part.strip() for part in rest.partition("="))
+        if key != "path" or not path:
+            raise RangeError(f"{name} takes one key, path: write {name}:path=FILE.")
+        return read_measured(name, path)
+    if name not in MODELS:
+        raise RangeError(f'There is no BRDF model "{name}": choose one of {", ".join((*MODELS, *MEASURED))}.')
+    try:
+        return MODELS[name](**_arguments(MODELS[name], _values(rest), read_measured))
+    except RangeError as error:
+        raise RangeError(f"{name}: {error}") from error
+
+
+def spec_from_brdf(brdf: Brdf) -> str:
+    """The text that describes a model, the same for the same model.
+
+    Parameters
+    ----------
+    brdf : Brdf
+        Of `MODELS`, or measured.
+
+    Returns
+    -------
+    str
+        Without keys that have their default values; `brdf_from_spec` makes an equal model of it.
+
+    Raises
+    ------
+    RangeError
+        The model is none that a text can describe.
+    """
+    if isinstance(brdf, Tabulated | MeasuredRgl):
+        return brdf.spec
+    for name, owner in MODELS.items():
+        if type(brdf) is owner:
+            return f"{name}:{','.join(_assignments(brdf))}"
+    raise RangeError(f"No text describes a {type(brdf).__name__}: describe what it is made of.")
+
+
+def _arguments(owner: type[Brdf], values: dict[str, str], read_measured: ReadMeasured) -> dict[str, Any]:
+    """What a model is made from, out of the texts of its keys."""
+    hints = get_type_hints(owner)
+    fields = dataclasses.fields(owner)  # type: ignore[arg-type]  # its subclasses are dataclasses
+    keys = [key for field in fields for key in _keys(field.name, hints[field.name])]
+    if unknown := [key for key in values if key not in keys]:
+        raise RangeError(f"it has no parameter {unknown[0]}, but {', '.join(keys)}.")
+    arguments: dict[str, Any] = {}
+    for field in fields:
+        kind, text = hints[field.name], values.get(field.name)
+        if kind is Fresnel:
+            arguments[field.name] = _fresnel(values)
+        elif text is None:
+            if field.default is dataclasses.MISSING:
+                raise RangeError(f"{field.name} is missing; it must be {_taken(owner, field.name, kind)}.")
+        elif kind is str:
+            arguments[field.name] = text
+        elif kind is Brdf:
+            arguments[field.name] = _inner(field.name, text, read_measured)
+        elif kind == tuple[Brdf, ...]:
+            arguments[field.name] = tuple(
+                _inner(field.name, part, read_measured) for part in _split(text, "+")
+            )
+        else:
+            arguments[field.name] = _number(owner, field.name, text)
+    return arguments
+
+
+def _keys(field: str, kind: object) -> tuple[str, ...]:
+    return FRESNEL_KEYS if kind is Fresnel else (field,)
+
+
+def _fresnel(values: dict[str, str]) -> Fresnel:
+    given = {key: values[key] for key in FRESNEL_KEYS if key in values}
+    if given.keys() == {"metal"}:
+        if given["metal"] not in METALS:
+            raise RangeError(f'metal is "{given["metal"]}", but it must be one of {", ".join(METALS)}.')
+        return METALS[given["metal"]]
+    for kind, needed in ((Index, "eta"), (Schlick, "f0")):
+        if needed in given and given.keys() <= parameter_ranges(kind).keys():
+            return kind(**{key: _number(kind, key, text) for key, text in given.items()})
+    raise RangeError(
+        "its reflectance must be one of metal=NAME, eta and k of an index of refraction, "
+        "or f0 and f90 of Schlick's approximation."
+    )
+
+
+def _inner(key: str, text: str, read_measured: ReadMeasured) -> Brdf:
+    text = text.strip()
+    if not (text.startswith("(") and text.endswith(")")):
+        raise RangeError(f'{key} is "{text}", but it must be {A_MODEL}.')
+    return brdf_from_spec(text[1:-1], read_measured)
+
+
+def _number(owner: type, key: str, text: str) -> Color:
+    try:
+        numbers = [float(part) for part in text.split("/")]
+    except ValueError:
+        numbers = []
+    _, is_color = parameter_ranges(owner)[key]
+    if is_color and len(numbers) == 3:
+        return numbers[0], numbers[1], numbers[2]
+    if len(numbers) != 1:
+        raise RangeError(f'{key} is "{text}", but it must be {_taken(owner, key, Color)}.')
+    return numbers[0]
+
+
+def _taken(owner: type, key: str, kind: object) -> str:
+    """What a key takes, in words."""
+    if kind is str:
+        return "a name"
+    if key not in parameter_ranges(owner):
+        return A_MODEL
+    limits, is_color = parameter_ranges(owner)[key]
+    return f"{'one number, or three as red/green/blue,' if is_color else 'a number'} {limits}"
+
+
+def _values(text: str) -> dict[str, str]:
+    """Key -> text of its value."""
+    values: dict[str, str] = {}
+    for part in _split(text, ",") if text else ():
+        key, _, value = (piece.strip() for piece in part.partition("="))
+        if not key or not value:
+            raise RangeError(f'"{part.strip()}" is no key=value.')
+        if key in values:
+            raise RangeError(f"{key} is there twice; give it once.")
+        values[key] = value
+    return values
+
+
+def _split(text: str, separator: str) -> list[str]:
+    """Parts of `text` between separators that are not in parentheses."""
+    depth, parts = 0, [""]
+    for character in text:
+        depth += (character == "(") - (character == ")")
+        if depth < 0:
+            break
+        if character == separator and depth == 0:
+            parts.append("")
+        else:
+            parts[-1] += character
+    if depth != 0:
+        raise RangeError(f'the parentheses in "{text}" do not match; put each model within one pair.')
+    return parts
+
+
+def _assignments(owner: Brdf | Fresnel) -> list[str]:
+    """Fields that differ from their defaults, as key=value."""
+    assignments = []
+    for field in dataclasses.fields(owner):  # type: ignore[arg-type]  # its subclasses are dataclasses
+        value = getattr(owner, field.name)
+        if isinstance(value, Fresnel):
+            names = [f"metal={metal}" for metal, index in METALS.items() if index == value]
+            assignments += names or _assignments(value)
+        elif value not in (field.default, (field.default,) * 3):
+            assignments.append(f"{field.name}={_text(value)}")
+    return assignments
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, str):
+        return value
+    if isinstance(value, Brdf):
+        return f"({spec_from_brdf(value)})"
+    if isinstance(value, tuple):
+        texts = [_text(part) for part in value]
+        if isinstance(value[0], Brdf):
+            return "+".join(texts)
+        return texts[0] if len(set(texts)) == 1 else "/".join(texts)
+    return np.format_float_positional(value, trim="-")

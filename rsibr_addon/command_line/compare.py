@@ -7,7 +7,7 @@ from . import options
 from .report import Report
 
 MODES = ["paper", "texel", "fragment"]
-WARPS = ["single", "split"]
+WARPS = ["single", "split", "albedo"]
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -21,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="how many random views to compare (default: %(default)s)",
     )
     options.add_scene(parser, size=128)
-    options.add_rendering(parser, samples=256)
+    options.add_rendering(parser, samples=64)
     parser.add_argument(
         "--mode", choices=MODES, action="append", help="compare this mode only; may be repeated"
     )
@@ -51,7 +51,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     RsibrError
         See `tasks.compare`.
     """
-    from ..device.radiance_views import Mode
+    from ..core.shading import Mode, Warping
     from ..tasks.compare import compare
     from ..tasks.comparison import ComparisonSettings, comparison_table
 
@@ -63,7 +63,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
         size=arguments.size,
         samples=arguments.samples,
         modes=tuple(Mode(mode) for mode in arguments.mode or MODES),
-        splits=tuple(warp == "split" for warp in arguments.warp or WARPS),
+        warpings=tuple(Warping(warp) for warp in arguments.warp or WARPS),
         captured_views=tuple(arguments.captured_views or ()),
     )
     comparison = report.steps(compare(arguments.map_set, settings, arguments.output, arguments.force))

@@ -27,10 +27,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--warp",
-        choices=["split", "single"],
-        default="split",
-        help="normal warp for diffuse and mirror warp for glossy radiance, or mirror warp for the whole "
-        "(default: %(default)s)",
+        choices=["single", "split", "albedo"],
+        default="albedo",
+        help="mirror warp for the whole radiance; normal warp for diffuse and mirror warp for glossy; "
+        "or these with the material's directional albedo taken out and put back (default: %(default)s)",
     )
     parser.add_argument(
         "--turntable",
@@ -55,7 +55,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
         See `tasks.preview`.
     """
     from ..core.camera import Camera
-    from ..device.radiance_views import Mode
+    from ..core.shading import Mode, Warping
     from ..tasks.preview import PreviewSettings, preview, turntable
 
     settings = PreviewSettings(
@@ -63,7 +63,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
         mesh=arguments.mesh,
         size=arguments.size,
         mode=Mode(arguments.mode),
-        split=arguments.warp == "split",
+        warping=Warping(arguments.warp),
     )
     target = arguments.output, arguments.force
     if arguments.turntable is None:

@@ -4,7 +4,9 @@ import ctypes
 import json
 import os
 import shutil
+import signal
 import sys
+import threading
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
@@ -47,11 +49,20 @@ class Report:
     def steps[Result](self, steps: Steps[Result]) -> Result:
         """Run long work to its end, showing where it is, and return its result.
 
-        However it ends, the work's own cleaning up is done before this returns or raises.
+        Ctrl-C ends it after the step at hand. However it ends, the work's own cleaning up is done
+        before this returns or raises.
+
+        Raises
+        ------
+        KeyboardInterrupt
+            Ctrl-C came, and there was more to do.
         """
         try:
-            while True:
-                self._show(next(steps))
+            with _noting_interrupts() as interrupted:
+                while True:
+                    self._show(next(steps))
+                    if interrupted.is_set():
+                        raise KeyboardInterrupt
         except StopIteration as end:
             result: Result = end.value
             return result
@@ -95,6 +106,22 @@ class Report:
     def _clear(self) -> None:
         if self.progress == "bar":
             print(CLEAR_LINE, end="", file=sys.stderr, flush=True)
+
+
+@contextmanager
+def _noting_interrupts() -> Iterator[threading.Event]:
+    """Within, Ctrl-C only sets the event: raised amid a render, Blender would swallow it and go on."""
+    interrupted = threading.Event()
+    before = signal.getsignal(signal.SIGINT)
+    if before is signal.SIG_IGN:  # as of a job in the background, which Ctrl-C is not meant for
+        yield interrupted
+        return
+    signal.signal(signal.SIGINT, lambda number, frame: interrupted.set())
+    try:
+        yield interrupted
+    finally:
+        # None stands for a handler of Blender's own, which Python cannot put back
+        signal.signal(signal.SIGINT, signal.SIG_DFL if before is None else before)
 
 
 @contextmanager

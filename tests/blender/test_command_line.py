@@ -3,6 +3,7 @@
 import ctypes
 import json
 import os
+import signal
 import subprocess
 import sys
 import warnings
@@ -94,7 +95,10 @@ def work(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[str]]:
             if "fail" in left:
                 raise RsibrError("The sky fell: hold it up.")
             if "interrupt" in left:
-                raise KeyboardInterrupt
+                os.kill(os.getpid(), signal.SIGINT)
+                left.append("the step went on")
+                yield Progress(1, 2, "too late")
+                left.append("and another began")
             if "system" in left:
                 Path("missing.txt").read_text()
         finally:
@@ -108,8 +112,12 @@ def work(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[str]]:
         return {"answer": answer}
 
     monkeypatch.setattr(info, "run", work)
+    # Ctrl-C is ignored where the tests themselves run in the background
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield left
+    signal.signal(signal.SIGINT, before)
     assert left[-1] == "cleaned up"
+    assert "and another began" not in left
 
 
 @pytest.mark.usefixtures("work")
@@ -149,6 +157,7 @@ def test_failure_is_1_on_both_streams(
     out, err = capfd.readouterr()
     assert json.loads(out) == {"ok": False, "error": sentence, "warnings": ["The sky is dark: light it."]}
     assert f"rsibr: error: {sentence}" in err.splitlines()
+    assert ("the step went on" in work) == (how == "interrupt")
 
 
 @pytest.mark.usefixtures("work")

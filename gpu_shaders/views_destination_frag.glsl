@@ -1,7 +1,6 @@
 // Twin of core/shading.py `destination_lookup`: shades from the sphere map of one view.
-#include "lib/directions_lib.glsl"
 #include "lib/draw_lib.glsl"
-#include "lib/sphere_map_lib.glsl"
+#include "lib/radiance_views_lib.glsl"
 
 void main()
 {
@@ -10,6 +9,9 @@ void main()
   mat3 frame = mat3(blend.frame);
   vec2 normal_uv = uv_from_normal(unit_normal * frame);
   vec2 mirror_uv = uv_from_direction(reflect_dir(view_dir, unit_normal) * frame);
-  radiance.rgb = textureLod(by_normal, normal_uv, 0.0).rgb + textureLod(by_mirror, mirror_uv, 0.0).rgb;
+  int warping = int(mode.warping);
+  float cosine = dot(unit_normal, view_dir);
+  radiance.rgb = textureLod(by_normal, normal_uv, 0.0).rgb * albedo_at(albedo, warping, WARP_NORMAL, cosine) +
+                 textureLod(by_mirror, mirror_uv, 0.0).rgb * albedo_at(albedo, warping, WARP_MIRROR, cosine);
   radiance.a = 1.0;
 }

@@ -4,21 +4,12 @@
 
 void main()
 {
-  bool split = mode.split > 0.5;
-  vec3 seen[3] = vec3[3](mirror_seen_0, mirror_seen_1, mirror_seen_2);
-  vec3 shares = blend_shares(blend.weights.xyz, vec3(seen[0].z, seen[1].z, seen[2].z));
-  by_mirror = vec4(0.0, 0.0, 0.0, 1.0);
-  for (int i = 0; i < 3; i++) {
-    int source = int(blend.sources[i]);
-    by_mirror.rgb += shares[i] * (split ? glossy_radiance(views, source, seen[i].xy) :
-                                          combined_radiance(views, source, seen[i].xy));
-  }
-  by_normal = vec4(0.0, 0.0, 0.0, 1.0);
-  if (split) {
-    seen = vec3[3](normal_seen_0, normal_seen_1, normal_seen_2);
-    shares = blend_shares(blend.weights.xyz, vec3(seen[0].z, seen[1].z, seen[2].z));
-    for (int i = 0; i < 3; i++) {
-      by_normal.rgb += shares[i] * diffuse_radiance(views, int(blend.sources[i]), seen[i].xy);
-    }
-  }
+  ivec3 sources = ivec3(blend.sources.xyz);
+  vec3 weights = blend.weights.xyz;
+  int warping = int(mode.warping);
+  vec3 normal_seen[3] = vec3[3](normal_seen_0, normal_seen_1, normal_seen_2);
+  vec3 mirror_seen[3] = vec3[3](mirror_seen_0, mirror_seen_1, mirror_seen_2);
+  by_normal = by_mirror = vec4(1.0);
+  by_normal.rgb = blend_sources(views, albedo, warping, WARP_NORMAL, sources, normal_seen, weights);
+  by_mirror.rgb = blend_sources(views, albedo, warping, WARP_MIRROR, sources, mirror_seen, weights);
 }

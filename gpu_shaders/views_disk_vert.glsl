@@ -1,12 +1,6 @@
 // Twin of core/shading.py `destination_by_mesh`, first half: at each vertex of the tessellated disk,
-// where every source shows its central direction (xy) and the confidence in it (z).
-#include "lib/reflection_warp_lib.glsl"
-
-vec3 seen_by(int warp, vec3 unit_normal, vec3 view_dir, vec3 source_dir)
-{
-  return vec3(source_uv(warp, unit_normal, view_dir, camera_frame(source_dir)),
-              confidence(warp, unit_normal, view_dir, source_dir));
-}
+// where every source shows its central direction, and at which cosine.
+#include "lib/radiance_views_lib.glsl"
 
 void main()
 {

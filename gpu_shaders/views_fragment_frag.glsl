@@ -13,8 +13,12 @@ void main()
     source_dirs[i] = geodesic_vertex(sphere, sources[i]);
   }
   vec3 weights = barycentric_weights(view_dir, source_dirs[0], source_dirs[1], source_dirs[2]);
-  bool split = mode.split > 0.5;
-  radiance.rgb = warped_by_normal(views, split, unit_normal, view_dir, sources, source_dirs, weights) +
-                 warped_by_mirror(views, split, unit_normal, view_dir, sources, source_dirs, weights);
-  radiance.a = 1.0;
+  int warping = int(mode.warping);
+  float cosine = dot(unit_normal, view_dir);
+  radiance = vec4(0.0, 0.0, 0.0, 1.0);
+  for (int warp = WARP_NORMAL; warp <= WARP_MIRROR; warp++) {
+    radiance.rgb += albedo_at(albedo, warping, warp, cosine) *
+                    warp_and_blend(
+                        views, albedo, warping, warp, unit_normal, view_dir, sources, source_dirs, weights);
+  }
 }

@@ -7,9 +7,11 @@ void main()
   vec3 view_dir = blend.frame[2].xyz;
   ivec3 sources = ivec3(blend.sources.xyz);
   vec3 source_dirs[3] = vec3[3](blend.source_dirs[0].xyz, blend.source_dirs[1].xyz, blend.source_dirs[2].xyz);
-  bool split = mode.split > 0.5;
   vec3 weights = blend.weights.xyz;
-  by_normal.rgb = warped_by_normal(views, split, unit_normal, view_dir, sources, source_dirs, weights);
-  by_mirror.rgb = warped_by_mirror(views, split, unit_normal, view_dir, sources, source_dirs, weights);
-  by_normal.a = by_mirror.a = 1.0;
+  int warping = int(mode.warping);
+  by_normal = by_mirror = vec4(1.0);
+  by_normal.rgb = warp_and_blend(
+      views, albedo, warping, WARP_NORMAL, unit_normal, view_dir, sources, source_dirs, weights);
+  by_mirror.rgb = warp_and_blend(
+      views, albedo, warping, WARP_MIRROR, unit_normal, view_dir, sources, source_dirs, weights);
 }

@@ -53,6 +53,12 @@ def random_views(count: int, size: int) -> RadianceViews:
     return RadianceViews(*maps)
 
 
+def with_random_albedo(views: RadianceViews) -> RadianceViews:
+    """The same maps with a table of albedo without any pattern, in [0.2, 1]."""
+    table = np.random.default_rng(3).uniform(0.2, 1.0, (2, 16, 3)).astype(np.float32)
+    return RadianceViews(views.diffuse, views.glossy, table)
+
+
 def interpolation_bound(by_uv: Radiance, size: int, radius: float) -> float:
     """Most that bilinear interpolation of a sphere map's texels errs within `radius` of the disk.
 

@@ -1,73 +1,78 @@
 // Twin of the blending in rsibr_addon/core/shading.py: [Cabral1999] sections 3 and 4.
 // Layer 2 i of the views' texture array is the diffuse map of view i, layer 2 i + 1 its glossy map.
+// Row 0 of the albedo texture is of the diffuse part, row 1 of the glossy part.
 #include "lib/reflection_warp_lib.glsl"
 
-// Weights times confidences, to sum 1.
-vec3 blend_shares(vec3 weights, vec3 trust)
+#define WARPING_SINGLE 0
+#define WARPING_SPLIT 1
+#define WARPING_ALBEDO 2
+
+// What radiance is divided by where a source saw it, and multiplied by where it is shown.
+vec3 albedo_at(sampler2D albedo, int warping, int warp, float cosine)
 {
-  vec3 product = weights * trust;
-  return product / (product.x + product.y + product.z);
+  if (warping != WARPING_ALBEDO) {
+    return vec3(1.0);
+  }
+  return textureLod(albedo, vec2(cosine, (warp == WARP_NORMAL) ? 0.25 : 0.75), 0.0).rgb;
 }
 
-vec3 diffuse_radiance(sampler2DArray views, int view, vec2 uv)
+// Where a source shows a surface point: u, v and the cosine at which it saw it.
+vec3 seen_by(int warp, vec3 normal, vec3 view_dir, vec3 source_dir)
 {
-  return textureLod(views, vec3(uv, float(2 * view)), 0.0).rgb;
+  return vec3(source_uv(warp, normal, view_dir, camera_frame(source_dir)),
+              source_cosine(warp, normal, view_dir, source_dir));
 }
 
-vec3 glossy_radiance(sampler2DArray views, int view, vec2 uv)
+// Radiance of one view that a warp carries.
+vec3 source_radiance(sampler2DArray views, int warping, int warp, int view, vec2 uv)
 {
-  return textureLod(views, vec3(uv, float(2 * view + 1)), 0.0).rgb;
+  vec3 diffuse = vec3(0.0);
+  vec3 glossy = vec3(0.0);
+  if (warp == WARP_NORMAL || warping == WARPING_SINGLE) {
+    diffuse = textureLod(views, vec3(uv, float(2 * view)), 0.0).rgb;
+  }
+  if (warp == WARP_MIRROR) {
+    glossy = textureLod(views, vec3(uv, float(2 * view + 1)), 0.0).rgb;
+  }
+  return diffuse + glossy;
 }
 
-vec3 combined_radiance(sampler2DArray views, int view, vec2 uv)
+// Three sources' radiance over albedo, weighted by barycentric weight times confidence. A single
+// warp carries nothing by the normal.
+vec3 blend_sources(sampler2DArray views,
+                   sampler2D albedo,
+                   int warping,
+                   int warp,
+                   ivec3 sources,
+                   vec3 seen[3],
+                   vec3 weights)
 {
-  return diffuse_radiance(views, view, uv) + glossy_radiance(views, view, uv);
-}
-
-// Confidence in each of three sources.
-vec3 confidences(int warp, vec3 normal, vec3 view_dir, vec3 source_dirs[3])
-{
-  return vec3(confidence(warp, normal, view_dir, source_dirs[0]),
-              confidence(warp, normal, view_dir, source_dirs[1]),
-              confidence(warp, normal, view_dir, source_dirs[2]));
-}
-
-// What is to be looked up by the normal: nothing, for a single warp.
-vec3 warped_by_normal(sampler2DArray views,
-                      bool split,
-                      vec3 normal,
-                      vec3 view_dir,
-                      ivec3 sources,
-                      vec3 source_dirs[3],
-                      vec3 weights)
-{
-  if (!split) {
+  if (warping == WARPING_SINGLE && warp == WARP_NORMAL) {
     return vec3(0.0);
   }
-  vec3 shares = blend_shares(weights, confidences(WARP_NORMAL, normal, view_dir, source_dirs));
+  vec3 shares = weights * vec3(confidence(seen[0].z), confidence(seen[1].z), confidence(seen[2].z));
+  shares /= shares.x + shares.y + shares.z;
   vec3 radiance = vec3(0.0);
   for (int i = 0; i < 3; i++) {
-    vec2 uv = source_uv(WARP_NORMAL, normal, view_dir, camera_frame(source_dirs[i]));
-    radiance += shares[i] * diffuse_radiance(views, sources[i], uv);
+    radiance += shares[i] * source_radiance(views, warping, warp, sources[i], seen[i].xy) /
+                albedo_at(albedo, warping, warp, seen[i].z);
   }
   return radiance;
 }
 
-// What is to be looked up by the mirrored view direction: glossy radiance, or the whole.
-vec3 warped_by_mirror(sampler2DArray views,
-                      bool split,
-                      vec3 normal,
-                      vec3 view_dir,
-                      ivec3 sources,
-                      vec3 source_dirs[3],
-                      vec3 weights)
+// The same from a surface point on: each source is asked where it shows the point.
+vec3 warp_and_blend(sampler2DArray views,
+                    sampler2D albedo,
+                    int warping,
+                    int warp,
+                    vec3 normal,
+                    vec3 view_dir,
+                    ivec3 sources,
+                    vec3 source_dirs[3],
+                    vec3 weights)
 {
-  vec3 shares = blend_shares(weights, confidences(WARP_MIRROR, normal, view_dir, source_dirs));
-  vec3 radiance = vec3(0.0);
-  for (int i = 0; i < 3; i++) {
-    vec2 uv = source_uv(WARP_MIRROR, normal, view_dir, camera_frame(source_dirs[i]));
-    radiance += shares[i] * (split ? glossy_radiance(views, sources[i], uv) :
-                                     combined_radiance(views, sources[i], uv));
-  }
-  return radiance;
+  vec3 seen[3] = vec3[3](seen_by(warp, normal, view_dir, source_dirs[0]),
+                         seen_by(warp, normal, view_dir, source_dirs[1]),
+                         seen_by(warp, normal, view_dir, source_dirs[2]));
+  return blend_sources(views, albedo, warping, warp, sources, seen, weights);
 }

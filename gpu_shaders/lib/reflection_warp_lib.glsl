@@ -17,11 +17,17 @@ vec2 source_uv(int warp, vec3 normal, vec3 view_dir, mat3 source_frame)
   return uv_from_direction(reflect_dir(view_dir, normal) * source_frame);
 }
 
-// Fades a source towards its singularity, where the warp leads to the rim of its map.
-float confidence(int warp, vec3 normal, vec3 view_dir, vec3 source_view_dir)
+// Cosine between normal and view at that place of the source map.
+float source_cosine(int warp, vec3 normal, vec3 view_dir, vec3 source_view_dir)
 {
-  float cosine = (warp == WARP_NORMAL) ?
-                     dot(normal, source_view_dir) :
-                     0.5 * length(reflect_dir(view_dir, normal) + source_view_dir);
+  if (warp == WARP_NORMAL) {
+    return dot(normal, source_view_dir);
+  }
+  return 0.5 * length(reflect_dir(view_dir, normal) + source_view_dir);
+}
+
+// Fades a source towards its singularity, where the warp leads to the rim of its map.
+float confidence(float cosine)
+{
   return clamp(cosine / TRUSTED_COSINE, LEAST_CONFIDENCE, 1.0);
 }

@@ -37,6 +37,40 @@ def relative_rmse(ours: ArrayLike, reference: ArrayLike, weight: ArrayLike) -> f
     return float(np.sqrt(np.sum(weight * dot(difference, difference)) / power))
 
 
+def relative_rmse_beyond_noise(
+    ours: ArrayLike, first: ArrayLike, second: ArrayLike, weight: ArrayLike
+) -> float:
+    """`relative_rmse` against what a noisy reference would be without its noise.
+
+    Parameters
+    ----------
+    ours, first, second : array_like, shape (..., channels)
+        Radiance; the last two are renders of the same with independent, unbiased noise.
+    weight : array_like, shape (...,)
+
+    Returns
+    -------
+    float
+        sqrt(sum w (ours - first).(ours - second) / sum w first.second), at least 0.
+
+    Raises
+    ------
+    RangeError
+        The reference is black, or nothing but noise, wherever it counts.
+
+    Notes
+    -----
+    Independent noises multiply to 0 on average, so the product's mean is the squared error itself:
+    the mean reference's own noise would be counted as error of ours.
+    """
+    first, second = np.asarray(first, dtype=np.float64), np.asarray(second, dtype=np.float64)
+    ours, weight = np.asarray(ours, dtype=np.float64), np.asarray(weight, dtype=np.float64)
+    power = np.sum(weight * dot(first, second))
+    if not power > 0.0:
+        raise RangeError("A reference that is black all over has no relative error: light the scene.")
+    return float(np.sqrt(max(np.sum(weight * dot(ours - first, ours - second)) / power, 0.0)))
+
+
 def unpremultiplied(rgba: Array) -> Array:
     """Mean radiance of the covered part of each pixel.
 

@@ -1,6 +1,6 @@
 """Radiance sphere maps of one material in one environment, seen from around it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -8,6 +8,10 @@ from .conventions import Array
 from .directions import camera_frame
 from .errors import RangeError, ShapeError
 from .geodesic import GeodesicSphere, geodesic_sphere
+
+
+def _constant_albedo() -> Array:
+    return np.ones((2, 1, 3), dtype=np.float32)
 
 
 @dataclass(frozen=True)
@@ -19,17 +23,21 @@ class RadianceViews:
     diffuse, glossy : ndarray, shape (V, size, size, 3), float32
         Reflected radiance of the glossy lobes, and of everything else (Lambert, emission); their
         sum is the whole. V is 12, 42 or 162, in the order of `geodesic_sphere(V).vertices`.
+    albedo : ndarray, shape (2, M, 3), float32
+        Directional albedo of the material, diffuse part in row 0 and glossy in row 1; column k is
+        for n.v = (k + 0.5) / M. By default the same for every view direction.
 
     Raises
     ------
     ShapeError
-        The two differ in shape, or the maps are not square.
+        The maps differ in shape, or are not square; the albedo is not of two rows.
     RangeError
         V is not one of `geodesic.VERTEX_COUNTS`.
     """
 
     diffuse: Array
     glossy: Array
+    albedo: Array = field(default_factory=_constant_albedo)
 
     def __post_init__(self) -> None:
         count, height, width, channels = self.diffuse.shape
@@ -38,6 +46,8 @@ class RadianceViews:
                 f"Radiance views need diffuse and glossy maps of equal, square size, not "
                 f"{self.diffuse.shape} and {self.glossy.shape}."
             )
+        if self.albedo.ndim != 3 or self.albedo.shape[::2] != (2, 3):
+            raise ShapeError(f"A table of albedo has the shape (2, M, 3), not {self.albedo.shape}.")
         geodesic_sphere(count)
 
     @property
@@ -67,7 +77,7 @@ class RadianceViews:
             raise RangeError(
                 f"There are only {len(self.diffuse)} views, not {vertex_count}: use fewer or capture more."
             )
-        return RadianceViews(self.diffuse[:vertex_count], self.glossy[:vertex_count])
+        return RadianceViews(self.diffuse[:vertex_count], self.glossy[:vertex_count], self.albedo)
 
     @property
     def combined(self) -> Array:

@@ -56,14 +56,40 @@ def source_uv(warp: Warp, normal: ArrayLike, view_dir: ArrayLike, source_frame: 
     return uv_from_normal(in_camera) if warp is Warp.NORMAL else uv_from_direction(in_camera)
 
 
-def confidence(warp: Warp, normal: ArrayLike, view_dir: ArrayLike, source_view_dir: ArrayLike) -> Array:
-    """How far a source map can be trusted for a surface point.
+def source_cosine(warp: Warp, normal: ArrayLike, view_dir: ArrayLike, source_view_dir: ArrayLike) -> Array:
+    """Cosine between normal and view, where a source map shows a surface point's central direction.
 
     Parameters
     ----------
     warp : Warp
     normal, view_dir, source_view_dir : array_like, shape (..., 3)
         Unit vectors in world coordinates.
+
+    Returns
+    -------
+    ndarray, shape (...,), float64
+        In [-1, 1]; negative where the normal faces away from the source, 0 at the singularity of
+        the mirror warp.
+
+    Notes
+    -----
+    GLSL twin: gpu_shaders/lib/reflection_warp_lib.glsl `source_cosine`, 1e-6.
+    """
+    normal, source = np.asarray(normal), np.asarray(source_view_dir)
+    if warp is Warp.NORMAL:
+        return dot(normal, source)
+    # The source's normal is the half vector of its view and the reflected direction.
+    half: Array = 0.5 * np.linalg.norm(reflect(view_dir, normal) + source, axis=-1)
+    return half
+
+
+def confidence(cosine: ArrayLike) -> Array:
+    """How far a source map can be trusted for what it saw at a cosine.
+
+    Parameters
+    ----------
+    cosine : array_like, shape (...,)
+        As `source_cosine` tells.
 
     Returns
     -------
@@ -79,11 +105,5 @@ def confidence(warp: Warp, normal: ArrayLike, view_dir: ArrayLike, source_view_d
     Cycles (docs/accuracy.md).
     GLSL twin: gpu_shaders/lib/reflection_warp_lib.glsl `confidence`, 2e-6.
     """
-    normal, source = np.asarray(normal), np.asarray(source_view_dir)
-    if warp is Warp.NORMAL:
-        cosine = dot(normal, source)
-    else:
-        # The source's normal is the half vector of its view and the reflected direction.
-        cosine = 0.5 * np.linalg.norm(reflect(view_dir, normal) + source, axis=-1)
-    trusted: Array = np.clip(cosine / TRUSTED_COSINE, LEAST_CONFIDENCE, 1.0)
+    trusted: Array = np.clip(np.asarray(cosine) / TRUSTED_COSINE, LEAST_CONFIDENCE, 1.0)
     return trusted

@@ -7,17 +7,44 @@ the paper does (`destination_by_mesh`), and `destination_lookup` shades from it.
 """
 
 from dataclasses import dataclass
+from enum import StrEnum
 
 import numpy as np
 
 from .conventions import Array, ArrayLike, Indices, texel_centres
-from .directions import camera_frame, reflect
+from .directions import camera_frame, dot, reflect
 from .disk_mesh import MARGIN, disk_mesh, interpolate
 from .geodesic import barycentric_weights, find_triangle
 from .maps import sphere_map
 from .radiance_views import RadianceViews
-from .reflection_warp import Warp, confidence, source_uv
+from .reflection_warp import Warp, confidence, source_cosine, source_uv
 from .resample import bilinear
+
+
+class Mode(StrEnum):
+    """How radiance views are brought to the view of a frame."""
+
+    PAPER = "paper"
+    TEXEL = "texel"
+    FRAGMENT = "fragment"
+
+
+class Warping(StrEnum):
+    """What is warped how.
+
+    SINGLE warps the whole radiance by the mirror direction. SPLIT warps diffuse radiance by the
+    normal and glossy by the mirror direction. ALBEDO is SPLIT of radiance over directional albedo:
+    a source saw a direction at another angle than the fragment does, and what Fresnel's equations
+    make of that is known without a picture.
+    """
+
+    SINGLE = "single"
+    SPLIT = "split"
+    ALBEDO = "albedo"
+
+
+LEAST_ALBEDO = 1e-3
+"""Added to albedo before it divides: what is black from everywhere stays so, noise and all."""
 
 
 @dataclass(frozen=True)
@@ -30,15 +57,21 @@ class Destination:
         Camera axes of the view as columns: T_d of [Cabral1999].
     by_normal, by_mirror : ndarray, shape (size, size, 3), float64
         Radiance to be looked up by the normal (diffuse; 0 for a single warp) and by the mirrored
-        view direction (glossy, or the whole).
+        view direction (glossy, or the whole); for `Warping.ALBEDO`, over albedo.
+    albedo : ndarray, shape (2, M, 3)
+        What the radiance by normal, and by mirror, is to be multiplied by, as
+        `RadianceViews.albedo`.
     """
 
     frame: Array
     by_normal: Array
     by_mirror: Array
+    albedo: Array
 
 
-def views_fragment(views: RadianceViews, normal: ArrayLike, view_dir: ArrayLike, split: bool) -> Array:
+def views_fragment(
+    views: RadianceViews, normal: ArrayLike, view_dir: ArrayLike, warping: Warping
+) -> Array:
     """Radiance of surface points, each blended from the three views around its own view direction.
 
     Parameters
@@ -46,9 +79,7 @@ def views_fragment(views: RadianceViews, normal: ArrayLike, view_dir: ArrayLike,
     views : RadianceViews
     normal, view_dir : array_like, shape (..., 3)
         Unit vectors in world coordinates.
-    split : bool
-        Warp diffuse radiance by the normal and glossy by the mirror direction; else the whole by
-        the mirror direction.
+    warping : Warping
 
     Returns
     -------
@@ -61,13 +92,14 @@ def views_fragment(views: RadianceViews, normal: ArrayLike, view_dir: ArrayLike,
     that perspective adds no error. GLSL twin: gpu_shaders/views_fragment_frag.glsl.
     """
     normal, view_dir = np.broadcast_arrays(np.asarray(normal, np.float64), np.asarray(view_dir, np.float64))
-    if split:
-        diffuse = _warp_and_blend(views, views.diffuse, Warp.NORMAL, normal, view_dir)
-        return diffuse + _warp_and_blend(views, views.glossy, Warp.MIRROR, normal, view_dir)
-    return _warp_and_blend(views, views.combined, Warp.MIRROR, normal, view_dir)
+    by_normal, by_mirror = _warp_and_blend(views, normal, view_dir, warping)
+    cosine, table = dot(normal, view_dir), _albedo(views, warping)
+    return by_normal * _at(table, Warp.NORMAL, cosine) + by_mirror * _at(table, Warp.MIRROR, cosine)
 
 
-def destination_by_texel(views: RadianceViews, view_dir: ArrayLike, size: int, split: bool) -> Destination:
+def destination_by_texel(
+    views: RadianceViews, view_dir: ArrayLike, size: int, warping: Warping
+) -> Destination:
     """The destination map of one view, warped per texel: the future work of [Cabral1999] section 6.
 
     Parameters
@@ -77,8 +109,7 @@ def destination_by_texel(views: RadianceViews, view_dir: ArrayLike, size: int, s
         Unit vector from the object to the eye.
     size : int
         Width and height of the destination map in texels.
-    split : bool
-        As in `views_fragment`.
+    warping : Warping
 
     Returns
     -------
@@ -91,17 +122,12 @@ def destination_by_texel(views: RadianceViews, view_dir: ArrayLike, size: int, s
     frame = camera_frame(view_dir)
     normal = sphere_map.normal_from_uv(texel_centres(size, size)) @ frame.T
     direction = np.broadcast_to(frame[:, 2], normal.shape)
-    if not split:
-        whole = _warp_and_blend(views, views.combined, Warp.MIRROR, normal, direction)
-        return Destination(frame, np.zeros_like(whole), whole)
-    return Destination(
-        frame,
-        _warp_and_blend(views, views.diffuse, Warp.NORMAL, normal, direction),
-        _warp_and_blend(views, views.glossy, Warp.MIRROR, normal, direction),
-    )
+    return Destination(frame, *_warp_and_blend(views, normal, direction, warping), _albedo(views, warping))
 
 
-def destination_by_mesh(views: RadianceViews, view_dir: ArrayLike, size: int, split: bool) -> Destination:
+def destination_by_mesh(
+    views: RadianceViews, view_dir: ArrayLike, size: int, warping: Warping
+) -> Destination:
     """The destination map of one view, warped at the vertices of a tessellated disk: the paper's way.
 
     Parameters and result are those of `destination_by_texel`.
@@ -118,20 +144,17 @@ def destination_by_mesh(views: RadianceViews, view_dir: ArrayLike, size: int, sp
     points = 2.0 * texel_centres(size, size) - 1.0
     # The corners of the map, outside the mesh's margin, are never looked up.
     points /= np.maximum(np.linalg.norm(points, axis=-1, keepdims=True) / (0.99 * MARGIN), 1.0)
+    table = _albedo(views, warping)
 
     def blend(maps: Array, warp: Warp) -> Array:
-        at_vertices = [
-            np.concatenate([uv, trust[:, None]], axis=-1)
-            for uv, trust in _seen_by(views, warp, vertex_normal, frame[:, 2], sources)
-        ]
-        seen = [interpolate(points, values) for values in at_vertices]
-        shares = _shares(weights, np.stack([values[..., 2] for values in seen], axis=-1))
-        return _weighted_sum(maps, sources, [values[..., :2] for values in seen], shares)
+        at_vertices = _seen(views, warp, vertex_normal, frame[:, 2], sources)
+        seen = np.stack([interpolate(points, at_vertices[..., i, :]) for i in range(3)], axis=-2)
+        return _blend(maps, warp, table, sources, seen, weights)
 
-    if not split:
+    if warping is Warping.SINGLE:
         whole = blend(views.combined, Warp.MIRROR)
-        return Destination(frame, np.zeros_like(whole), whole)
-    return Destination(frame, blend(views.diffuse, Warp.NORMAL), blend(views.glossy, Warp.MIRROR))
+        return Destination(frame, np.zeros_like(whole), whole, table)
+    return Destination(frame, blend(views.diffuse, Warp.NORMAL), blend(views.glossy, Warp.MIRROR), table)
 
 
 def destination_lookup(destination: Destination, normal: ArrayLike, view_dir: ArrayLike) -> Array:
@@ -154,50 +177,56 @@ def destination_lookup(destination: Destination, normal: ArrayLike, view_dir: Ar
     ([Cabral1999] section 2); in an orthographic view that is the point of the normal itself.
     GLSL twin: gpu_shaders/views_destination_frag.glsl.
     """
-    normal_in_camera = np.asarray(normal) @ destination.frame
-    mirror_in_camera = reflect(view_dir, normal) @ destination.frame
-    by_normal = bilinear(destination.by_normal, sphere_map.uv_from_normal(normal_in_camera), sphere_map.wrap)
-    by_mirror = bilinear(
-        destination.by_mirror, sphere_map.uv_from_direction(mirror_in_camera), sphere_map.wrap
-    )
-    return by_normal + by_mirror
+    normal_uv = sphere_map.uv_from_normal(np.asarray(normal) @ destination.frame)
+    mirror_uv = sphere_map.uv_from_direction(reflect(view_dir, normal) @ destination.frame)
+    cosine, table = dot(normal, view_dir), destination.albedo
+    diffuse = bilinear(destination.by_normal, normal_uv, sphere_map.wrap) * _at(table, Warp.NORMAL, cosine)
+    glossy = bilinear(destination.by_mirror, mirror_uv, sphere_map.wrap) * _at(table, Warp.MIRROR, cosine)
+    return diffuse + glossy
 
 
-def _warp_and_blend(views: RadianceViews, maps: Array, warp: Warp, normal: Array, view_dir: Array) -> Array:
-    """Look `maps` up in the three views around each view direction, shape (..., 3)."""
+def _warp_and_blend(
+    views: RadianceViews, normal: Array, view_dir: Array, warping: Warping
+) -> tuple[Array, Array]:
+    """What the three views around each view direction show, by normal and by mirror; over albedo."""
     sources = find_triangle(views.sphere, view_dir)
     weights = barycentric_weights(view_dir, views.sphere.vertices[sources])
-    seen = _seen_by(views, warp, normal, view_dir, sources)
-    shares = _shares(weights, np.stack([trust for _, trust in seen], axis=-1))
-    return _weighted_sum(maps, sources, [uv for uv, _ in seen], shares)
+    table = _albedo(views, warping)
+
+    def blend(maps: Array, warp: Warp) -> Array:
+        return _blend(maps, warp, table, sources, _seen(views, warp, normal, view_dir, sources), weights)
+
+    if warping is Warping.SINGLE:
+        whole = blend(views.combined, Warp.MIRROR)
+        return np.zeros_like(whole), whole
+    return blend(views.diffuse, Warp.NORMAL), blend(views.glossy, Warp.MIRROR)
 
 
-def _seen_by(
-    views: RadianceViews, warp: Warp, normal: Array, view_dir: Array, sources: Indices
-) -> list[tuple[Array, Array]]:
-    """Where each of the three sources shows the surface points, and the confidence in it."""
-    return [
-        (
-            source_uv(warp, normal, view_dir, views.frames[sources[..., i]]),
-            confidence(warp, normal, view_dir, views.sphere.vertices[sources[..., i]]),
-        )
-        for i in range(3)
-    ]
+def _seen(views: RadianceViews, warp: Warp, normal: Array, view_dir: Array, sources: Indices) -> Array:
+    """Where each of the three sources shows the surface points: u, v and cosine, shape (..., 3, 3)."""
+    normal, view_dir = normal[..., None, :], view_dir[..., None, :]
+    uv = source_uv(warp, normal, view_dir, views.frames[sources])
+    cosine = source_cosine(warp, normal, view_dir, views.sphere.vertices[sources])
+    return np.concatenate([uv, cosine[..., None]], axis=-1)
 
 
-def _shares(weights: Array, trust: Array) -> Array:
-    """Weights times confidences, to sum 1: [Cabral1999] section 4 divides by what it accumulated."""
-    product = weights * trust
-    shares: Array = product / product.sum(axis=-1, keepdims=True)
-    return shares
+def _blend(maps: Array, warp: Warp, table: Array, sources: Indices, seen: Array, weights: Array) -> Array:
+    """The sources' radiance over their albedo, each looked up at its own place, weighted and summed."""
+    cosine = seen[..., 2]
+    # Weights times confidences, to sum 1: [Cabral1999] section 4 divides by what it accumulated.
+    shares = weights * confidence(cosine)
+    shares = shares / shares.sum(axis=-1, keepdims=True)
+    radiance = bilinear(maps, seen[..., :2], sphere_map.wrap, layer=sources)
+    blended: Array = np.sum(shares[..., None] * radiance / _at(table, warp, cosine), axis=-2)
+    return blended
 
 
-def _weighted_sum(maps: Array, sources: Indices, uvs: list[Array], shares: Array) -> Array:
-    """Sum of the three sources' radiance, each looked up at its own place."""
-    return np.sum(
-        [
-            shares[..., i, None] * bilinear(maps, uvs[i], sphere_map.wrap, layer=sources[..., i])
-            for i in range(3)
-        ],
-        axis=0,
-    )
+def _albedo(views: RadianceViews, warping: Warping) -> Array:
+    """The table to divide and multiply by; ones where albedo plays no part."""
+    return views.albedo + LEAST_ALBEDO if warping is Warping.ALBEDO else np.ones((2, 1, 3))
+
+
+def _at(table: Array, warp: Warp, cosine: Array) -> Array:
+    """A row of the table of albedo, interpolated at cosines, shape (..., 3)."""
+    row = 0.25 if warp is Warp.NORMAL else 0.75
+    return bilinear(table, np.stack([cosine, np.full_like(cosine, row)], axis=-1), sphere_map.wrap)

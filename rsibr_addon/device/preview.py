@@ -6,9 +6,10 @@ import numpy as np
 from ..core.camera import Camera
 from ..core.conventions import Array
 from ..core.radiance_views import RadianceViews
+from ..core.shading import Mode, Warping
 from . import buffers
 from .context import ensure_context
-from .radiance_views import Draw, Mode, RadianceViewsOnDevice, mesh_batch
+from .radiance_views import Draw, RadianceViewsOnDevice, mesh_batch
 
 SAMPLES_PER_AXIS = 4
 """Each pixel is the mean of SAMPLES_PER_AXIS**2 samples: antialiased, as Cycles' box filter."""
@@ -40,7 +41,7 @@ class PreviewRenderer:
         camera: Camera,
         size: int,
         mode: Mode,
-        split: bool,
+        warping: Warping,
     ) -> Array:
         """Draw one picture.
 
@@ -53,8 +54,7 @@ class PreviewRenderer:
         size : int
             Width and height of the picture in pixels.
         mode : Mode
-        split : bool
-            As in `RadianceViewsOnDevice.draw`.
+        warping : Warping
 
         Returns
         -------
@@ -79,7 +79,7 @@ class PreviewRenderer:
             gpu.state.depth_test_set("LESS_EQUAL")
             gpu.state.depth_mask_set(True)
             try:
-                self._views.draw(mesh, placed, mode, split)
+                self._views.draw(mesh, placed, mode, warping)
             finally:
                 gpu.state.depth_test_set(depth_test)
                 gpu.state.depth_mask_set(depth_mask)

@@ -5,7 +5,6 @@ disk and shades from it; `texel` warps that map per texel; `fragment` needs no m
 """
 
 from dataclasses import dataclass
-from enum import StrEnum
 
 import gpu
 import numpy as np
@@ -15,15 +14,8 @@ from ..core.directions import camera_frame
 from ..core.disk_mesh import disk_mesh
 from ..core.geodesic import GeodesicSphere, barycentric_weights, find_triangle
 from ..core.radiance_views import RadianceViews
+from ..core.shading import LEAST_ALBEDO, Mode, Warping
 from . import buffers, shaders
-
-
-class Mode(StrEnum):
-    """How radiance views are brought to the view of the frame."""
-
-    PAPER = "paper"
-    TEXEL = "texel"
-    FRAGMENT = "fragment"
 
 
 _SCREEN_TRIANGLE = np.array([[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]])
@@ -70,9 +62,14 @@ class RadianceViewsOnDevice:
 
     def __init__(self, views: RadianceViews) -> None:
         self._sphere = views.sphere
-        self._size = views.size
         self._views = buffers.texture_array(_layers(views))
+        self._albedo = buffers.texture(_albedo_texels(views))
         self._geodesic = buffers.texture(_geodesic_texels(views.sphere))
+        last_level = len(views.sphere.levels) - 1
+        self._modes = {
+            warping: buffers.uniform_block(np.array([float(number), float(last_level)]))
+            for number, warping in enumerate(Warping)
+        }
         self._targets = (buffers.render_target(views.size), buffers.render_target(views.size))
         self._destination = gpu.types.GPUFrameBuffer(color_slots=self._targets)
         self._disk = buffers.triangles(
@@ -82,7 +79,7 @@ class RadianceViewsOnDevice:
             shaders.views_texel_shader(), {"position": _SCREEN_TRIANGLE}, np.array([[0, 1, 2]])
         )
 
-    def draw(self, mesh: gpu.types.GPUBatch, draw: Draw, mode: Mode, split: bool) -> None:
+    def draw(self, mesh: gpu.types.GPUBatch, draw: Draw, mode: Mode, warping: Warping) -> None:
         """Draw a mesh into the active frame buffer, with the depth test as it is set.
 
         Parameters
@@ -91,60 +88,46 @@ class RadianceViewsOnDevice:
             With attributes `position` and `normal`: see `mesh_batch`.
         draw : Draw
         mode : Mode
-        split : bool
-            Warp diffuse radiance by the normal and glossy by the mirror direction; else the whole
-            by the mirror direction.
+        warping : Warping
 
         Notes
         -----
         Reference: core/shading.py.
         """
-        if mode is Mode.FRAGMENT:
-            self._draw_fragment(mesh, draw, split)
-        else:
-            self._draw_destination(mesh, draw, mode, split)
-
-    def _draw_fragment(self, mesh: gpu.types.GPUBatch, draw: Draw, split: bool) -> None:
-        shader = shaders.views_fragment_shader()
         # Bound blocks must outlive the draw: Blender keeps no reference to them.
-        placed, mode = draw.uniforms(), self._mode_uniforms(split)
-        shader.bind()
+        placed, blend = draw.uniforms(), _blend_uniforms(self._sphere, draw.view_dir)
+        if mode is Mode.FRAGMENT:
+            shader = shaders.views_fragment_shader()
+            shader.bind()
+            shader.uniform_sampler("views", self._views)
+            shader.uniform_sampler("sphere", self._geodesic)
+        else:
+            self._make_destination(blend, mode, warping)
+            shader = shaders.views_destination_shader()
+            shader.bind()
+            shader.uniform_block("blend", blend)
+            shader.uniform_sampler("by_normal", self._targets[0])
+            shader.uniform_sampler("by_mirror", self._targets[1])
         shader.uniform_block("draw", placed)
-        shader.uniform_block("mode", mode)
-        shader.uniform_sampler("views", self._views)
-        shader.uniform_sampler("sphere", self._geodesic)
+        shader.uniform_block("mode", self._modes[warping])
+        shader.uniform_sampler("albedo", self._albedo)
         mesh.draw(shader)
 
-    def _draw_destination(self, mesh: gpu.types.GPUBatch, draw: Draw, mode: Mode, split: bool) -> None:
-        blend = _blend_uniforms(self._sphere, draw.view_dir)
-        self._make_destination(blend, mode, split)
-        shader = shaders.views_destination_shader()
-        placed = draw.uniforms()
-        shader.bind()
-        shader.uniform_block("draw", placed)
-        shader.uniform_block("blend", blend)
-        shader.uniform_sampler("by_normal", self._targets[0])
-        shader.uniform_sampler("by_mirror", self._targets[1])
-        mesh.draw(shader)
-
-    def _make_destination(self, blend: gpu.types.GPUUniformBuf, mode: Mode, split: bool) -> None:
+    def _make_destination(self, blend: gpu.types.GPUUniformBuf, mode: Mode, warping: Warping) -> None:
         if mode is Mode.PAPER:
             shader, surface = shaders.views_disk_shader(), self._disk
         else:
             shader, surface = shaders.views_texel_shader(), self._screen
-        modes = self._mode_uniforms(split)
         depth_test = gpu.state.depth_test_get()
         with self._destination.bind():
             gpu.state.depth_test_set("NONE")
             shader.bind()
             shader.uniform_block("blend", blend)
-            shader.uniform_block("mode", modes)
+            shader.uniform_block("mode", self._modes[warping])
             shader.uniform_sampler("views", self._views)
+            shader.uniform_sampler("albedo", self._albedo)
             surface.draw(shader)
         gpu.state.depth_test_set(depth_test)
-
-    def _mode_uniforms(self, split: bool) -> gpu.types.GPUUniformBuf:
-        return buffers.uniform_block(np.array([float(split), float(len(self._sphere.levels) - 1)]))
 
 
 def mesh_batch(positions: Array, normals: Array, triangles: Array) -> gpu.types.GPUBatch:
@@ -169,6 +152,13 @@ def _layers(views: RadianceViews) -> Array:
     layers[0::2, ..., :3] = views.diffuse
     layers[1::2, ..., :3] = views.glossy
     return layers
+
+
+def _albedo_texels(views: RadianceViews) -> Array:
+    """The table that radiance is divided and multiplied by; alpha is 1."""
+    texels = np.ones((*views.albedo.shape[:2], 4), dtype=np.float32)
+    texels[..., :3] = views.albedo + LEAST_ALBEDO
+    return texels
 
 
 def _geodesic_texels(sphere: GeodesicSphere) -> Array:

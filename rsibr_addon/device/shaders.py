@@ -10,7 +10,7 @@ from .shader_source import shader_source
 # Uniform blocks hold vec4 and mat4 alone: the layout is then the same for every driver.
 _DRAW_BLOCK = "struct Draw { mat4 model; mat4 normal_matrix; mat4 view; mat4 projection; vec4 eye; };"
 _BLEND_BLOCK = "struct Blend { mat4 frame; vec4 source_dirs[3]; vec4 weights; vec4 sources; };"
-_MODE_BLOCK = "struct Mode { float split; float last_level; float unused_0; float unused_1; };"
+_MODE_BLOCK = "struct Mode { float warping; float last_level; float unused_0; float unused_1; };"
 
 
 @cache
@@ -22,10 +22,9 @@ def views_fragment_shader() -> gpu.types.GPUShader:
     DeviceError
         The driver refuses the program; so for every function here.
     """
-    info = _mesh_interface(_MODE_BLOCK)
-    info.uniform_buf(1, "Mode", "mode")
-    info.sampler(0, "FLOAT_2D_ARRAY", "views")
-    info.sampler(1, "FLOAT_2D", "sphere")
+    info = _mesh_interface()
+    info.sampler(1, "FLOAT_2D_ARRAY", "views")
+    info.sampler(2, "FLOAT_2D", "sphere")
     return _build("views_fragment", info, "mesh_vert.glsl", "views_fragment_frag.glsl")
 
 
@@ -33,9 +32,9 @@ def views_fragment_shader() -> gpu.types.GPUShader:
 def views_destination_shader() -> gpu.types.GPUShader:
     """Draws a mesh from the destination maps of one view."""
     info = _mesh_interface(_BLEND_BLOCK)
-    info.uniform_buf(1, "Blend", "blend")
-    info.sampler(0, "FLOAT_2D", "by_normal")
-    info.sampler(1, "FLOAT_2D", "by_mirror")
+    info.uniform_buf(2, "Blend", "blend")
+    info.sampler(1, "FLOAT_2D", "by_normal")
+    info.sampler(2, "FLOAT_2D", "by_mirror")
     return _build("views_destination", info, "mesh_vert.glsl", "views_destination_frag.glsl")
 
 
@@ -61,10 +60,13 @@ def views_disk_shader() -> gpu.types.GPUShader:
     return _build("views_disk", info, "views_disk_vert.glsl", "views_disk_frag.glsl")
 
 
-def _mesh_interface(second_block: str) -> gpu.types.GPUShaderCreateInfo:
+def _mesh_interface(more_blocks: str = "") -> gpu.types.GPUShaderCreateInfo:
     info = gpu.types.GPUShaderCreateInfo()
-    info.typedef_source(_DRAW_BLOCK + second_block)  # Once: a second call would replace the first.
+    # Once for all blocks: a second call would replace the first.
+    info.typedef_source(_DRAW_BLOCK + _MODE_BLOCK + more_blocks)
     info.uniform_buf(0, "Draw", "draw")
+    info.uniform_buf(1, "Mode", "mode")
+    info.sampler(0, "FLOAT_2D", "albedo")
     info.vertex_in(0, "VEC3", "position")
     info.vertex_in(1, "VEC3", "normal")
     varyings = gpu.types.GPUStageInterfaceInfo("rsibr_surface")
@@ -80,7 +82,8 @@ def _destination_interface() -> gpu.types.GPUShaderCreateInfo:
     info.typedef_source(_BLEND_BLOCK + _MODE_BLOCK)
     info.uniform_buf(0, "Blend", "blend")
     info.uniform_buf(1, "Mode", "mode")
-    info.sampler(0, "FLOAT_2D_ARRAY", "views")
+    info.sampler(0, "FLOAT_2D", "albedo")
+    info.sampler(1, "FLOAT_2D_ARRAY", "views")
     info.vertex_in(0, "VEC2", "position")
     info.fragment_out(0, "VEC4", "by_normal")
     info.fragment_out(1, "VEC4", "by_mirror")

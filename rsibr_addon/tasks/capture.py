@@ -5,6 +5,7 @@ import warnings
 from pathlib import Path
 from typing import Any
 
+import bpy
 import numpy as np
 
 from ..core.camera import Camera
@@ -21,6 +22,7 @@ from ..files.map_set import MapSet, write_map_set
 from ..files.work_folder import work_folder
 from ..host.cameras import add_camera
 from ..host.cycles import RenderedView, RenderSettings, render_view
+from ..host.furnace import directional_albedo
 from ..host.materials import fingerprint, lasting_spec, load_material, material_name
 from ..host.scenes import temporary_scene
 from ..host.shape_dependence import shape_dependence
@@ -34,6 +36,9 @@ WORLD_HEIGHT = 512
 
 ENVIRONMENT = "environment"
 """Name and role of the part that holds the environment."""
+
+ALBEDO = "albedo"
+"""Name and role of the part that holds the material's directional albedo."""
 
 NOISE = "noise"
 """Attribute of a finished view: its relative standard error."""
@@ -127,15 +132,23 @@ class _Subject:
 
     def render(self, view: int, settings: RenderSettings) -> RenderedView:
         with temporary_scene() as scene:
-            material = load_material(self.job.material)
-            if fingerprint(material) != self.fingerprint:
-                raise SceneError(
-                    f"Material {self.job.material} was changed while it was captured: capture it again."
-                )
+            material = self._material()
             light_with(scene, self.environment)
             add_sphere(scene, material)
             add_camera(scene, Camera(tuple(self.view_dirs[view])))
             return render_view(scene, settings)
+
+    def albedo(self) -> Array:
+        with temporary_scene() as scene:
+            return directional_albedo(scene, self._material(), self.job.seed)
+
+    def _material(self) -> bpy.types.Material:
+        material = load_material(self.job.material)
+        if fingerprint(material) != self.fingerprint:
+            raise SceneError(
+                f"Material {self.job.material} was changed while it was captured: capture it again."
+            )
+        return material
 
 
 def _environment(spec: str | None) -> Environment:
@@ -168,8 +181,8 @@ def _is_finished(path: Path) -> bool:
 
 
 def _map_set(subject: _Subject, paths: list[Path]) -> MapSet:
-    maps: dict[str, Array] = {ENVIRONMENT: subject.environment.radiance}
-    parts: list[dict[str, Any]] = [{"name": ENVIRONMENT, "role": ENVIRONMENT}]
+    maps: dict[str, Array] = {ENVIRONMENT: subject.environment.radiance, ALBEDO: subject.albedo()}
+    parts: list[dict[str, Any]] = [{"name": name, "role": name} for name in maps]
     variance = 0.0
     for view, path in enumerate(paths):
         for part in read_parts(path):

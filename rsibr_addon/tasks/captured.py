@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.conventions import Array
 from ..core.environment import Environment
-from ..core.errors import MapSetError, RangeError
+from ..core.errors import MapSetError, RangeError, ShapeError
 from ..core.radiance_views import RadianceViews
 from ..files.map_set import MapSet, read_map_set
 
@@ -62,8 +62,10 @@ def read_captured(path: Path) -> Captured:
 def _views(path: Path, map_set: MapSet) -> RadianceViews:
     directions = {part["view"]: part["view_dir"] for part in map_set.header["parts"] if "view" in part}
     try:
-        views = RadianceViews(_stack(map_set, "diffuse"), _stack(map_set, "glossy"))
-    except RangeError as error:
+        # Other writers may not have measured albedo.
+        albedo = [map_set.maps[part["name"]] for part in map_set.header["parts"] if part["role"] == "albedo"]
+        views = RadianceViews(_stack(map_set, "diffuse"), _stack(map_set, "glossy"), *albedo)
+    except (RangeError, ShapeError) as error:
         raise MapSetError(f"{path} holds {len(directions)} views. {error}") from error
     # Files may round directions to six digits.
     written = np.array([directions[view] for view in sorted(directions)])

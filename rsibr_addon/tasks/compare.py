@@ -9,7 +9,7 @@ from ..core.camera import Camera
 from ..core.conventions import Array
 from ..core.directions import normalize
 from ..core.errors import MapSetError
-from ..core.metrics import relative_rmse, unpremultiplied
+from ..core.metrics import relative_rmse, relative_rmse_beyond_noise, unpremultiplied
 from ..core.progress import Progress, Steps
 from ..device.preview import PreviewRenderer
 from ..files.folders import check_folder_target, folder_written_aside
@@ -59,7 +59,8 @@ def compare(
     Notes
     -----
     Errors are those of radiance where both pictures cover a pixel, weighted by the lesser coverage,
-    so that how each samples a silhouette does not count.
+    so that how each samples a silhouette does not count. Cycles' noise is not counted either: see
+    `core.metrics.relative_rmse_beyond_noise`.
     """
     check_folder_target(output, RESULT, force)
     total = settings.views + 2
@@ -120,16 +121,16 @@ class _Easel:
         counts = settings.captured_views or (whole,)
         self._renderers = {count: PreviewRenderer(captured.views.coarser(count)) for count in counts}
         self.ways = [
-            Way(count, mode, split)
+            Way(count, mode, warping)
             for count in counts
             for mode in settings.modes
-            for split in settings.splits
+            for warping in settings.warpings
         ]
 
     def draw(self, way: Way, camera: Camera) -> Array:
         """A picture of radiance times coverage, and coverage, shape (size, size, 4)."""
         mesh = self._mesh.positions, self._mesh.normals, self._mesh.triangles
-        return self._renderers[way.captured_views].draw(*mesh, camera, self._size, way.mode, way.split)
+        return self._renderers[way.captured_views].draw(*mesh, camera, self._size, way.mode, way.warping)
 
 
 def _cameras(settings: ComparisonSettings) -> list[Camera]:
@@ -148,10 +149,13 @@ def _subject(map_set: Path, captured: Captured, settings: ComparisonSettings) ->
 
 
 def _error(way: Way, pictures: list[Array], references: list[Reference]) -> WayError:
-    ours, theirs = np.stack(pictures), np.stack([reference.rgba for reference in references])
-    compared = unpremultiplied(ours), unpremultiplied(theirs), np.minimum(ours[..., 3], theirs[..., 3])
-    per_view = tuple(relative_rmse(*each) for each in zip(*compared, strict=True))
-    return WayError(way, per_view, pooled=relative_rmse(*compared))
+    ours = np.stack(pictures)
+    first = np.stack([reference.first for reference in references])
+    second = np.stack([reference.second for reference in references])
+    coverage = np.minimum(ours[..., 3], np.minimum(first[..., 3], second[..., 3]))
+    compared = unpremultiplied(ours), unpremultiplied(first), unpremultiplied(second), coverage
+    per_view = tuple(relative_rmse_beyond_noise(*each) for each in zip(*compared, strict=True))
+    return WayError(way, per_view, pooled=relative_rmse_beyond_noise(*compared))
 
 
 def _noise(references: list[Reference]) -> float:

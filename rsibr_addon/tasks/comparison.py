@@ -7,7 +7,7 @@ from statistics import median
 from typing import Any, Self
 
 from ..core.errors import RangeError
-from ..device.radiance_views import Mode
+from ..core.shading import Mode, Warping
 
 LARGEST = 1024
 """Width and height of the largest picture to compare."""
@@ -32,8 +32,7 @@ class ComparisonSettings:
     samples : int
         Cycles' samples a pixel, at least 4: two renders of half as many each tell the noise.
     modes : tuple of Mode
-    splits : tuple of bool
-        Single warp (False), split warp (True).
+    warpings : tuple of Warping
     captured_views : tuple of int
         Draw also from the first 12 or 42 captured views alone; empty for all of them.
 
@@ -48,9 +47,9 @@ class ComparisonSettings:
     mesh: str = "sphere"
     field_of_view: float | None = None
     size: int = 128
-    samples: int = 256
+    samples: int = 64
     modes: tuple[Mode, ...] = tuple(Mode)
-    splits: tuple[bool, ...] = (False, True)
+    warpings: tuple[Warping, ...] = tuple(Warping)
     captured_views: tuple[int, ...] = ()
 
     def __post_init__(self) -> None:
@@ -71,27 +70,22 @@ class Way:
     captured_views : int
         How many views it blends from.
     mode : Mode
-    split : bool
+    warping : Warping
     """
 
     captured_views: int
     mode: Mode
-    split: bool
-
-    @property
-    def warp(self) -> str:
-        """`split` as the command line says it."""
-        return "split" if self.split else "single"
+    warping: Warping
 
     @property
     def slug(self) -> str:
         """A name for files and pages: 12-fragment-split."""
-        return f"{self.captured_views}-{self.mode}-{self.warp}"
+        return f"{self.captured_views}-{self.mode}-{self.warping}"
 
 
 @dataclass(frozen=True)
 class WayError:
-    """Relative RMSE of one way to draw, see `core.metrics.relative_rmse`.
+    """Relative RMSE of one way to draw, see `core.metrics.relative_rmse_beyond_noise`.
 
     Attributes
     ----------
@@ -168,9 +162,10 @@ class Comparison:
             for name, value in plain["settings"].items()
         }
         settings["modes"] = tuple(Mode(mode) for mode in settings["modes"])
+        settings["warpings"] = tuple(Warping(warping) for warping in settings["warpings"])
         errors = tuple(
             WayError(
-                Way(each["captured_views"], Mode(each["mode"]), each["split"]),
+                Way(each["captured_views"], Mode(each["mode"]), Warping(each["warping"])),
                 tuple(each["per_view"]),
                 each["pooled"],
             )
@@ -201,11 +196,11 @@ def comparison_table(comparisons: Sequence[Comparison]) -> str:
         A row for each material, environment and number of captured views, in the order given; a
         column for each mode and warp, and one for the noise of the references.
     """
-    columns = list(dict.fromkeys((e.way.mode, e.way.warp) for c in comparisons for e in c.errors))
-    head = ["material", "environment", "views", *(f"{mode}, {warp}" for mode, warp in columns), "noise"]
+    columns = list(dict.fromkeys((e.way.mode, e.way.warping) for c in comparisons for e in c.errors))
+    head = ["material", "environment", "views", *(f"{mode}, {warping}" for mode, warping in columns), "noise"]
     rows = [head, ["---"] * 3 + ["---:"] * (len(columns) + 1)]
     for comparison in comparisons:
-        pooled = {(e.way.captured_views, e.way.mode, e.way.warp): e.pooled for e in comparison.errors}
+        pooled = {(e.way.captured_views, e.way.mode, e.way.warping): e.pooled for e in comparison.errors}
         for captured_views in dict.fromkeys(way[0] for way in pooled):
             errors = (pooled.get((captured_views, *column), math.nan) for column in columns)
             numbers = [f"{number:.3f}" for number in (*errors, comparison.reference_noise)]

@@ -11,8 +11,8 @@ from ..core.camera import Camera
 from ..core.conventions import Array
 from ..core.errors import OutputFileError, RangeError
 from ..core.progress import Progress, Steps
+from ..core.shading import Mode, Warping
 from ..device.preview import PreviewRenderer
-from ..device.radiance_views import Mode
 from ..files.atomic import check_target, written_aside
 from ..files.pictures import write_exr
 from ..host.meshes import TriangleMesh, load_mesh
@@ -40,9 +40,7 @@ class PreviewSettings:
     size : int
         Width and height in pixels, 1 to `LARGEST`.
     mode : Mode
-    split : bool
-        Warp diffuse radiance by the normal and glossy by the mirror direction; else the whole by
-        the mirror direction.
+    warping : Warping
 
     Raises
     ------
@@ -54,7 +52,7 @@ class PreviewSettings:
     mesh: str = "sphere"
     size: int = 512
     mode: Mode = Mode.FRAGMENT
-    split: bool = True
+    warping: Warping = Warping.ALBEDO
 
     def __post_init__(self) -> None:
         if not 1 <= self.size <= LARGEST:
@@ -165,7 +163,7 @@ class _Studio:
     def __call__(self, camera: Camera) -> Array:
         mesh, settings = self._mesh, self._settings
         return self._renderer.draw(
-            mesh.positions, mesh.normals, mesh.triangles, camera, settings.size, settings.mode, settings.split
+            mesh.positions, mesh.normals, mesh.triangles, camera, settings.size, settings.mode, settings.warping
         )
 
 

@@ -10,6 +10,7 @@ from rsibr.rsibr_addon.core.reflection_warp import (
     TRUSTED_COSINE,
     Warp,
     confidence,
+    source_cosine,
     source_uv,
 )
 
@@ -56,7 +57,7 @@ def test_a_warp_keeps_the_central_direction(warp: Warp) -> None:
 def test_swapping_the_roles_leads_back(warp: Warp) -> None:
     p_s, cosine = warped(warp)
     back = source_uv(warp, normals(SOURCES, p_s), SOURCES, camera_frame(DESTINATIONS))
-    trusted = confidence(warp, normals(DESTINATIONS, UV), DESTINATIONS, SOURCES) > 0.1
+    trusted = confidence(source_cosine(warp, normals(DESTINATIONS, UV), DESTINATIONS, SOURCES)) > 0.1
     assert np.mean(trusted) > 0.4
     # An error of the direction, eps / cosine there, is divided by the destination's cosine as well.
     own_cosine = sphere_map.normal_from_uv(UV)[:, 2]
@@ -71,7 +72,9 @@ def test_a_map_warps_to_itself_by_nothing(warp: Warp) -> None:
         source_uv(warp, normal, DESTINATIONS, camera_frame(DESTINATIONS)), UV, atol=1e-14
     )
     expected = np.minimum(dot(normal, DESTINATIONS) / TRUSTED_COSINE, 1.0)
-    np.testing.assert_allclose(confidence(warp, normal, DESTINATIONS, DESTINATIONS), expected, atol=1e-14)
+    np.testing.assert_allclose(
+        confidence(source_cosine(warp, normal, DESTINATIONS, DESTINATIONS)), expected, atol=1e-14
+    )
 
 
 def test_the_normal_warp_does_not_know_the_view() -> None:
@@ -84,7 +87,7 @@ def test_the_normal_warp_does_not_know_the_view() -> None:
 @pytest.mark.parametrize("warp", Warp)
 def test_confidence_is_the_cosine_in_the_source_map(warp: Warp) -> None:
     p_s, cosine = warped(warp)
-    trust = confidence(warp, normals(DESTINATIONS, UV), DESTINATIONS, SOURCES)
+    trust = confidence(source_cosine(warp, normals(DESTINATIONS, UV), DESTINATIONS, SOURCES))
     np.testing.assert_allclose(trust, np.clip(cosine / TRUSTED_COSINE, LEAST_CONFIDENCE, 1.0), atol=1e-12)
     # On the map itself: z where p_s lands, which is 0, hence no trust, all along the rim.
     z = sphere_map.normal_from_uv(p_s)[:, 2]
@@ -96,12 +99,16 @@ def test_confidence_is_the_cosine_in_the_source_map(warp: Warp) -> None:
 def test_no_trust_at_the_singularities() -> None:
     # A mirror that shows what lies straight behind the source; a normal that the source sees edge-on.
     normal = normalize(DESTINATIONS - SOURCES)
-    trust = confidence(Warp.MIRROR, normal, DESTINATIONS, SOURCES)
+    trust = confidence(source_cosine(Warp.MIRROR, normal, DESTINATIONS, SOURCES))
     np.testing.assert_allclose(reflect(DESTINATIONS, normal), -SOURCES, atol=1e-12)
     np.testing.assert_array_equal(trust, LEAST_CONFIDENCE)
     edge_on = normalize(np.cross(DESTINATIONS, SOURCES))
-    np.testing.assert_array_equal(confidence(Warp.NORMAL, edge_on, DESTINATIONS, SOURCES), LEAST_CONFIDENCE)
-    np.testing.assert_array_equal(confidence(Warp.NORMAL, -SOURCES, DESTINATIONS, SOURCES), LEAST_CONFIDENCE)
+    np.testing.assert_array_equal(
+        confidence(source_cosine(Warp.NORMAL, edge_on, DESTINATIONS, SOURCES)), LEAST_CONFIDENCE
+    )
+    np.testing.assert_array_equal(
+        confidence(source_cosine(Warp.NORMAL, -SOURCES, DESTINATIONS, SOURCES)), LEAST_CONFIDENCE
+    )
 
 
 def test_what_the_source_cannot_see_lands_on_its_rim() -> None:

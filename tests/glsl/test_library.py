@@ -6,16 +6,16 @@ from functools import cache
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core import directions, geodesic, reflection_warp
+from rsibr.rsibr_addon.core import directions, geodesic
 from rsibr.rsibr_addon.core.directions import camera_frame, dot, normalize
 from rsibr.rsibr_addon.core.geodesic import VERTEX_COUNTS, geodesic_sphere
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.radiance_views import RadianceViews
-from rsibr.rsibr_addon.core.reflection_warp import Warp
+from rsibr.rsibr_addon.core.reflection_warp import Warp, confidence, source_cosine, source_uv
 from rsibr.rsibr_addon.core.resample import bilinear
-from rsibr.rsibr_addon.core.shading import views_fragment
+from rsibr.rsibr_addon.core.shading import LEAST_ALBEDO, Warping, views_fragment
 from rsibr.rsibr_addon.device import buffers
-from rsibr.rsibr_addon.device.radiance_views import _geodesic_texels, _layers
+from rsibr.rsibr_addon.device.radiance_views import _albedo_texels, _geodesic_texels, _layers
 from rsibr.rsibr_addon.device.shader_source import SHADER_FOLDER
 from rsibr.tests.glsl.evaluation import Samplers, evaluate
 from rsibr.tests.glsl.twins import (
@@ -29,7 +29,7 @@ from rsibr.tests.glsl.twins import (
     single,
     unit_vectors,
 )
-from rsibr.tests.synthetic_views import random_views
+from rsibr.tests.synthetic_views import random_views, with_random_albedo
 
 
 def frames_as_rows(frames: np.ndarray) -> np.ndarray:
@@ -210,62 +210,77 @@ def points_and_sources() -> list[np.ndarray]:
 def place_or_anywhere(warp: Warp) -> Callable[..., np.ndarray]:
     """1e-5 where the source is trusted, beyond which no place is promised."""
     return lambda normal, view_dir, x, y, z: np.where(
-        reflection_warp.confidence(warp, normal, view_dir, z) > 0.1, 1e-5, 1.0
+        confidence(source_cosine(warp, normal, view_dir, z)) > 0.1, 1e-5, 1.0
     )[:, None, None]
 
 
 def warp_twins(warp: Warp) -> dict[str, Twin]:
     number = f"WARP_{warp.name}"
+
+    def uv_and_cosine(normal: np.ndarray, view_dir: np.ndarray, *axes: np.ndarray) -> np.ndarray:
+        uv = source_uv(warp, normal, view_dir, np.stack(axes, axis=-1))
+        return np.c_[uv, source_cosine(warp, normal, view_dir, axes[2])]
+
     return {
         f"source_uv {warp}": Twin(
             "reflection_warp_lib.glsl",
             f"result_0.xy = source_uv({number}, in_0.xyz, in_1.xyz, mat3(in_2.xyz, in_3.xyz, in_4.xyz));",
             points_and_sources,
-            lambda normal, view_dir, *axes: reflection_warp.source_uv(
-                warp, normal, view_dir, np.stack(axes, axis=-1)
-            ),
+            lambda *arguments: uv_and_cosine(*arguments)[:, :2],
             place_or_anywhere(warp),
         ),
-        f"confidence {warp}": Twin(
+        f"source_cosine {warp}": Twin(
             "reflection_warp_lib.glsl",
-            f"result_0.x = confidence({number}, in_0.xyz, in_1.xyz, in_2.xyz);",
+            f"result_0.x = source_cosine({number}, in_0.xyz, in_1.xyz, in_2.xyz);",
             lambda: [points_and_sources()[i] for i in (0, 1, 4)],
-            lambda *vectors: reflection_warp.confidence(warp, *vectors)[:, None],
-            2e-6,
+            lambda *vectors: source_cosine(warp, *vectors)[:, None],
+            1e-6,
         ),
-        f"confidences {warp}": Twin(
+        f"seen_by {warp}": Twin(
             "radiance_views_lib.glsl",
-            "vec3 sources[3] = vec3[3](in_2.xyz, in_3.xyz, in_4.xyz);"
-            f"result_0.xyz = confidences({number}, in_0.xyz, in_1.xyz, sources);",
+            f"result_0.xyz = seen_by({number}, in_0.xyz, in_1.xyz, in_4.xyz);",
             points_and_sources,
-            lambda normal, view_dir, *sources: np.stack(
-                [reflection_warp.confidence(warp, normal, view_dir, source) for source in sources], axis=-1
-            ),
-            2e-6,
+            uv_and_cosine,
+            place_or_anywhere(warp),
         ),
     }
 
 
-REFLECTION_WARP = warp_twins(Warp.NORMAL) | warp_twins(Warp.MIRROR)
+REFLECTION_WARP = (
+    warp_twins(Warp.NORMAL)
+    | warp_twins(Warp.MIRROR)
+    | {
+        "confidence": Twin(
+            "reflection_warp_lib.glsl",
+            "result_0.x = confidence(in_0.x);",
+            lambda: [single(np.random.default_rng(9).uniform(-1.0, 1.0, (COUNT, 1)))],
+            confidence,
+            1e-6,
+        )
+    }
+)
 
-VIEWS = random_views(12, 8)
+VIEWS = with_random_albedo(random_views(12, 8))
 FILTERING = 2.0 / 512.0
 """Hardware may round the weight of a texel to 8 bits along each axis; neighbours here differ by up to 1."""
 
+WARPS = (Warp.NORMAL, Warp.MIRROR)
+CARRIED = {
+    (Warping.SINGLE, Warp.NORMAL): np.zeros_like(VIEWS.diffuse),
+    (Warping.SINGLE, Warp.MIRROR): VIEWS.combined,
+    (Warping.SPLIT, Warp.NORMAL): VIEWS.diffuse,
+    (Warping.SPLIT, Warp.MIRROR): VIEWS.glossy,
+    (Warping.ALBEDO, Warp.NORMAL): VIEWS.diffuse,
+    (Warping.ALBEDO, Warp.MIRROR): VIEWS.glossy,
+}
+"""The radiance that each warp carries to where it is shown."""
 
-def views_sampler() -> Samplers:
-    return {"views": ("FLOAT_2D_ARRAY", buffers.texture_array(_layers(VIEWS)))}
 
-
-def lookup_twin(name: str, maps: np.ndarray, tolerance: float) -> Twin:
-    return Twin(
-        "radiance_views_lib.glsl",
-        f"result_0.xyz = {name}(views, int(in_1.x), in_0.xy);",
-        lambda: [disk_points(), np.random.default_rng(7).integers(0, 12, (COUNT, 1)).astype(np.float64)],
-        lambda uv, view: bilinear(maps, uv, sphere_map.wrap, layer=view[:, 0].astype(int)),
-        tolerance,
-        samplers=views_sampler,
-    )
+def views_samplers() -> Samplers:
+    return {
+        "views": ("FLOAT_2D_ARRAY", buffers.texture_array(_layers(VIEWS))),
+        "albedo": ("FLOAT_2D", buffers.texture(_albedo_texels(VIEWS))),
+    }
 
 
 @cache
@@ -281,51 +296,86 @@ def blend_arguments() -> list[np.ndarray]:
     return [normal, view_dir, sources.astype(np.float64), single(weights)]
 
 
-def blend_twin(name: str, split: bool, reference: RadianceViews | None) -> Twin:
-    """`name` in one mode; `reference` are views whose split shading is what it should say, or None for 0."""
-    vertices = ", ".join(f"vec3({x!r}, {y!r}, {z!r})" for x, y, z in VIEWS.sphere.vertices.tolist())
-    return Twin(
-        "radiance_views_lib.glsl",
-        f"vec3 vertices[12] = vec3[12]({vertices});"
-        "ivec3 sources = ivec3(in_2.xyz + 0.5);"
-        "vec3 source_dirs[3] = vec3[3](vertices[sources.x], vertices[sources.y], vertices[sources.z]);"
-        f"bool split = {str(split).lower()};"
-        f"result_0.xyz = {name}(views, split, in_0.xyz, in_1.xyz, sources, source_dirs, in_3.xyz);",
-        blend_arguments,
-        lambda normal, view_dir, *_: (
-            np.zeros_like(normal) if reference is None else views_fragment(reference, normal, view_dir, True)
+def table_at(warping: Warping, warp: Warp, cosine: np.ndarray) -> np.ndarray:
+    """What radiance is divided by, by hand: linear between the table's columns."""
+    if warping is not Warping.ALBEDO:
+        return np.ones((*np.shape(cosine), 3))
+    row = VIEWS.albedo[WARPS.index(warp)]
+    columns = (np.arange(len(row)) + 0.5) / len(row)
+    return np.stack([np.interp(cosine, columns, row[:, i]) for i in range(3)], axis=-1) + LEAST_ALBEDO
+
+
+def blended(warping: Warping, warp: Warp, normal: np.ndarray, view_dir: np.ndarray) -> np.ndarray:
+    """What a fragment shows of one part, less the albedo at its own cosine."""
+    parts = {carried: np.zeros_like(VIEWS.diffuse) for carried in ("diffuse", "glossy")}
+    parts["diffuse" if warp is Warp.NORMAL else "glossy"] = CARRIED[warping, warp]
+    alone = RadianceViews(parts["diffuse"], parts["glossy"], VIEWS.albedo)
+    shown_as = warping if warping is Warping.ALBEDO else Warping.SPLIT
+    return views_fragment(alone, normal, view_dir, shown_as) / table_at(warping, warp, dot(normal, view_dir))
+
+
+def blending_tolerance(warping: Warping) -> float:
+    """Filtering, and places off by 1e-5 of the map, 8e-5 of a texel; over the least albedo, 0.2."""
+    return 2.0 * (FILTERING + 2.0 * 8e-5) / (0.2 if warping is Warping.ALBEDO else 1.0)
+
+
+VERTICES = ", ".join(f"vec3({x!r}, {y!r}, {z!r})" for x, y, z in VIEWS.sphere.vertices.tolist())
+SOURCES = (
+    f"vec3 vertices[12] = vec3[12]({VERTICES});"
+    "ivec3 sources = ivec3(in_2.xyz + 0.5);"
+    "vec3 source_dirs[3] = vec3[3](vertices[sources.x], vertices[sources.y], vertices[sources.z]);"
+)
+
+
+def blending_twins(warping: Warping, warp: Warp) -> dict[str, Twin]:
+    numbers = f"WARPING_{warping.name}, WARP_{warp.name}"
+    seen = ", ".join(f"seen_by(WARP_{warp.name}, in_0.xyz, in_1.xyz, source_dirs[{i}])" for i in range(3))
+    of_point = f"views, albedo, {numbers}, in_0.xyz, in_1.xyz, sources, source_dirs, in_3.xyz"
+    of_places = f"views, albedo, {numbers}, sources, vec3[3]({seen}), in_3.xyz"
+    return {
+        f"albedo_at {warping} {warp}": Twin(
+            "radiance_views_lib.glsl",
+            f"result_0.xyz = albedo_at(albedo, {numbers}, in_0.x);",
+            lambda: [single(np.random.default_rng(10).uniform(-0.2, 1.0, (COUNT, 1)))],
+            lambda cosine: table_at(warping, warp, cosine[:, 0]),
+            FILTERING,
+            samplers=views_samplers,
         ),
-        # Filtering, and places off by 1e-5 of the map, 8e-5 of a texel, along each axis.
-        2.0 * (FILTERING + 2.0 * 8e-5),
-        samplers=views_sampler,
-    )
+        f"source_radiance {warping} {warp}": Twin(
+            "radiance_views_lib.glsl",
+            f"result_0.xyz = source_radiance(views, {numbers}, int(in_1.x), in_0.xy);",
+            lambda: [disk_points(), np.random.default_rng(7).integers(0, 12, (COUNT, 1)).astype(np.float64)],
+            lambda uv, view: bilinear(
+                CARRIED[warping, warp], uv, sphere_map.wrap, layer=view[:, 0].astype(int)
+            ),
+            2.0 * FILTERING,
+            samplers=views_samplers,
+        ),
+        f"blend_sources {warping} {warp}": Twin(
+            "radiance_views_lib.glsl",
+            f"{SOURCES} result_0.xyz = blend_sources({of_places});",
+            blend_arguments,
+            lambda normal, view_dir, *_: blended(warping, warp, normal, view_dir),
+            blending_tolerance(warping),
+            samplers=views_samplers,
+        ),
+        f"warp_and_blend {warping} {warp}": Twin(
+            "radiance_views_lib.glsl",
+            f"{SOURCES} result_0.xyz = warp_and_blend({of_point});",
+            blend_arguments,
+            lambda normal, view_dir, *_: blended(warping, warp, normal, view_dir),
+            blending_tolerance(warping),
+            samplers=views_samplers,
+        ),
+    }
 
-
-def weights_and_trust() -> list[np.ndarray]:
-    """Weights, those of vertices and edges among them, and confidences."""
-    rng = np.random.default_rng(8)
-    edges = [*np.eye(3), (0.5, 0.5, 0.0), (0.0, 0.1, 0.9)]
-    weights = np.concatenate([edges, rng.dirichlet((0.5, 0.5, 0.5), COUNT - len(edges))])
-    return [single(weights), single(10.0 ** rng.uniform(-3.0, 0.0, (COUNT, 3)))]
-
-
-NOTHING = np.zeros_like(VIEWS.diffuse)
 
 RADIANCE_VIEWS = {
-    "blend_shares": Twin(
-        "radiance_views_lib.glsl",
-        "result_0.xyz = blend_shares(in_0.xyz, in_1.xyz);",
-        weights_and_trust,
-        lambda weights, trust: weights * trust / (weights * trust).sum(axis=-1, keepdims=True),
-        1e-6,
-    ),
-    "diffuse_radiance": lookup_twin("diffuse_radiance", VIEWS.diffuse, FILTERING),
-    "glossy_radiance": lookup_twin("glossy_radiance", VIEWS.glossy, FILTERING),
-    "combined_radiance": lookup_twin("combined_radiance", VIEWS.combined, 2.0 * FILTERING),
-    "warped_by_normal single": blend_twin("warped_by_normal", False, None),
-    "warped_by_normal split": blend_twin("warped_by_normal", True, RadianceViews(VIEWS.diffuse, NOTHING)),
-    "warped_by_mirror single": blend_twin("warped_by_mirror", False, RadianceViews(NOTHING, VIEWS.combined)),
-    "warped_by_mirror split": blend_twin("warped_by_mirror", True, RadianceViews(NOTHING, VIEWS.glossy)),
+    name: twin
+    for warping in Warping
+    for warp in WARPS
+    if (warping, warp) != (Warping.SINGLE, Warp.NORMAL)
+    for name, twin in blending_twins(warping, warp).items()
 }
 
 TWINS = DIRECTIONS | DRAW | SPHERE_MAP | GEODESIC | REFLECTION_WARP | RADIANCE_VIEWS

@@ -9,9 +9,9 @@ from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.directions import dot, normalize
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.radiance_views import RadianceViews
-from rsibr.rsibr_addon.device.preview import SAMPLES_PER_AXIS, PreviewRenderer
 from rsibr.rsibr_addon.core.shading import Mode, Warping
-from rsibr.tests.synthetic_views import random_views, smooth_views
+from rsibr.rsibr_addon.device.preview import SAMPLES_PER_AXIS, PreviewRenderer
+from rsibr.tests.synthetic_views import random_views, smooth_views, with_random_albedo
 
 SIZE = 32
 FINE = SIZE * SAMPLES_PER_AXIS
@@ -19,7 +19,7 @@ VIEW = (1.0, -0.7, 0.4)
 CAMERAS = [Camera(VIEW), Camera(VIEW, 0.9)]
 BY_CAMERA = pytest.mark.parametrize("camera", CAMERAS, ids=["orthographic", "perspective"])
 MODE = pytest.mark.parametrize("mode", Mode)
-SPLIT = pytest.mark.parametrize("split", [True, False], ids=["split", "single"])
+WARPING = pytest.mark.parametrize("warping", Warping)
 
 type Mesh = tuple[np.ndarray, np.ndarray, np.ndarray]
 
@@ -59,14 +59,16 @@ def samples(camera: Camera) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return normal, -ray, np.where(under_root > 0.0, dot(normal, -ray), 0.0)
 
 
-def reference(views: RadianceViews, camera: Camera, mode: Mode, split: bool) -> tuple[np.ndarray, np.ndarray]:
+def reference(
+    views: RadianceViews, camera: Camera, mode: Mode, warping: Warping
+) -> tuple[np.ndarray, np.ndarray]:
     """Radiance by core/shading.py, and the pixels all of whose samples see the sphere at n.v > 0.2."""
     normal, view_dir, cosine = samples(camera)
     if mode is Mode.FRAGMENT:
-        radiance = shading.views_fragment(views, normal, view_dir, split)
+        radiance = shading.views_fragment(views, normal, view_dir, warping)
     else:
         make = shading.destination_by_texel if mode is Mode.TEXEL else shading.destination_by_mesh
-        made = make(views, camera.view_dir, views.size, split)
+        made = make(views, camera.view_dir, views.size, warping)
         radiance = shading.destination_lookup(made, normal, view_dir)
     blocks = (SIZE, SAMPLES_PER_AXIS, SIZE, SAMPLES_PER_AXIS)
     inside = (cosine > 0.2).reshape(blocks).all(axis=(1, 3))
@@ -81,17 +83,17 @@ def smooth() -> tuple[RadianceViews, PreviewRenderer]:
 
 @pytest.fixture(scope="module")
 def patternless() -> tuple[RadianceViews, PreviewRenderer]:
-    views = random_views(42, 16)
+    views = with_random_albedo(random_views(42, 16))
     return views, PreviewRenderer(views)
 
 
 @MODE
-@SPLIT
+@WARPING
 @BY_CAMERA
-def test_a_picture_is_what_the_reference_says(smooth, mode: Mode, split: bool, camera: Camera) -> None:
+def test_a_picture_is_what_the_reference_says(smooth, mode: Mode, warping: Warping, camera: Camera) -> None:
     views, renderer = smooth
-    expected, inside = reference(views, camera, mode, split)
-    picture = renderer.draw(*SPHERE, camera, SIZE, mode, split)
+    expected, inside = reference(views, camera, mode, warping)
+    picture = renderer.draw(*SPHERE, camera, SIZE, mode, warping)
     assert picture.dtype == np.float32
     assert np.all(picture[inside, 3] == 1.0)
     assert np.count_nonzero(inside) > 0.6 * SIZE**2
@@ -102,12 +104,12 @@ def test_a_picture_is_what_the_reference_says(smooth, mode: Mode, split: bool, c
 
 
 @MODE
-@SPLIT
+@WARPING
 @BY_CAMERA
-def test_every_lookup_finds_its_texel(patternless, mode: Mode, split: bool, camera: Camera) -> None:
+def test_every_lookup_finds_its_texel(patternless, mode: Mode, warping: Warping, camera: Camera) -> None:
     views, renderer = patternless
-    expected, inside = reference(views, camera, mode, split)
-    picture = renderer.draw(*SPHERE, camera, SIZE, mode, split)
+    expected, inside = reference(views, camera, mode, warping)
+    picture = renderer.draw(*SPHERE, camera, SIZE, mode, warping)
     # As above, with differences of 1 between texels: 4e-4 of 16 texels a unit, and 2 times 2 / 512.
     assert np.abs(picture[..., :3] - expected)[inside].max() < 1.5e-2
     assert expected[inside].std() > 0.05
@@ -117,7 +119,9 @@ def test_every_lookup_finds_its_texel(patternless, mode: Mode, split: bool, came
 @BY_CAMERA
 def test_coverage(mode: Mode, camera: Camera) -> None:
     maps = np.ones((12, 16, 16, 3), np.float32)
-    picture = PreviewRenderer(RadianceViews(0.25 * maps, 0.5 * maps)).draw(*SPHERE, camera, SIZE, mode, True)
+    picture = PreviewRenderer(RadianceViews(0.25 * maps, 0.5 * maps)).draw(
+        *SPHERE, camera, SIZE, mode, Warping.ALBEDO
+    )
     alpha = picture[..., 3]
     # No sample lies within 4e-4 of the rim, facets are off by 4e-5: every sample is told right. In all
     # they make pi / 4 of the frame, but for some 64^(2/3) by which a circle's grid points are miscounted.
@@ -133,7 +137,7 @@ def test_coverage(mode: Mode, camera: Camera) -> None:
 def test_nearer_surfaces_hide_farther_ones(smooth) -> None:
     _, renderer = smooth
     positions, normals, triangles = SPHERE
-    alone = renderer.draw(*SPHERE, CAMERAS[1], SIZE, Mode.FRAGMENT, True)
+    alone = renderer.draw(*SPHERE, CAMERAS[1], SIZE, Mode.FRAGMENT, Warping.SPLIT)
     # The same sphere and a smaller one behind its surface, drawn before and after.
     for scale_first, scale_second in ((1.0, 0.7), (0.7, 1.0)):
         both = (
@@ -143,7 +147,9 @@ def test_nearer_surfaces_hide_farther_ones(smooth) -> None:
             ),
             np.concatenate([triangles, triangles + len(positions)]),
         )
-        np.testing.assert_array_equal(renderer.draw(*both, CAMERAS[1], SIZE, Mode.FRAGMENT, True), alone)
+        np.testing.assert_array_equal(
+            renderer.draw(*both, CAMERAS[1], SIZE, Mode.FRAGMENT, Warping.SPLIT), alone
+        )
 
 
 @pytest.mark.parametrize("test", ["NONE", "LESS"])
@@ -153,7 +159,7 @@ def test_drawing_leaves_the_state_as_it_was(smooth, mode: Mode, test: str) -> No
     gpu.state.depth_test_set(test)
     gpu.state.depth_mask_set(test == "LESS")
     try:
-        renderer.draw(*SPHERE, CAMERAS[0], 8, mode, True)
+        renderer.draw(*SPHERE, CAMERAS[0], 8, mode, Warping.SPLIT)
         assert gpu.state.depth_test_get() == test
         assert gpu.state.depth_mask_get() == (test == "LESS")
         assert gpu.state.blend_get() == "NONE"
@@ -164,7 +170,7 @@ def test_drawing_leaves_the_state_as_it_was(smooth, mode: Mode, test: str) -> No
 
 def test_pictures_do_not_depend_on_what_was_drawn_before(smooth) -> None:
     _, renderer = smooth
-    first = renderer.draw(*SPHERE, CAMERAS[0], SIZE, Mode.TEXEL, True)
+    first = renderer.draw(*SPHERE, CAMERAS[0], SIZE, Mode.TEXEL, Warping.SPLIT)
     for mode in Mode:
-        renderer.draw(*SPHERE, CAMERAS[1], 16, mode, False)
-    np.testing.assert_array_equal(renderer.draw(*SPHERE, CAMERAS[0], SIZE, Mode.TEXEL, True), first)
+        renderer.draw(*SPHERE, CAMERAS[1], 16, mode, Warping.SINGLE)
+    np.testing.assert_array_equal(renderer.draw(*SPHERE, CAMERAS[0], SIZE, Mode.TEXEL, Warping.SPLIT), first)

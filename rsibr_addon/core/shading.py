@@ -69,9 +69,7 @@ class Destination:
     albedo: Array
 
 
-def views_fragment(
-    views: RadianceViews, normal: ArrayLike, view_dir: ArrayLike, warping: Warping
-) -> Array:
+def views_fragment(views: RadianceViews, normal: ArrayLike, view_dir: ArrayLike, warping: Warping) -> Array:
     """Radiance of surface points, each blended from the three views around its own view direction.
 
     Parameters

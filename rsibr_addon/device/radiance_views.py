@@ -17,7 +17,6 @@ from ..core.radiance_views import RadianceViews
 from ..core.shading import LEAST_ALBEDO, Mode, Warping
 from . import buffers, shaders
 
-
 _SCREEN_TRIANGLE = np.array([[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]])
 
 

@@ -5,7 +5,6 @@ import warnings
 from pathlib import Path
 from typing import Any
 
-import bpy
 import numpy as np
 
 from ..core.camera import Camera
@@ -142,7 +141,8 @@ class _Subject:
         with temporary_scene() as scene:
             return directional_albedo(scene, self._material(), self.job.seed)
 
-    def _material(self) -> bpy.types.Material:
+    def _material(self) -> Any:
+        """The material as Blender has it, if it is still what it was."""
         material = load_material(self.job.material)
         if fingerprint(material) != self.fingerprint:
             raise SceneError(

@@ -161,10 +161,9 @@ class _Studio:
         self._renderer = PreviewRenderer(read_captured(map_set).views)
 
     def __call__(self, camera: Camera) -> Array:
-        mesh, settings = self._mesh, self._settings
-        return self._renderer.draw(
-            mesh.positions, mesh.normals, mesh.triangles, camera, settings.size, settings.mode, settings.warping
-        )
+        mesh = self._mesh.positions, self._mesh.normals, self._mesh.triangles
+        settings = self._settings
+        return self._renderer.draw(*mesh, camera, settings.size, settings.mode, settings.warping)
 
 
 def _orbit(camera: Camera, frame_count: int) -> Iterator[Camera]:

@@ -153,6 +153,22 @@ def test_outside_lies_what_the_rim_shows() -> None:
     np.testing.assert_array_equal(filled[..., 2], 1.0)
 
 
+def test_what_lies_outside_comes_from_close_by() -> None:
+    radius = np.linalg.norm(2.0 * texel_centres(SIZE, SIZE) - 1.0, axis=-1)
+    filled = sphere_map.fill_rim(rendered(np.repeat(radius[..., None], 3, axis=-1)), COVERAGE)[..., 0]
+    # Steps of half a texel end in the first texel that is half covered: its centre is no more than
+    # its diagonal and one step inside the rim.
+    texel = 2.0 / SIZE
+    assert np.all(filled[COVERAGE <= 0.5] > 1.0 - (np.sqrt(2.0) + 0.5) * texel)
+
+
+def test_slivers_count_as_outside() -> None:
+    sliver = (COVERAGE > 0.0) & (COVERAGE <= 0.5)
+    assert np.count_nonzero(sliver) > SIZE
+    radiance = np.where(sliver[..., None], 100.0, np.ones(3))
+    np.testing.assert_allclose(sphere_map.fill_rim(rendered(radiance), COVERAGE), 1.0, rtol=1e-6)
+
+
 def test_lookups_up_to_the_rim_mix_in_nothing_foreign() -> None:
     filled = sphere_map.fill_rim(rendered(np.full((SIZE, SIZE, 3), 0.7)), COVERAGE)
     np.testing.assert_allclose(bilinear(filled, 0.5 + 0.5 * RIM, sphere_map.wrap), 0.7, rtol=1e-6)

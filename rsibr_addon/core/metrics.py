@@ -68,7 +68,8 @@ def relative_rmse_beyond_noise(
     power = np.sum(weight * dot(first, second))
     if not power > 0.0:
         raise RangeError("A reference that is black all over has no relative error: light the scene.")
-    return float(np.sqrt(max(np.sum(weight * dot(ours - first, ours - second)) / power, 0.0)))
+    squared_error = np.sum(weight * dot(ours - first, ours - second))
+    return float(np.sqrt(np.maximum(squared_error / power, 0.0)))
 
 
 def unpremultiplied(rgba: Array) -> Array:

@@ -85,6 +85,7 @@ _VIEW: dict[str, Rule] = {"view": INDEX, "view_dir": DIRECTION}
 ROLE_FIELDS: dict[tuple[str, str], dict[str, Rule]] = {
     ("radiance_views", "diffuse"): _VIEW,
     ("radiance_views", "glossy"): _VIEW,
+    ("radiance_views", "albedo"): {},
     ("lobe_stack", "prefiltered"): {"lobe": INDEX, "mu": NUMBER, "axis_offset": NUMBER, "albedo": COLOUR},
     ("mip_chain", "prefiltered"): {"mip": INDEX, "roughness": NUMBER},
 }

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import RangeError
-from rsibr.rsibr_addon.core.metrics import relative_rmse, unpremultiplied
+from rsibr.rsibr_addon.core.metrics import relative_rmse, relative_rmse_beyond_noise, unpremultiplied
 
 REFERENCE = np.random.default_rng(5).random((2, 7, 9, 3)) + 0.1
 WEIGHT = np.random.default_rng(6).random((2, 7, 9))
@@ -43,3 +43,17 @@ def test_unpremultiplying_undoes_coverage() -> None:
     rgba = np.concatenate([REFERENCE * WEIGHT[..., None], WEIGHT[..., None]], axis=-1)
     np.testing.assert_allclose(unpremultiplied(rgba), REFERENCE, rtol=1e-12)
     assert unpremultiplied(np.zeros((2, 4))).tolist() == [[0.0, 0.0, 0.0]] * 2
+
+
+def test_noise_of_the_reference_is_no_error() -> None:
+    rng = np.random.default_rng(7)
+    shape = (400, 400, 3)
+    truth, weight = 1.0 + rng.random(shape), rng.random(shape[:-1])
+    first, second = (truth + 0.5 * rng.standard_normal(shape) for _ in range(2))
+    ours = 1.1 * truth
+    # Products of noises average out: 0.5^2 / sqrt(480,000) over the truth's mean square of 2.3.
+    assert relative_rmse_beyond_noise(ours, first, second, weight) ** 2 == pytest.approx(0.01, abs=5e-4)
+    assert relative_rmse(ours, 0.5 * (first + second), weight) > 0.2
+    assert relative_rmse_beyond_noise(truth, truth, truth, weight) == 0.0
+    with pytest.raises(RangeError, match="black all over"):
+        relative_rmse_beyond_noise(truth, 0.0 * truth, 0.0 * truth, weight)

@@ -1,14 +1,20 @@
 // Twin of rsibr_addon/core/geodesic.py. The sphere comes as a texture (see device/radiance_views.py):
-// row 0 holds the vertices, row 1 + k the triangles of subdivision level k as three vertex indices.
+// row 0 holds the vertices, row 1 the centres of the icosahedron's triangles, row 2 + k the triangles of
+// subdivision level k as three vertex indices.
 
 vec3 geodesic_vertex(sampler2D sphere, int index)
 {
   return texelFetch(sphere, ivec2(index, 0), 0).xyz;
 }
 
+vec3 geodesic_centre(sampler2D sphere, int index)
+{
+  return texelFetch(sphere, ivec2(index, 1), 0).xyz;
+}
+
 ivec3 geodesic_triangle(sampler2D sphere, int level, int index)
 {
-  return ivec3(texelFetch(sphere, ivec2(index, 1 + level), 0).xyz + 0.5);
+  return ivec3(texelFetch(sphere, ivec2(index, 2 + level), 0).xyz + 0.5);
 }
 
 // Vertex indices of the triangle under a view direction: a descent through the subdivisions.
@@ -17,10 +23,7 @@ ivec3 find_triangle(sampler2D sphere, int last_level, vec3 view_dir)
   int found = 0;
   float nearest = -2.0;
   for (int i = 0; i < 20; i++) {
-    ivec3 ids = geodesic_triangle(sphere, 0, i);
-    vec3 centre = geodesic_vertex(sphere, ids.x) + geodesic_vertex(sphere, ids.y) +
-                  geodesic_vertex(sphere, ids.z);
-    float cosine = dot(view_dir, centre);
+    float cosine = dot(view_dir, geodesic_centre(sphere, i));
     if (cosine > nearest) {
       nearest = cosine;
       found = i;

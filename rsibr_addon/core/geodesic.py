@@ -35,6 +35,12 @@ class GeodesicSphere:
     levels: tuple[Indices, ...]
 
     @property
+    def centres(self) -> Array:
+        """Towards the middles of the icosahedron's 20 triangles, all of one length, shape (20, 3)."""
+        centres: Array = self.vertices[self.levels[0]].sum(axis=1)
+        return centres
+
+    @property
     def triangles(self) -> Indices:
         """The finest triangles, shape (F, 3)."""
         return self.levels[-1]
@@ -127,8 +133,7 @@ def find_triangle(sphere: GeodesicSphere, view_dir: ArrayLike) -> Indices:
     GLSL twin: gpu_shaders/lib/geodesic_lib.glsl `find_triangle`, equal off the edges.
     """
     view_dir = np.asarray(view_dir, dtype=np.float64)
-    centres = sphere.vertices[sphere.levels[0]].sum(axis=1)
-    found = np.argmax(view_dir @ centres.T, axis=-1)
+    found = np.argmax(view_dir @ sphere.centres.T, axis=-1)
     for children in sphere.levels[1:]:
         # The middle child's corners (ab, bc, ca), counter-clockwise; its edges face the corners.
         ab, bc, ca = np.moveaxis(sphere.vertices[children[4 * found + 3]], -2, 0)

@@ -1,5 +1,8 @@
 """Blender's graphics context, in a window or without one."""
 
+import ctypes
+import sys
+
 import bpy
 import gpu
 
@@ -17,8 +20,10 @@ def ensure_context() -> None:
     if not bpy.app.background:
         return
     try:
+        if sys.platform == "linux":
+            ctypes.CDLL("libEGL.so.1")  # Without it gpu.init() ends the process.
         gpu.init()
-    except (SystemError, RuntimeError) as error:
+    except (OSError, SystemError, RuntimeError) as error:
         raise DeviceError(
             f"Blender found no graphics driver ({error}): install one; Mesa's software driver "
             f"(Debian: libegl1 and libgl1-mesa-dri) is enough."

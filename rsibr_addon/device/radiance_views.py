@@ -161,8 +161,8 @@ def _albedo_texels(views: RadianceViews) -> Array:
 
 
 def _geodesic_texels(sphere: GeodesicSphere) -> Array:
-    """The sphere as gpu_shaders/lib/geodesic_lib.glsl reads it: vertices, then triangles by level."""
-    rows = [sphere.vertices, *sphere.levels]
+    """The sphere as gpu_shaders/lib/geodesic_lib.glsl reads it."""
+    rows = [sphere.vertices, sphere.centres, *sphere.levels]
     texels = np.zeros((len(rows), max(map(len, rows)), 4), dtype=np.float32)
     for texel_row, row in zip(texels, rows, strict=True):
         texel_row[: len(row), :3] = row

@@ -166,6 +166,18 @@ def test_geodesic_vertex(count: int) -> None:
     np.testing.assert_array_equal(found[:, 0, :3], single(geodesic_sphere(count).vertices))
 
 
+def test_geodesic_centre() -> None:
+    index = np.arange(20, dtype=np.float64)[:, None]
+    samplers = geodesic_sampler(42)()
+    found = evaluate(
+        "geodesic_lib.glsl",
+        "result_0.xyz = geodesic_centre(sphere, int(in_0.x));",
+        [index],
+        samplers=samplers,
+    )
+    np.testing.assert_array_equal(found[:, 0, :3], single(geodesic_sphere(42).centres))
+
+
 @pytest.mark.parametrize("count", VERTEX_COUNTS)
 def test_geodesic_triangle(count: int) -> None:
     levels = geodesic_sphere(count).levels

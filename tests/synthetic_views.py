@@ -7,8 +7,9 @@ is known too: cosine-weighted integration scales its bands 0, 1 and 2 by pi, 2 p
 from collections.abc import Callable
 
 import numpy as np
+from rsibr.rsibr_addon.core.camera import Camera
 from rsibr.rsibr_addon.core.conventions import texel_centres
-from rsibr.rsibr_addon.core.directions import camera_frame, reflect
+from rsibr.rsibr_addon.core.directions import camera_frame, normalize, reflect
 from rsibr.rsibr_addon.core.geodesic import geodesic_sphere
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.radiance_views import RadianceViews
@@ -57,6 +58,21 @@ def with_random_albedo(views: RadianceViews) -> RadianceViews:
     """The same maps with a table of albedo without any pattern, in [0.2, 1]."""
     table = np.random.default_rng(3).uniform(0.2, 1.0, (2, 16, 3)).astype(np.float32)
     return RadianceViews(views.diffuse, views.glossy, table)
+
+
+def visible_points(camera: Camera, size: int, radius: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
+    """Normals and view directions at pixels of a picture of the unit sphere, shape (pixels, 3) each."""
+    points = 2.0 * texel_centres(size, size).reshape(-1, 2) - 1.0
+    points = points[np.linalg.norm(points, axis=-1) < radius]
+    if camera.field_of_view is None:
+        normal = sphere_map.normal_from_uv(0.5 * points + 0.5) @ camera.frame.T
+        return normal, np.broadcast_to(camera.frame[:, 2], normal.shape)
+    slope = np.tan(camera.field_of_view / 2.0)
+    ray = normalize(np.c_[slope * points, -np.ones(len(points))]) @ camera.frame.T
+    # |eye + t ray| = 1, the nearer of two.
+    along = ray @ camera.eye[:3]
+    reach = -along - np.sqrt(np.maximum(along**2 - camera.distance**2 + 1.0, 0.0))
+    return normalize(camera.eye[:3] + reach[:, None] * ray), -ray
 
 
 def interpolation_bound(by_uv: Radiance, size: int, radius: float) -> float:

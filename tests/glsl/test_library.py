@@ -317,8 +317,10 @@ def table_at(warping: Warping, warp: Warp, cosine: np.ndarray) -> np.ndarray:
     return np.stack([np.interp(cosine, columns, row[:, i]) for i in range(3)], axis=-1) + LEAST_ALBEDO
 
 
-def blended(warping: Warping, warp: Warp, normal: np.ndarray, view_dir: np.ndarray) -> np.ndarray:
-    """What a fragment shows of one part, less the albedo at its own cosine."""
+@cache
+def blended(warping: Warping, warp: Warp) -> np.ndarray:
+    """What fragments at `blend_arguments` show of one part, less the albedo at their own cosine."""
+    normal, view_dir = blend_arguments()[:2]
     parts = {carried: np.zeros_like(VIEWS.diffuse) for carried in ("diffuse", "glossy")}
     parts["diffuse" if warp is Warp.NORMAL else "glossy"] = CARRIED[warping, warp]
     alone = RadianceViews(parts["diffuse"], parts["glossy"], VIEWS.albedo)
@@ -367,7 +369,7 @@ def blending_twins(warping: Warping, warp: Warp) -> dict[str, Twin]:
             "radiance_views_lib.glsl",
             f"{SOURCES} result_0.xyz = blend_sources({of_places});",
             blend_arguments,
-            lambda normal, view_dir, *_: blended(warping, warp, normal, view_dir),
+            lambda *_: blended(warping, warp),
             blending_tolerance(warping),
             samplers=views_samplers,
         ),
@@ -375,7 +377,7 @@ def blending_twins(warping: Warping, warp: Warp) -> dict[str, Twin]:
             "radiance_views_lib.glsl",
             f"{SOURCES} result_0.xyz = warp_and_blend({of_point});",
             blend_arguments,
-            lambda normal, view_dir, *_: blended(warping, warp, normal, view_dir),
+            lambda *_: blended(warping, warp),
             blending_tolerance(warping),
             samplers=views_samplers,
         ),

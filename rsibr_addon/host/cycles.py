@@ -1,6 +1,8 @@
 """Pictures by Cycles, diffuse and glossy radiance apart."""
 
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -16,6 +18,12 @@ from .working_space import rec709_from_working
 
 LARGEST_SAMPLES = 1 << 24
 LARGEST_SEED = (1 << 31) - 1
+
+WHOLLY = 0.999
+"""Coverage above which no sample has missed the object."""
+
+ROUNDING = 1e-5
+"""Share of a sum of float32 radiance that may be rounding: a metal's diffuse part is nothing else."""
 
 PASSES = ("use_pass_glossy_direct", "use_pass_glossy_color")
 
@@ -68,7 +76,7 @@ class RenderedView:
         Covered part of each pixel, in [0, 1].
     noise : float
         Relative standard error of the whole radiance before denoising: its root mean square over
-        that of the radiance.
+        that of the radiance, both in pixels that are wholly covered.
     """
 
     diffuse: Array
@@ -114,32 +122,43 @@ def render_view(scene: bpy.types.Scene, settings: RenderSettings) -> RenderedVie
     _configure(scene, settings)
     half = settings.samples // 2
     counts = (half, settings.samples - half)
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder, _data_kept_between_renders(scene):
         path = Path(folder) / "passes.exr"
         first = _render_passes(scene, path, 0, counts[0])
         second = _render_passes(scene, path, counts[0], counts[1])
-    channels = {name: np.average([first[name], second[name]], axis=0, weights=counts) for name in first}
-    noise = _relative_noise(_colour(first, "Combined"), _colour(second, "Combined"), *counts)
-    glossy = _colour(channels, "Glossy Direct") * _colour(channels, "Glossy Color")
-    # Without a diffuse part the difference is rounding, of either sign.
-    diffuse = np.maximum(_colour(channels, "Combined") - glossy, 0.0)
+    inside = np.minimum(first["coverage"], second["coverage"]) > WHOLLY
+    noise = _relative_noise(first["whole"][inside], second["whole"][inside], *counts)
+    mean = {name: np.average([first[name], second[name]], axis=0, weights=counts) for name in first}
+    whole, glossy = mean["whole"], mean["glossy"]
+    diffuse = np.where(whole - glossy > ROUNDING * whole, whole - glossy, 0.0)
     if settings.denoise:
-        albedo, normal = _colour(channels, "Denoising Albedo"), _stack(channels, "Denoising Normal", "XYZ")
-        diffuse, glossy = (denoise(part, albedo, normal) for part in (diffuse, glossy))
+        diffuse, glossy = (denoise(part, mean["albedo"], mean["normal"]) for part in (diffuse, glossy))
     return RenderedView(
         rec709_from_working(diffuse).astype(np.float32),
         rec709_from_working(glossy).astype(np.float32),
-        channels["Combined.A"].astype(np.float32),
+        mean["coverage"].astype(np.float32),
         noise,
     )
 
 
+@contextmanager
+def _data_kept_between_renders(scene: bpy.types.Scene) -> Iterator[None]:
+    """Within, Cycles keeps the scene's data from one render to the next.
+
+    The data must go before the scene does: Blender follows them into the freed scene and crashes.
+    """
+    scene.render.use_persistent_data = True
+    try:
+        yield
+    finally:
+        scene.render.use_persistent_data = False
+
+
 def _configure(scene: bpy.types.Scene, settings: RenderSettings) -> None:
     configure_cycles(scene, settings.size, settings.size, settings.samples)
+    scene.render.film_transparent = True
     scene.cycles.seed = settings.seed
     scene.cycles.use_sample_subset = True
-    # Kept between the two halves; it goes with the scene.
-    scene.render.use_persistent_data = True
     layer = scene.view_layers[0]
     for name in PASSES:
         setattr(layer, name, True)
@@ -149,25 +168,25 @@ def _configure(scene: bpy.types.Scene, settings: RenderSettings) -> None:
 
 
 def _render_passes(scene: bpy.types.Scene, path: Path, start: int, count: int) -> dict[str, Array]:
-    """Channels by name, as "Combined.R", of `count` of the samples from `start` on."""
+    """What `count` of the samples, from `start` on, show; with guides for the denoiser where they are."""
     scene.cycles.sample_offset, scene.cycles.sample_subset_length = start, count
     render_to(scene, path)
-    prefix = f"{scene.view_layers[0].name}."
     channels = {
-        name.removeprefix(prefix): pixels.astype(np.float64)
+        name.partition(".")[2]: pixels.astype(np.float64)
         for part in read_parts(path)
         for name, pixels in part.channels.items()
     }
     path.unlink()
-    return channels
 
+    def stack(name: str, axes: str = "RGB") -> Array:
+        return np.stack([channels[f"{name}.{axis}"] for axis in axes], axis=-1)
 
-def _colour(channels: dict[str, Array], name: str) -> Array:
-    return _stack(channels, name, "RGB")
-
-
-def _stack(channels: dict[str, Array], name: str, axes: str) -> Array:
-    return np.stack([channels[f"{name}.{axis}"] for axis in axes], axis=-1)
+    # Cycles has divided light by colour pixel by pixel, so only within one render is this the light.
+    glossy = stack("Glossy Direct") * stack("Glossy Color")
+    passes = {"whole": stack("Combined"), "glossy": glossy, "coverage": channels["Combined.A"]}
+    if "Denoising Albedo.R" in channels:
+        passes |= {"albedo": stack("Denoising Albedo"), "normal": stack("Denoising Normal", "XYZ")}
+    return passes
 
 
 def _relative_noise(a: Array, b: Array, count_a: int, count_b: int) -> float:

@@ -39,6 +39,8 @@ def denoise(radiance: Array, albedo: Array, normal: Array) -> Array:
     denoised whole: .026) and .174 -> .027 for plastic of alpha .1 (its own: .032; diffuse part .174
     -> .023, glossy .365 -> .100). A mirror, whose detail looks like noise, is made worse: .046 -> .085.
     """
+    if not np.any(radiance):  # which the denoiser would not leave black
+        return radiance.astype(np.float32)
     height, width = radiance.shape[:2]
     with tempfile.TemporaryDirectory() as folder, temporary_scene() as scene:
         tree = bpy.data.node_groups.new("RSIBR denoise", "CompositorNodeTree")

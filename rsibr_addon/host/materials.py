@@ -122,8 +122,9 @@ def _named(where: str, name: str, found: Any) -> Any:
     """The entry of `found` of that name; `found` holds materials or their names."""
     names = {getattr(item, "name", item): item for item in found}
     if name not in names:
-        shown = ", ".join(list(names)[:NAMES_SHOWN]) + (", ..." if len(names) > NAMES_SHOWN else "")
-        raise SceneError(f"{where} holds no material {name}: choose one of {shown or 'another file'}.")
+        shown = ", ".join(sorted(names)[:NAMES_SHOWN]) or "another file"
+        more = f" and {len(names) - NAMES_SHOWN} more" if len(names) > NAMES_SHOWN else ""
+        raise SceneError(f"{where} holds no material {name}: choose one of {shown}{more}.")
     return names[name]
 
 

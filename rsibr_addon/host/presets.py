@@ -55,7 +55,7 @@ def _coated(summary: str, colour: Value, alpha: float) -> Preset:
 PRESETS: dict[str, Preset] = {
     "mirror": Preset(
         "a perfect mirror, without loss",
-        "ShaderNodeBsdfGlossy",
+        "ShaderNodeBsdfAnisotropic",
         {"Color": (1.0, 1.0, 1.0, 1.0), "Roughness": 0.0},
     ),
     "copper": _metal("rough copper, alpha .3", (0.200, 0.924, 1.102), (3.912, 2.452, 2.142), 0.3),
@@ -68,14 +68,14 @@ PRESETS: dict[str, Preset] = {
     "ceramic": _coated("glazed white ceramic, alpha .01", (0.80, 0.78, 0.72, 1.0), 0.01),
     "clay": Preset("matte clay: Lambert alone", "ShaderNodeBsdfDiffuse", {"Color": (0.55, 0.40, 0.30, 1.0)}),
     "car-paint": Preset(
-        "blue paint with metallic flakes, alpha .25, beneath a sharp clear coat",
+        "blue paint with metallic flakes, alpha .25, beneath a clear coat, alpha .013",
         "ShaderNodeBsdfPrincipled",
         {
             "Base Color": (0.03, 0.12, 0.45, 1.0),
             "Metallic": 0.5,
             "Roughness": 0.5,
             "Coat Weight": 1.0,
-            "Coat Roughness": 0.03,
+            "Coat Roughness": 0.013**0.5,  # The sharpest lobe of a measured paint, [Guenther2005] table 1.
             "Coat IOR": 1.5,
         },
     ),

@@ -18,7 +18,6 @@ def configure_cycles(scene: bpy.types.Scene, width: int, height: int, samples: i
     render, cycles = scene.render, scene.cycles
     render.engine = "CYCLES"
     render.resolution_x, render.resolution_y, render.resolution_percentage = width, height, 100
-    render.film_transparent = True
     cycles.device = "CPU"
     cycles.samples = samples
     cycles.use_adaptive_sampling = False

@@ -2,7 +2,7 @@
 
 import bpy
 
-CORE_RADIUS = 0.9999
+CORE_RADIUS = 0.99999
 """Of the black core: too close beneath the surface to show at its rim."""
 
 

@@ -17,8 +17,9 @@ from .working_space import rec709_from_working, working_from_rec709
 LARGEST_IMPORTANCE_MAP = 8192
 """Width of the largest map that Cycles chooses light directions from."""
 
-WORLD_SAMPLES = 64
-"""Of a world, a texel: it has no noise, but may have finer detail than texels."""
+FEWEST_WORLD_SAMPLES, MOST_WORLD_SAMPLES = 16, 1024
+WORLD_ERROR = 0.01
+"""Texels of a world take more samples until their relative error is this: a sun has an edge."""
 
 
 def studio_environments() -> dict[str, Path]:
@@ -94,16 +95,20 @@ def sample_world(world: bpy.types.World, height: int) -> Environment:
 
     Notes
     -----
-    The panoramic camera stands in a shell that refracts without bending: what it sees is what
-    lights a surface, even where the world's nodes show something else to the camera itself.
+    Where the world's nodes tell the camera's rays from others, the panoramic camera stands in a shell
+    that refracts without bending: through it, it sees what lights a surface.
     """
     with tempfile.TemporaryDirectory() as folder, temporary_scene() as scene:
         scene.world = world.copy()
         scene.world.cycles.sampling_method = "NONE"
         _add_panoramic_camera(scene)
-        _add_clear_shell(scene)
-        configure_cycles(scene, 2 * height, height, WORLD_SAMPLES)
-        scene.cycles.max_bounces = scene.cycles.transmission_bounces = 1
+        configure_cycles(scene, 2 * height, height, MOST_WORLD_SAMPLES)
+        scene.cycles.use_adaptive_sampling = True
+        scene.cycles.adaptive_min_samples = FEWEST_WORLD_SAMPLES
+        scene.cycles.adaptive_threshold = WORLD_ERROR
+        if _tells_rays_apart(world.node_tree):
+            _add_clear_shell(scene)
+            scene.cycles.max_bounces = scene.cycles.transmission_bounces = 1
         image = scene.render.image_settings
         image.media_type, image.file_format, image.color_depth = "IMAGE", "OPEN_EXR", "32"
         path = Path(folder) / "world.exr"
@@ -129,6 +134,13 @@ def _add_panoramic_camera(scene: bpy.types.Scene) -> None:
     item.rotation_euler = (np.pi / 2.0, 0.0, -np.pi / 2.0)
     scene.collection.objects.link(item)
     scene.camera = item
+
+
+def _tells_rays_apart(tree: bpy.types.NodeTree | None) -> bool:
+    return tree is not None and any(
+        node.bl_idname == "ShaderNodeLightPath" or _tells_rays_apart(getattr(node, "node_tree", None))
+        for node in tree.nodes
+    )
 
 
 def _add_clear_shell(scene: bpy.types.Scene) -> None:

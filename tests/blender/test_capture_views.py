@@ -1,0 +1,62 @@
+"""The operator: what the task does, from Blender's own interface."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import bpy
+import pytest
+import rsibr
+from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.job import CaptureJob
+from rsibr.rsibr_addon.tasks.capture import capture
+from rsibr.tests.open_file import open_file_state
+
+pytestmark = pytest.mark.needs("cycles")
+
+
+@pytest.fixture(autouse=True)
+def _registered(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.capture.WORLD_HEIGHT", 16)
+    rsibr.register()
+    yield
+    rsibr.unregister()
+
+
+def test_the_operator_writes_what_the_task_writes(tmp_path: Path) -> None:
+    by_operator, by_task = tmp_path / "operator.exr", tmp_path / "task.exr"
+    before = open_file_state()
+    result = bpy.ops.rsibr.capture_views(filepath=str(by_operator), size=8, samples=2, seed=5)
+    assert result == {"FINISHED"}
+    assert open_file_state() == before
+    drain(capture(CaptureJob(None, ":Material", str(by_task), size=8, samples=2, seed=5)))
+    assert by_operator.read_bytes() == by_task.read_bytes()
+
+
+def test_a_material_can_be_named(tmp_path: Path) -> None:
+    bpy.data.materials["Material"].copy().name = "Paint"
+    path = tmp_path / "paint.exr"
+    bpy.ops.rsibr.capture_views(filepath=str(path), material="Paint", size=8, samples=2)
+    assert path.exists()
+
+
+def test_errors_are_reports(tmp_path: Path) -> None:
+    path = tmp_path / "out.exr"
+    path.write_text("precious")
+    before = open_file_state()
+    with pytest.raises(RuntimeError, match=r"out\.exr exists: .*"):
+        bpy.ops.rsibr.capture_views(filepath=str(path))
+    with pytest.raises(RuntimeError, match="This file holds no material Gold: choose one of"):
+        bpy.ops.rsibr.capture_views(filepath=str(tmp_path / "new.exr"), material="Gold")
+    assert open_file_state() == before
+    bpy.context.view_layer.objects.active = bpy.data.objects["Camera"]
+    with pytest.raises(RuntimeError, match="There is no material to capture: select an object"):
+        bpy.ops.rsibr.capture_views(filepath=str(tmp_path / "new.exr"))
+    assert path.read_text() == "precious"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_warnings_are_reports_too(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    bsdf = bpy.data.materials["Material"].node_tree.nodes["Principled BSDF"]
+    bsdf.inputs["Anisotropic"].default_value = 0.5
+    bpy.ops.rsibr.capture_views(filepath=str(tmp_path / "out.exr"), size=8, samples=2)
+    assert "No radiance map can hold :Material" in "".join(capfd.readouterr())

@@ -1,0 +1,295 @@
+"""Captures: the right views in the right place, whole or to be resumed, and refused in words."""
+
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.core.conventions import texel_centres
+from rsibr.rsibr_addon.core.directions import reflect
+from rsibr.rsibr_addon.core.environment import Environment
+from rsibr.rsibr_addon.core.errors import (
+    InputFileError,
+    OutputFileError,
+    RangeError,
+    RenderError,
+    RsibrWarning,
+    SceneError,
+)
+from rsibr.rsibr_addon.core.maps import equirect, sphere_map
+from rsibr.rsibr_addon.core.progress import Progress, drain
+from rsibr.rsibr_addon.files.map_set import read_map_set
+from rsibr.rsibr_addon.files.pictures import write_exr
+from rsibr.rsibr_addon.host.cycles import render_view
+from rsibr.rsibr_addon.host.worlds import light_with
+from rsibr.rsibr_addon.job import CaptureJob
+from rsibr.rsibr_addon.tasks import capture as task
+from rsibr.rsibr_addon.tasks.capture import capture
+from rsibr.rsibr_addon.tasks.captured import read_captured
+from rsibr.tests.open_file import open_file_state
+
+LIT = (12, 3)
+
+
+@pytest.fixture
+def environment(tmp_path: Path) -> Environment:
+    """Dim light from everywhere, and one texel that is bright: at (tmp_path / "light.exr")."""
+    radiance = np.full((16, 32, 4), 0.01, dtype=np.float32)
+    radiance[LIT] = 100.0
+    write_exr(tmp_path / "light.exr", radiance)
+    return Environment(radiance[..., :3], "light.exr")
+
+
+@pytest.fixture
+def job(tmp_path: Path, environment: Environment) -> CaptureJob:
+    """A capture that takes a second."""
+    return CaptureJob(
+        str(tmp_path / "light.exr"),
+        "copper",
+        str(tmp_path / "copper.rsibr.exr"),
+        size=12,
+        samples=4,
+        seed=3,
+    )
+
+
+@pytest.fixture
+def partial(tmp_path: Path) -> Path:
+    return tmp_path / "copper.rsibr.exr.partial"
+
+
+@pytest.fixture
+def rendered(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[int]]:
+    """Seeds of the views that were rendered."""
+    seeds: list[int] = []
+
+    def counted(scene: object, settings: object) -> object:
+        seeds.append(settings.seed)
+        return render_view(scene, settings)
+
+    monkeypatch.setattr(task, "render_view", counted)
+    return seeds
+
+
+def steps(job: CaptureJob, count: int) -> Iterator[Progress]:
+    """A capture that has rendered `count` views, and waits."""
+    work = capture(job)
+    for _ in range(count + 2):
+        next(work)
+    return work
+
+
+def test_a_capture_is_whole(job: CaptureJob, environment: Environment, partial: Path) -> None:
+    told = list(capture(job))
+    assert [progress.done for progress in told] == [0, *range(12)]
+    assert {progress.total for progress in told} == {12}
+    assert not partial.exists()
+
+    map_set = read_map_set(job.output, "radiance_views")
+    np.testing.assert_array_equal(map_set.maps["environment"], environment.radiance)
+    assert map_set.header["environment"]["sha256"] == environment.sha256
+    assert map_set.header["environment"]["name"] == "light.exr"
+    assert map_set.header["settings"] == {"views": 12, "size": 12, "samples": 4, "denoise": False, "seed": 3}
+    assert map_set.header["material"]["spec"] == map_set.header["material"]["name"] == "copper"
+    assert map_set.header["software"].endswith(f"Blender {bpy.app.version_string}")
+    assert 0.0 < map_set.header["error_bound"]["relative_noise"] < 10.0
+    views = read_captured(Path(job.output)).views
+    assert views.size == 12
+    assert not np.any(views.diffuse)  # copper is a metal
+    # Filled beyond the rim: corners repeat what is there.
+    assert np.all(views.glossy[:, 0, 0].sum(axis=-1) > 0.0)
+
+
+def test_a_lit_texel_lands_in_every_view_where_the_conventions_say(job: CaptureJob) -> None:
+    size = 48
+    drain(capture(replace(job, material="mirror", size=size, samples=8)))
+    views = read_captured(Path(job.output)).views
+    lit = equirect.direction_from_uv(texel_centres(32, 16)[LIT])
+    inside = sphere_map.texel_solid_angle(size) * size**2 / 16.0 > 0.999
+    for view_dir, frame, glossy in zip(views.sphere.vertices, views.frames, views.glossy, strict=True):
+        normal = sphere_map.normal_from_uv(texel_centres(size, size)) @ frame.T
+        direction = reflect(np.broadcast_to(view_dir, normal.shape), normal)[inside]
+        light = glossy[inside][:, 0] - 0.01
+        mean = light @ direction
+        # The rest is dim and even; near the rim a texel of the view shows many directions.
+        if lit @ view_dir > -0.8:
+            assert mean @ lit / np.linalg.norm(mean) > np.cos(np.radians(4.0))
+
+
+def test_an_interrupted_capture_goes_on(job: CaptureJob, partial: Path, rendered: list[int]) -> None:
+    drain(capture(job))
+    uninterrupted = Path(job.output).read_bytes()
+    Path(job.output).unlink()
+    rendered.clear()
+
+    before = open_file_state()
+    work = steps(job, 4)
+    assert open_file_state() == before
+    work.close()
+    assert open_file_state() == before
+    assert not Path(job.output).exists()
+    assert len(list(partial.glob("view*.exr"))) == 4
+    drain(capture(job))
+    assert rendered == [3 + view for view in range(12)]  # each once
+    assert Path(job.output).read_bytes() == uninterrupted
+    assert not partial.exists()
+
+
+def test_a_killed_capture_goes_on_bit_for_bit(job: CaptureJob, partial: Path, rendered: list[int]) -> None:
+    job = replace(job, denoise=True)
+    drain(capture(job))
+    uninterrupted = Path(job.output).read_bytes()
+    Path(job.output).unlink()
+    rendered.clear()
+
+    script = (
+        "import sys\n"
+        "from rsibr.rsibr_addon.job import CaptureJob\n"
+        "from rsibr.rsibr_addon.tasks.capture import capture\n"
+        "for progress in capture(CaptureJob.from_json(sys.argv[1], 'the job')):\n"
+        "    print('step', progress.done, file=sys.stderr, flush=True)\n"
+    )
+    command = [sys.executable, "-c", script, job.to_json()]
+    with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
+        for line in process.stderr:
+            if line == "step 6\n":
+                break
+        process.send_signal(signal.SIGKILL)
+    assert process.returncode == -signal.SIGKILL
+    assert not Path(job.output).exists()
+    assert len(list(partial.glob("view*.exr"))) >= 6
+    drain(capture(job))
+    assert len(rendered) <= 6
+    assert Path(job.output).read_bytes() == uninterrupted
+    assert not partial.exists()
+
+
+def test_views_of_another_job_are_not_taken(job: CaptureJob, partial: Path, rendered: list[int]) -> None:
+    steps(job, 2).close()
+    rendered.clear()
+    with pytest.warns(RsibrWarning, match=r"partial held parts of another job"):
+        drain(capture(replace(job, seed=50)))
+    assert len(rendered) == 12
+    assert not partial.exists()
+
+
+def test_a_damaged_view_is_rendered_again(job: CaptureJob, partial: Path, rendered: list[int]) -> None:
+    steps(job, 3).close()
+    damaged = partial / "view001.exr"
+    damaged.write_bytes(damaged.read_bytes()[:-100])
+    rendered.clear()
+    drain(capture(job))
+    assert rendered == [3 + view for view in (1, *range(3, 12))]
+
+
+def test_two_captures_do_not_meet(job: CaptureJob) -> None:
+    first = steps(job, 1)
+    second = capture(job)
+    with pytest.raises(OutputFileError, match=r"Another process is working in .*partial: wait for it"):
+        drain(second)
+    first.close()
+    drain(capture(job))
+
+
+def test_an_output_that_exists_is_refused_at_once(job: CaptureJob, rendered: list[int]) -> None:
+    Path(job.output).write_text("precious")
+    with pytest.raises(OutputFileError, match=r"exists: .*--force"):
+        next(capture(job))
+    assert Path(job.output).read_text() == "precious"
+    drain(capture(replace(job, force=True)))
+    assert read_map_set(job.output).kind == "radiance_views"
+
+
+def test_an_output_that_appears_meanwhile_stays(job: CaptureJob, partial: Path) -> None:
+    work = steps(job, 1)
+    Path(job.output).write_text("precious")
+    with pytest.raises(OutputFileError, match="exists"):
+        drain(work)
+    assert Path(job.output).read_text() == "precious"
+    Path(job.output).unlink()
+    drain(capture(job))
+    assert not partial.exists()
+
+
+def test_a_foreign_folder_in_the_way_stays(job: CaptureJob, partial: Path) -> None:
+    partial.mkdir()
+    (partial / "thesis.txt").write_text("precious")
+    with pytest.raises(OutputFileError, match="holds something else than our work"):
+        drain(capture(job))
+    assert (partial / "thesis.txt").read_text() == "precious"
+
+
+def test_a_failing_render_leaves_nothing_behind(
+    job: CaptureJob, partial: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise RenderError("Blender cannot render.")
+
+    monkeypatch.setattr(task, "render_view", fail)
+    before = open_file_state()
+    with pytest.raises(RenderError):
+        drain(capture(job))
+    assert open_file_state() == before
+    assert not partial.exists()
+    assert not Path(job.output).exists()
+
+
+def test_the_artists_own_world_and_material_can_be_captured(
+    job: CaptureJob, environment: Environment, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(task, "WORLD_HEIGHT", 16)
+    light_with(bpy.context.scene, environment)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    before = open_file_state()
+    drain(capture(replace(job, environment=None, material=":Material")))
+    assert open_file_state() == before
+    header = read_map_set(job.output).header
+    assert header["environment"]["name"] == bpy.context.scene.world.name
+    assert header["environment"]["size"] == [32, 16]
+    assert header["material"]["name"] == "Material"
+    assert header["material"]["spec"] == f"{tmp_path / 'scene.blend'}:Material"
+
+
+def test_a_material_that_changes_meanwhile_is_refused(job: CaptureJob) -> None:
+    work = steps(replace(job, material=":Material"), 2)
+    bsdf = bpy.data.materials["Material"].node_tree.nodes["Principled BSDF"]
+    bsdf.inputs["Roughness"].default_value = 0.123
+    with pytest.raises(SceneError, match="Material :Material was changed while it was captured"):
+        drain(work)
+
+
+def test_a_material_that_no_radiance_map_can_hold_is_captured_with_a_word(job: CaptureJob) -> None:
+    tree = bpy.data.materials["Material"].node_tree
+    texture = tree.nodes.new("ShaderNodeTexNoise")
+    tree.links.new(texture.outputs["Color"], tree.nodes["Principled BSDF"].inputs["Base Color"])
+    with pytest.warns(RsibrWarning, match="No radiance map can hold :Material, .*default coordinates"):
+        drain(capture(replace(job, material=":Material")))
+    assert Path(job.output).exists()
+
+
+def test_what_cannot_be_captured_is_said_before_anything_is_written(job: CaptureJob, tmp_path: Path) -> None:
+    for change, error, words in [
+        ({"environment": str(tmp_path / "no.exr")}, InputFileError, "There is no environment .*no.exr: give"),
+        ({"environment": "forrest"}, InputFileError, "one of city, .*forest"),
+        ({"material": "coper"}, InputFileError, "There is no material coper"),
+        ({"samples": 1}, RangeError, "cannot take 1 samples"),
+        ({"seed": 2**31 - 5}, RangeError, "seed 2147483648 is out of range"),
+        ({"output": str(tmp_path / "no" / "x.exr")}, OutputFileError, "make that folder first"),
+        ({"output": str(tmp_path)}, OutputFileError, "is a folder"),
+    ]:
+        with pytest.raises(error, match=words):
+            drain(capture(replace(job, **change)))
+    bpy.context.scene.world = None
+    with pytest.raises(SceneError, match="has no world"):
+        drain(capture(replace(job, environment=None)))
+    assert [path.name for path in tmp_path.iterdir()] == ["light.exr"]
+
+
+def test_blenders_environments_go_by_name(job: CaptureJob) -> None:
+    with pytest.warns(RsibrWarning, match="negative values"):
+        steps(replace(job, environment="forest"), 1).close()

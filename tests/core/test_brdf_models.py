@@ -142,7 +142,7 @@ def test_ward_peaks_where_and_as_high_as_the_paper_says() -> None:
     view, mirror = [np.sin(theta), 0.0, np.cos(theta)], [-np.sin(theta), 0.0, np.cos(theta)]
     expected = 0.1 / np.pi + 0.5 / (4.0 * np.pi * 0.2**2 * np.cos(theta))
     np.testing.assert_allclose(brdf(mirror, view), expected, rtol=1e-12)
-    # Half a degree of the normal more is a whole degree of the light: tan^2 of the half vector's angle decides
+    # The half vector leans half as much as the light: by 0.1 from the normal
     tilted = [-np.sin(theta - 0.2), 0.0, np.cos(theta - 0.2)]
     gaussian = np.exp(-(np.tan(0.1) ** 2) / 0.2**2) / np.sqrt(np.cos(theta) * np.cos(theta - 0.2))
     expected = 0.1 / np.pi + 0.5 / (4.0 * np.pi * 0.2**2) * gaussian

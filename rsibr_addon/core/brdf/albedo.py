@@ -112,10 +112,11 @@ def warn_of_gain(brdf: BrdfFunction, name: str) -> None:
     """
     albedo = directional_albedo(brdf, CHECKED_ELEVATIONS).max(axis=-1)
     worst = int(np.argmax(albedo))
+    angle = np.degrees(np.arccos(CHECKED_ELEVATIONS[worst]))
     if albedo[worst] > 1.0 + TOLERATED_GAIN:
         warnings.warn(
-            f"{name} reflects {albedo[worst]:.3g} times the light it gets at "
-            f"{np.degrees(np.arccos(CHECKED_ELEVATIONS[worst])):.0f} degrees from the normal; scale it down.",
+            f"{name} reflects {albedo[worst]:.3g} times the light it gets at {angle:.0f} degrees from the "
+            f"normal; pictures of it will be too bright.",
             RsibrWarning,
             stacklevel=2,
         )

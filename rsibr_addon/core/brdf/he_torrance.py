@@ -115,7 +115,7 @@ _erfc = np.vectorize(math.erfc, otypes=[np.float64])
 
 
 def _series(g: Array, c: Array) -> Array:
-    """Sum over m of g^m exp(-g) / (m! m) exp(-c / m), Eq. 78, to the last digit."""
+    """Sum over m of g^m exp(-g) / (m! m) exp(-c / m), Eq. 78, to the last digit; 0 if far below 1e-100."""
     total = np.zeros(np.broadcast_shapes(g.shape, c.shape))
     log_g, log_poisson, m = np.log(g), -g, 0
     while True:

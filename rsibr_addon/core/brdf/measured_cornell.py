@@ -100,7 +100,9 @@ def _boundary(n_dot_l: Array, n_dot_v: Array, h_dot_l: Array) -> Array:
 
 def _fit(points: Array, samples: Array, values: Array, hues: Array) -> tuple[Array, Array]:
     """Planes through the nearest samples' values, and the weighted means of their hues."""
-    squared = (points**2).sum(axis=1)[:, None] - 2.0 * points @ samples.T + (samples**2).sum(axis=1)
+    squared = np.zeros((len(points), len(samples)))
+    for point, sample in zip(points.T, samples.T, strict=True):
+        squared += (point[:, None] - sample) ** 2
     nearest = np.argpartition(squared, NEIGHBOURS, axis=1)[:, : NEIGHBOURS + 1]
     offset = samples[nearest] - points[:, None]
     distance = np.linalg.norm(offset, axis=2)

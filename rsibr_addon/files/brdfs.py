@@ -1,0 +1,42 @@
+"""Reflectance models by their text, those from measured files included."""
+
+from collections.abc import Callable
+
+from ..core.brdf import spec as brdf_spec
+from ..core.brdf.albedo import warn_of_gain
+from ..core.brdf.model import Brdf
+from .cornell import read_cornell
+from .merl import read_merl
+from .rgl import read_rgl
+
+READERS: dict[str, Callable[[str], Brdf]] = {"merl": read_merl, "cornell": read_cornell, "rgl": read_rgl}
+"""Format of a measured model -> what reads it."""
+
+
+def brdf_from_spec(spec: str) -> Brdf:
+    """Make the model that a text describes, reading files where it names them.
+
+    Parameters
+    ----------
+    spec : str
+        See `core/brdf/spec.py`.
+
+    Returns
+    -------
+    Brdf
+
+    Raises
+    ------
+    RangeError
+        The text describes no model; says which key is wrong and what it takes.
+    InputFileError
+        A measured file is missing or not what it should be.
+
+    Warns
+    -----
+    RsibrWarning
+        The model reflects more light than it gets, or a measured file holds values that had to be replaced.
+    """
+    brdf = brdf_spec.brdf_from_spec(spec, lambda name, path: READERS[name](path))
+    warn_of_gain(brdf, spec)
+    return brdf

@@ -12,7 +12,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
-    """Read and check the description of a map set.
+    """Read a map set, check all of it, and tell its description.
 
     Returns
     -------
@@ -22,10 +22,11 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     Raises
     ------
     MapSetError
-        See `read_map_set_header`.
+        See `read_map_set`: also when its maps are not whole.
     """
-    from ..files.map_set import read_map_set_header
+    from ..files.map_set import read_map_set, read_map_set_header
 
+    read_map_set(arguments.map_set)
     header = read_map_set_header(arguments.map_set)
     roles: dict[str, int] = {}
     for part in header["parts"]:

@@ -2,6 +2,7 @@
 
 import contextlib
 import io
+import os
 import threading
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -175,14 +176,30 @@ def write_parts(path: Path, parts: Sequence[Part]) -> None:
 
 
 @contextlib.contextmanager
+def _unheard() -> Iterator[None]:
+    """Within, what the library prints goes nowhere: a damaged file is told of in one sentence, ours.
+
+    It prints to Python's stdout, where a command's result belongs, and a line for every damaged chunk to
+    the process's stderr. One thread at a time may bend those.
+    """
+    with _reading, contextlib.redirect_stdout(io.StringIO()), open(os.devnull, "wb") as nowhere:
+        kept = os.dup(2)
+        os.dup2(nowhere.fileno(), 2)
+        try:
+            yield
+        finally:
+            os.dup2(kept, 2)
+            os.close(kept)
+
+
+@contextlib.contextmanager
 def _package_file(path: str | Path, stream: BinaryIO, **options: bool) -> Iterator[Any]:
     """The package's view of an open file; its complaints become one sentence."""
     if stream.read(len(MAGIC)) != MAGIC:
         raise InputFileError(f"{path} is not an OpenEXR file: convert it, or give another.")
     stream.seek(0)
     try:
-        # It prints to Python's stdout, where a command's result belongs; one thread at a time may bend that
-        with _reading, contextlib.redirect_stdout(io.StringIO()):
+        with _unheard():
             file = OpenEXR.File(stream, **options)
     except (RuntimeError, ValueError) as error:
         raise InputFileError(f"{path} is truncated or damaged: fetch or make it again.") from error

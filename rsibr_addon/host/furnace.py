@@ -16,8 +16,9 @@ COSINES = 64
 STRIPS = 8
 """Tiles a cosine: the steepest one must not reach the camera."""
 
-SAMPLES = 16
-"""Of Cycles a pixel; each cosine is the mean of COSINES pixels."""
+SAMPLES = 256
+"""Of Cycles a pixel; each cosine is the mean of COSINES pixels: a coat over a base is noisy, as each
+sample takes one of the two."""
 
 
 def directional_albedo(scene: bpy.types.Scene, material: bpy.types.Material, seed: int) -> Array:

@@ -85,9 +85,7 @@ class CaptureJob:
         try:
             given = json.loads(text)
         except (ValueError, RecursionError) as error:
-            raise InputFileError(
-                f"{name} is not JSON ({error}): write it anew."
-            ) from error
+            raise InputFileError(f"{name} is not JSON ({error}): write it anew.") from error
         if not isinstance(given, dict):
             raise InputFileError(f"{name} is no JSON object: give one with the fields of a job.")
         fields = {field.name: field for field in dataclasses.fields(cls)}

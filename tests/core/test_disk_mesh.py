@@ -6,7 +6,7 @@ from rsibr.rsibr_addon.core.disk_mesh import MARGIN, RINGS, SECTORS, disk_mesh, 
 RNG = np.random.default_rng(10)
 
 
-def points_within(radius: float, count: int = 400) -> np.ndarray:
+def points_within(radius: float, count: int = 150) -> np.ndarray:
     angle = RNG.uniform(0.0, 2.0 * np.pi, count)
     return radius * np.sqrt(RNG.random(count))[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
 

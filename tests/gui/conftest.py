@@ -1,0 +1,37 @@
+"""A Blender of its own with the built extension."""
+
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+type Blender = Callable[..., subprocess.CompletedProcess[str]]
+
+
+@pytest.fixture(scope="session")
+def extension() -> Path:
+    """The zip, freshly built."""
+    subprocess.run([sys.executable, ROOT / ".ci" / "build_extension.py"], check=True)
+    (archive,) = (ROOT / "dist").glob("rsibr-*.zip")
+    return archive
+
+
+@pytest.fixture(scope="session")
+def blender(extension: Path, blender_window: Path, tmp_path_factory: pytest.TempPathFactory) -> Blender:
+    """Blender with the extension installed and enabled; sees the folder of its files as /job."""
+    folder = tmp_path_factory.mktemp("blender")
+    shutil.copy(extension, folder / "extension.zip")
+
+    def run(*arguments: str) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            [blender_window, folder, *arguments], capture_output=True, text=True, check=False, timeout=300
+        )
+
+    install = run("--command", "extension", "install-file", "-r", "user_default", "-e", "/job/extension.zip")
+    assert install.returncode == 0, install.stderr
+    return run

@@ -39,7 +39,7 @@ def test_capture_info_preview_compare(rsibr: Command, tmp_path: Path) -> None:
     assert captured["map_set"] == "copper.rsibr.exr"
     # The forest holds negative pixels, and the user is told
     assert any("negative" in warning for warning in captured["warnings"])
-    assert len(read_map_set("copper.rsibr.exr", "radiance_views").maps) == 1 + 2 * 12
+    assert len(read_map_set("copper.rsibr.exr", "radiance_views").maps) == 2 + 2 * 12
 
     header = rsibr("info", "copper.rsibr.exr")["header"]
     assert header["settings"] == {"views": 12, "size": 16, "samples": 2, "denoise": False, "seed": 0}

@@ -1,5 +1,6 @@
 """A Blender of its own with the built extension."""
 
+import os
 import shutil
 import subprocess
 import sys
@@ -28,8 +29,11 @@ def blender(extension: Path, blender_window: Path, tmp_path_factory: pytest.Temp
     shutil.copy(extension, folder / "extension.zip")
 
     def run(*arguments: str) -> subprocess.CompletedProcess[str]:
+        # The bpy module has set OCIO to its own files, which are not this Blender's.
+        environment = {name: value for name, value in os.environ.items() if name != "OCIO"}
+        command = [blender_window, folder, *arguments]
         return subprocess.run(
-            [blender_window, folder, *arguments], capture_output=True, text=True, check=False, timeout=300
+            command, env=environment, capture_output=True, text=True, check=False, timeout=300
         )
 
     install = run("--command", "extension", "install-file", "-r", "user_default", "-e", "/job/extension.zip")

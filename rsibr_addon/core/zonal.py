@@ -21,6 +21,7 @@ TOLERANCE = 1e-6
 
 _NODES = 64
 _SPARE_NODES = 40
+_ROWS = 64
 _DEGREES_TIMES_WIDTH = 90.0
 _LARGEST_SEEN = 3 * MAX_DEGREE // 2
 _HEADROOM = 4.0 / 3.0
@@ -95,12 +96,12 @@ class ZonalSeries:
         Sought at the knots, both ends among them, and at five points for every wave of P_degree.
         """
         angle = np.concatenate([self.lobe.knots, _quadrature(self.lobe.knots, self.degree)[0]])
-        missing = self.lobe.profile(angle)
-        errors = np.empty(len(degrees))
-        factors = self.coefficients * (2 * np.arange(self.degree + 1) + 1) / (4.0 * np.pi)
-        for l, legendre in enumerate(_legendre(np.cos(angle), max(degrees))):
-            missing = missing - factors[l] * legendre
-            errors[np.equal(degrees, l)] = np.max(np.abs(missing))
+        l = np.arange(self.degree + 1)
+        factors = (2 * l + 1) / (4.0 * np.pi) * self.coefficients * (l <= np.array(degrees)[:, None])
+        missing = np.tile(self.lobe.profile(angle), (len(degrees), 1))
+        for first, legendre in _legendre(np.cos(angle), self.degree):
+            missing -= factors[:, first : first + len(legendre)] @ legendre
+        errors: Array = np.abs(missing).max(axis=1)
         return errors
 
 
@@ -171,7 +172,7 @@ def zonal_coefficients(lobe: ZonalLobe, degree: int) -> Array:
         return lobe.closed_form(degree)
     angle, weight = _quadrature(lobe.knots, degree)
     weighted = weight * lobe.profile(angle)
-    return np.array([legendre @ weighted for legendre in _legendre(np.cos(angle), degree)])
+    return np.concatenate([legendre @ weighted for _, legendre in _legendre(np.cos(angle), degree)])
 
 
 def graded_knots(width: float) -> tuple[float, ...]:
@@ -216,13 +217,25 @@ def _gauss_legendre() -> tuple[Array, Array]:
     return np.polynomial.legendre.leggauss(_NODES)
 
 
-def _legendre(cosine: Array, degree: int) -> Iterator[Array]:
-    """P_0 ... P_degree by their forward recurrence; each is valid until the one after the next."""
-    before, last, product = np.zeros_like(cosine), np.ones_like(cosine), np.empty_like(cosine)
-    for l in range(degree + 1):
-        yield last
-        np.multiply(cosine, (2 * l + 1) / (l + 1), out=product)
-        product *= last
-        before *= l / (l + 1)
-        np.subtract(product, before, out=before)
-        before, last = last, before
+def _legendre(cosine: Array, degree: int) -> Iterator[tuple[int, Array]]:
+    """Legendre polynomials P_0 ... P_degree by their forward recurrence, some rows at a time.
+
+    Yields
+    ------
+    first : int
+        Degree of the first row.
+    rows : ndarray, shape (rows, len(cosine))
+        Valid until the next ones are asked for.
+    """
+    rows = np.empty((2 + _ROWS, len(cosine)))
+    for first in range(0, degree + 1, _ROWS):
+        count = min(_ROWS, degree + 1 - first)
+        for row, l in enumerate(range(first, first + count), 2):
+            if l < 2:
+                rows[row] = cosine**l
+            else:
+                np.multiply(cosine, (2 * l - 1) / l, out=rows[row])
+                rows[row] *= rows[row - 1]
+                rows[row] -= (l - 1) / l * rows[row - 2]
+        yield first, rows[2 : 2 + count]
+        rows[:2] = rows[count : 2 + count]

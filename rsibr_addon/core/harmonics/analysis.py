@@ -46,7 +46,19 @@ def analyse_environment(radiance: Array, degree: int, texels: Texels = "points")
         raise ShapeError(f"A map has rows, columns and channels, but this one has shape {radiance.shape}.")
     if not 0 <= degree <= MAX_DEGREE:
         raise RangeError(f"Degree {degree} cannot be analysed: choose 0 to {MAX_DEGREE}.")
-    height, width, channels = radiance.shape
+    weights, flux = _ring_weights(radiance, degree, texels)
+    return EnvironmentHarmonics(_project(weights, degree), flux, len(radiance))
+
+
+def _ring_weights(radiance: Array, degree: int, texels: Texels) -> tuple[Complex, Array]:
+    """Weights of few rings that stand for the map, and its flux.
+
+    Returns
+    -------
+    weights : ndarray, shape (orders, channels, rings), complex128
+        An even number of orders; the last may be one more than `degree`.
+    flux : ndarray, shape (channels,)
+    """
     spectra, flux = _row_spectra(radiance, degree)
     if not np.all(np.isfinite(flux)):
         raise RangeError("The map holds NaN or infinite values: repair it in an image editor.")
@@ -55,10 +67,9 @@ def analyse_environment(radiance: Array, degree: int, texels: Texels = "points")
     for start in range(0, len(spectra), _PAIRS_AT_ONCE):
         part = slice(start, start + _PAIRS_AT_ONCE)
         weights[part] = moment_matching_rings(spectra[part], degree, rings, texels)
-    orders = np.arange(2 * len(weights)).reshape(-1, 2, 1, 1)
-    weights *= longitude_weights(orders, width, texels)
-    by_order = _project(weights.reshape(-1, channels, rings), degree)
-    return EnvironmentHarmonics(by_order, flux, height)
+    by_order = weights.reshape(-1, radiance.shape[2], rings)
+    by_order *= longitude_weights(np.arange(len(by_order))[:, None, None], radiance.shape[1], texels)
+    return by_order, flux
 
 
 def _row_spectra(radiance: Array, degree: int) -> tuple[Complex, Array]:
@@ -100,20 +111,19 @@ def _project(weights: Complex, degree: int) -> tuple[Complex, ...]:
     """
     channels, rings = weights.shape[1:]
     half = rings // 2
-    north, south = weights[..., :half], weights[..., : half - 1 : -1]
-    halves = [
-        np.ascontiguousarray(both.swapaxes(1, 2)).view(np.float64) for both in (north + south, north - south)
-    ]
     by_order = [np.empty((degree + 1 - m, channels), dtype=np.complex128) for m in range(degree + 1)]
     theta = ring_colatitudes(rings)[:half]
     for panel in legendre_panels(degree, np.cos(theta), np.sin(theta)):
         rows, orders, _ = panel.values.shape
         first = panel.first_order
+        if panel.first_row == 0:
+            block = np.ascontiguousarray(weights[first : first + orders].swapaxes(1, 2))
+            north, south = block[:, :half], block[:, : half - 1 : -1]
+            halves = (north + south).view(np.float64), (north - south).view(np.float64)
         values = panel.values.swapaxes(0, 1)
         sums = np.empty((orders, rows, 2 * channels))
-        for parity, half_weights in enumerate(halves):
-            part = half_weights[first : first + orders, panel.first_point :]
-            np.matmul(values[:, parity::2], part, out=sums[:, parity::2])
+        for parity, ring_weights in enumerate(halves):
+            np.matmul(values[:, parity::2], ring_weights[:, panel.first_point :], out=sums[:, parity::2])
         sums *= panel.factors.T[:, :, None]
         for a, found in zip(by_order[first : first + orders], sums.view(np.complex128), strict=False):
             a[panel.first_row : panel.first_row + rows] = found[: max(len(a) - panel.first_row, 0)]

@@ -1,10 +1,14 @@
-"""Looking maps up between their texels."""
+"""Looking maps up between their texels, and any map from any other."""
 
 from collections.abc import Callable
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .conventions import Array, ArrayLike, Indices
+from .deposit import BLOCK, Deposit
+from .errors import ShapeError
+from .maps.representation import Representation
 
 type Wrap = Callable[[Indices, Indices, int, int], tuple[Indices, Indices]]
 """`wrap` of a map representation: texel indices beyond the edge to the texels they mean."""
@@ -33,17 +37,134 @@ def bilinear(image: Array, uv: ArrayLike, wrap: Wrap, layer: Indices | None = No
     What graphics hardware does, at full precision: hardware may round the weights to 1/256.
     """
     height, width = image.shape[-3:-1]
+    columns, rows, weights = _four_texels(uv, width, height)
+    columns, rows = wrap(columns, rows, width, height)
+    texels = image[rows, columns] if layer is None else image[layer, rows, columns]
+    return _weighted_sum(weights, texels)
+
+
+def lookup(image: Array, direction: ArrayLike, representation: Representation) -> Array:
+    """Radiance that a map shows in given directions, bilinear between texel centres, across all seams.
+
+    Parameters
+    ----------
+    image : ndarray, shape (sheets, height, width, channels)
+        The map.
+    direction : array_like, shape (..., 3)
+        Unit directions in world coordinates.
+    representation : Representation
+        How the map is laid out.
+
+    Returns
+    -------
+    ndarray, shape (..., channels), float64
+
+    Notes
+    -----
+    Continuous over the sphere for equirect, cube and octahedral maps: where only three texels meet, at a
+    cube's corners, the fourth is their mean, as OpenGL's seamless filtering has it. At a disk's rim
+    it is as continuous as the map's content.
+    """
+    height, width = image.shape[1:3]
+    uv, sheet = representation.uv_from_direction(direction)
+    columns, rows, weights = _four_texels(uv, width, height)
+    columns, rows, sheets = representation.wrap(
+        columns, rows, np.broadcast_to(sheet, columns.shape), width, height
+    )
+    missing = sheets < 0
+    shared = np.sum(weights * missing, axis=0) / 3.0
+    return _weighted_sum(np.where(missing, 0.0, weights + shared), image[sheets, rows, columns])
+
+
+def resample(image: Array, source: Representation, target: Representation, size: int) -> Array:
+    """The same light in another representation or size.
+
+    A map of fewer texels gets the mean radiance over each, taking the old texels as constant over
+    their solid angles: `deposit`. A map of as many or more is interpolated: `lookup`.
+
+    Parameters
+    ----------
+    image : ndarray, shape (sheets, height, width, channels)
+        Radiance, laid out as `source`.
+    source, target : Representation
+    size : int
+        Width of the new map's sheets in texels.
+
+    Returns
+    -------
+    ndarray, shape (sheets, height, width, channels), float64
+        Laid out as `target`. Every texel can be looked up, those outside a disk too; in a blind spot of
+        the old map is what its edge shows.
+
+    Raises
+    ------
+    RangeError
+        `target` has no maps so wide.
+    ShapeError
+        `image` is not laid out as `source`.
+
+    Notes
+    -----
+    A constant map stays constant to 1e-12. Of means, the total power is the old map's to 1e-12 unless
+    either has a blind spot: the deposit keeps it, but divides it by solid angles that are off by some
+    1e-4 of each, which one factor for each channel makes up for.
+    """
+    shape = target.shape(size)
+    if image.ndim != 4 or image.shape[:3] != source.shape(image.shape[2]):
+        raise ShapeError(f"A {source.name} map cannot have the shape {image.shape}: check its layout.")
+    before, after = source.texel_solid_angle(image.shape[2]), target.texel_solid_angle(size)
+    if np.count_nonzero(after) >= np.count_nonzero(before):
+        made = np.empty((*shape, image.shape[-1]))
+        _fill(made, np.ones(shape, dtype=bool), image, source, target)
+        return made
+    deposit = Deposit(target, size, image.shape[-1])
+    deposit.lay_down(image, source)
+    got = deposit.solid_angle > 0.0
+    made = (deposit.power / np.where(got, deposit.solid_angle, 1.0)).T.reshape(*shape, -1)
+    _fill(made, ~got.reshape(shape), image, source, target)
+    if source.blind_angle == target.blind_angle == 0.0:
+        _restore_power(made, after, deposit.power.sum(axis=1))
+    _fill(made, after == 0.0, made, target, target)
+    return made
+
+
+def _restore_power(made: Array, solid_angle: Array, power: Array) -> None:
+    """Scale a map's radiance, channel by channel, to a given total power; negative radiance the other way."""
+    missing = power - np.einsum("shw,shwc->c", solid_angle, made)
+    absolute = np.einsum("shw,shwc->c", solid_angle, np.abs(made))
+    made += np.abs(made) * (missing / np.where(absolute > 0.0, absolute, 1.0))
+
+
+def _fill(
+    made: Array, where: NDArray[np.bool], image: Array, source: Representation, target: Representation
+) -> None:
+    """Fill chosen texels of a map with what another map shows at their centres."""
+    _, height, width = where.shape
+    chosen = np.flatnonzero(where)
+    flat = made.reshape(-1, made.shape[-1])
+    for first in range(0, len(chosen), BLOCK):
+        texel = chosen[first : first + BLOCK]
+        sheet, row, column = np.unravel_index(texel, where.shape)
+        uv = np.stack([(column + 0.5) / width, (row + 0.5) / height], axis=-1)
+        flat[texel] = lookup(image, target.direction_from_uv(uv, sheet), source)
+
+
+def _four_texels(uv: ArrayLike, width: int, height: int) -> tuple[Indices, Indices, Array]:
+    """Columns, rows and weights of the four texels around points of a sheet, each of shape (4, ...)."""
     position = np.asarray(uv, dtype=np.float64) * (width, height) - 0.5
     corner = np.floor(position)
     fraction = position - corner
     column, row = corner[..., 0].astype(np.intp), corner[..., 1].astype(np.intp)
+    right, up = fraction[..., 0], fraction[..., 1]
+    left, down = 1.0 - right, 1.0 - up
+    return (
+        np.stack([column, column + 1, column, column + 1]),
+        np.stack([row, row, row + 1, row + 1]),
+        np.stack([left * down, right * down, left * up, right * up]),
+    )
 
-    def texel(right: int, up: int) -> Array:
-        columns, rows = wrap(column + right, row + up, width, height)
-        found: Array = image[rows, columns] if layer is None else image[layer, rows, columns]
-        return found.astype(np.float64)
 
-    right, up = fraction[..., :1], fraction[..., 1:]
-    bottom = (1.0 - right) * texel(0, 0) + right * texel(1, 0)
-    top = (1.0 - right) * texel(0, 1) + right * texel(1, 1)
-    return (1.0 - up) * bottom + up * top
+def _weighted_sum(weights: Array, texels: Array) -> Array:
+    """Sum of four texels, shape (..., channels), float64."""
+    total: Array = np.einsum("k...,k...c->...c", weights, texels)
+    return total

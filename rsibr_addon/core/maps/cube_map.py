@@ -1,0 +1,137 @@
+"""The cube map: six faces in OpenGL's order and orientation, projected from the cube's centre.
+
+Faces are +X -X +Y -Y +Z -Z. (u, v) are OpenGL's (s, t), so that row 0 of a face is the row that OpenGL
+stores first: the array is the texture, and a shader's lookup by a direction finds it. Seen as a
+picture, a face is therefore upside down; files turn it over (docs/conventions.md).
+"""
+
+import numpy as np
+
+from ..conventions import Array, ArrayLike, Indices
+
+SHEETS = ("px", "nx", "py", "ny", "pz", "nz")
+
+FACES = np.array(
+    [
+        [[0, 0, -1], [0, -1, 0], [1, 0, 0]],
+        [[0, 0, 1], [0, -1, 0], [-1, 0, 0]],
+        [[1, 0, 0], [0, 0, 1], [0, 1, 0]],
+        [[1, 0, 0], [0, 0, -1], [0, -1, 0]],
+        [[1, 0, 0], [0, -1, 0], [0, 0, 1]],
+        [[-1, 0, 0], [0, -1, 0], [0, 0, -1]],
+    ]
+)
+"""Directions of growing s, of growing t and of the face itself: OpenGL 4.6, table 8.19."""
+
+NOWHERE = -1
+"""The sheet of a texel that is not there: at the cube's corners three texels meet, not four."""
+
+
+def direction_from_uv(uv: ArrayLike, sheet: Indices) -> Array:
+    """The direction that a point of a face shows.
+
+    Parameters
+    ----------
+    uv : array_like, shape (..., 2)
+        Coordinates on the face, in [0, 1].
+    sheet : ndarray of int, broadcastable to uv's shape (...,)
+        The face, 0 to 5.
+
+    Returns
+    -------
+    ndarray, shape (..., 3), float64
+        Unit directions.
+    """
+    uv = np.asarray(uv, dtype=np.float64)
+    st = 2.0 * uv - 1.0
+    sheet = np.broadcast_to(sheet, uv.shape[:-1])
+    direction = np.empty((*sheet.shape, 3))
+    for face, axes in enumerate(FACES):
+        on_face = sheet == face
+        direction[on_face] = st[on_face] @ axes[:2] + axes[2]
+    direction /= np.linalg.norm(direction, axis=-1, keepdims=True)
+    return direction
+
+
+def uv_from_direction(direction: ArrayLike) -> tuple[Array, Indices]:
+    """The inverse of `direction_from_uv`.
+
+    Parameters
+    ----------
+    direction : array_like, shape (..., 3)
+        Directions, of any positive length.
+
+    Returns
+    -------
+    uv : ndarray, shape (..., 2), float64
+        In [0, 1]. A direction on an edge belongs to the face that comes first along the axes.
+    sheet : ndarray of int, shape (...,)
+    """
+    x, y, z = np.moveaxis(np.asarray(direction, dtype=np.float64), -1, 0)
+    along_x = (np.abs(x) >= np.abs(y)) & (np.abs(x) >= np.abs(z))
+    along_y = ~along_x & (np.abs(y) >= np.abs(z))
+    major = np.where(along_x, x, np.where(along_y, y, z))
+    sign = np.where(major < 0.0, -1.0, 1.0)
+    s = np.where(along_x, -sign * z, np.where(along_y, x, sign * x))
+    t = np.where(along_y, sign * z, -y)
+    uv = 0.5 * np.stack([s, t], axis=-1) / np.abs(major)[..., None] + 0.5
+    return uv, np.where(along_x, 0, np.where(along_y, 2, 4)) + (major < 0.0)
+
+
+def texel_solid_angle(size: int) -> Array:
+    """Solid angle of every texel.
+
+    Parameters
+    ----------
+    size : int
+        Width and height of a face in texels.
+
+    Returns
+    -------
+    ndarray, shape (6, size, size), float64
+        [sr], exact; sums to 4 pi. The solid angle of the rectangle from the face's centre to (s, t)
+        is atan(s t / sqrt(1 + s^2 + t^2)).
+    """
+    s = np.linspace(-1.0, 1.0, size + 1)
+    t = s[:, None]
+    corner = np.arctan2(s * t, np.sqrt(1.0 + s * s + t * t))
+    face = np.diff(np.diff(corner, axis=0), axis=1)
+    return np.repeat(face[None], 6, axis=0)
+
+
+def wrap(
+    columns: Indices, rows: Indices, sheet: Indices, width: int, height: int
+) -> tuple[Indices, Indices, Indices]:
+    """Texel that a lookup beyond a face's edge falls on: it continues on the neighbouring face.
+
+    Parameters
+    ----------
+    columns, rows, sheet : ndarray of int, any shape
+        Texel indices, at most one face's size outside the face.
+    width, height : int
+        Size of a face, equal.
+
+    Returns
+    -------
+    columns, rows, sheet : ndarray of int
+        Indices within a face. Beyond a corner of the cube, across two edges, there is no texel:
+        `sheet` is `NOWHERE` there.
+
+    Notes
+    -----
+    Texel centres are whole numbers on a cube with edges 2 `width`. A point of the face's plane that
+    overhangs an edge is folded over it: as far down the neighbour as it overhung.
+    """
+    size = width
+    local = np.stack([2 * columns + 1 - size, 2 * rows + 1 - size, np.full_like(columns, size)], axis=-1)
+    overhang = np.maximum(np.abs(local[..., :2]) - size, 0)
+    nowhere = np.all(overhang > 0, axis=-1)
+    local[..., 2] -= overhang.sum(axis=-1)
+    local[..., :2] = np.clip(local[..., :2], -size, size)
+    point = np.einsum("...i,...ij->...j", local, FACES[sheet])
+    axis = np.argmax(np.abs(point), axis=-1)
+    negative = np.take_along_axis(point, axis[..., None], axis=-1)[..., 0] < 0
+    folded = np.where(nowhere, sheet, 2 * axis + negative)
+    on_face = np.einsum("...j,...ij->...i", point, FACES[folded])
+    columns, rows = (on_face[..., 0] + size - 1) // 2, (on_face[..., 1] + size - 1) // 2
+    return columns, rows, np.where(nowhere, NOWHERE, folded)

@@ -1,0 +1,342 @@
+"""Every map representation by its name, all alike.
+
+The modules beside this one have one or several sheets, parameters, and axes of their own. Here they have
+one interface: a map is an array (sheets, height, width, channels), a point of it a uv and the number of
+a sheet, and directions are in world coordinates.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..conventions import Array, ArrayLike, Indices, texel_centres
+from ..directions import camera_frame
+from ..errors import RangeError
+from . import (
+    angular_map,
+    cube_map,
+    dual_paraboloid,
+    equirect,
+    mirror_ball,
+    octahedral,
+    orthographic,
+    sphere_map,
+)
+
+WORLD = np.eye(3)
+"""Axes of the world, as columns."""
+
+FRONT = camera_frame((0.0, -1.0, 0.0))
+"""Axes of a picture from Blender's front view: x right (+X), y up (+Z), z towards the viewer (-Y)."""
+
+AHEAD = FRONT * (1.0, 1.0, -1.0)
+"""Axes of one who looks along +Y: x right, y up, z ahead. Left-handed, as axes of cube pictures are."""
+
+type DirectionFromUv = Callable[[ArrayLike, Indices], Array]
+type UvFromDirection = Callable[[ArrayLike], tuple[Array, Indices]]
+type WrapSheets = Callable[[Indices, Indices, Indices, int, int], tuple[Indices, Indices, Indices]]
+
+
+@dataclass(frozen=True, eq=False)
+class Representation:
+    """A way to lay out the sphere of directions on sheets of texels.
+
+    Attributes
+    ----------
+    name : str
+        Its module's.
+    frame : ndarray, shape (3, 3)
+        The map's own axes as columns, in world coordinates.
+    sheets : tuple of str
+        A name for each sheet; of a single one, "".
+    aspect : int
+        Width of a sheet over its height.
+    disk : float
+        Radius of the disk that counts, in half-widths of a sheet; infinite where the whole sheet does.
+    blind_angle : float
+        Half-angle of the cone about its own -z that the map does not show [rad].
+    own_direction, own_uv, solid_angle, wrap_sheets : callable
+        The module's four functions with their parameters filled in, in the map's own axes.
+    """
+
+    name: str
+    own_direction: DirectionFromUv
+    own_uv: UvFromDirection
+    wrap_sheets: WrapSheets
+    solid_angle: Callable[[int, int], Array]
+    frame: Array
+    sheets: tuple[str, ...] = ("",)
+    aspect: int = 1
+    disk: float = np.inf
+    blind_angle: float = 0.0
+
+    def shape(self, size: int) -> tuple[int, int, int]:
+        """The shape of a map, without its channels.
+
+        Parameters
+        ----------
+        size : int
+            Width of a sheet in texels.
+
+        Returns
+        -------
+        sheets, height, width : int
+
+        Raises
+        ------
+        RangeError
+            No map of this kind is so wide.
+        """
+        if size < 1 or size % self.aspect:
+            raise RangeError(
+                f"A map of kind {self.name} cannot be {size} texels wide: choose a multiple of {self.aspect}."
+            )
+        return len(self.sheets), size // self.aspect, size
+
+    def direction_from_uv(self, uv: ArrayLike, sheet: Indices) -> Array:
+        """The directions that points of a map show.
+
+        Parameters
+        ----------
+        uv : array_like, shape (..., 2)
+            Coordinates on the sheet, in [0, 1].
+        sheet : ndarray of int, broadcastable to uv's shape (...,)
+
+        Returns
+        -------
+        ndarray, shape (..., 3), float64
+            Unit directions in world coordinates.
+        """
+        direction: Array = self.own_direction(uv, sheet) @ self.frame.T
+        return direction
+
+    def uv_from_direction(self, direction: ArrayLike) -> tuple[Array, Indices]:
+        """The inverse of `direction_from_uv`.
+
+        Parameters
+        ----------
+        direction : array_like, shape (..., 3)
+            Unit directions in world coordinates; those in the blind spot are taken to its edge.
+
+        Returns
+        -------
+        uv : ndarray, shape (..., 2), float64
+        sheet : ndarray of int, shape (...,)
+        """
+        return self.own_uv(np.asarray(direction, dtype=np.float64) @ self.frame)
+
+    def shows(self, direction: ArrayLike) -> NDArray[np.bool]:
+        """Whether directions lie outside the blind spot.
+
+        Parameters
+        ----------
+        direction : array_like, shape (..., 3)
+            Unit directions in world coordinates.
+
+        Returns
+        -------
+        ndarray of bool, shape (...,)
+        """
+        # Written so that without a blind spot rounding hides nothing.
+        towards_blind = -np.asarray(direction) @ self.frame[:, 2]
+        shown: NDArray[np.bool] = (towards_blind <= np.cos(self.blind_angle)) | (self.blind_angle == 0.0)
+        return shown
+
+    def texel_solid_angle(self, size: int) -> Array:
+        """Solid angle of every texel.
+
+        Parameters
+        ----------
+        size : int
+            Width of a sheet in texels.
+
+        Returns
+        -------
+        ndarray, shape (sheets, height, width), float64
+            [sr]; sums to 4 pi less the blind spot. It is 0 outside the disk of a map that has one:
+            such a texel is there for lookups across the rim, and counts for nothing.
+
+        Raises
+        ------
+        RangeError
+            See `shape`.
+        """
+        shape = self.shape(size)
+        return self.solid_angle(shape[2], shape[1]).reshape(shape)
+
+    def texel_directions(self, size: int) -> Array:
+        """The direction of every texel's centre.
+
+        Parameters
+        ----------
+        size : int
+            Width of a sheet in texels.
+
+        Returns
+        -------
+        ndarray, shape (sheets, height, width, 3), float64
+            Unit directions in world coordinates.
+
+        Raises
+        ------
+        RangeError
+            See `shape`.
+        """
+        sheets, height, width = self.shape(size)
+        uv = np.broadcast_to(texel_centres(width, height), (sheets, height, width, 2))
+        return self.direction_from_uv(uv, np.arange(sheets)[:, None, None])
+
+    def wrap(
+        self, columns: Indices, rows: Indices, sheet: Indices, width: int, height: int
+    ) -> tuple[Indices, Indices, Indices]:
+        """Texel that a lookup beyond a sheet's edge falls on.
+
+        Parameters
+        ----------
+        columns, rows, sheet : ndarray of int, any shape
+            Texel indices, at most one sheet's size outside the sheet.
+        width, height : int
+            Size of a sheet.
+
+        Returns
+        -------
+        columns, rows, sheet : ndarray of int
+            Indices within a sheet; a negative sheet where there is no texel.
+        """
+        return self.wrap_sheets(columns, rows, sheet, width, height)
+
+
+def representation(name: str, **parameters: float) -> Representation:
+    """A map representation by its name.
+
+    Parameters
+    ----------
+    name : str
+        One of `REPRESENTATIONS`.
+    **parameters : float
+        `distance` of a mirror_ball (default: infinite), `overscan` of a dual_paraboloid (1).
+
+    Returns
+    -------
+    Representation
+
+    Raises
+    ------
+    RangeError
+        There is none of that name, or a parameter is out of its range.
+    """
+    if name not in REPRESENTATIONS:
+        raise RangeError(f"There are no maps of kind {name}: choose one of {', '.join(REPRESENTATIONS)}.")
+    return REPRESENTATIONS[name](**parameters)
+
+
+def _one_sheet(
+    direction_from_uv: Callable[[ArrayLike], Array],
+    uv_from_direction: Callable[[ArrayLike], Array],
+    wrap: Callable[[Indices, Indices, int, int], tuple[Indices, Indices]],
+) -> tuple[DirectionFromUv, UvFromDirection, WrapSheets]:
+    """The functions of a map without sheets, as if it had one."""
+
+    def uv_on_sheet(direction: ArrayLike) -> tuple[Array, Indices]:
+        uv = uv_from_direction(direction)
+        return uv, np.zeros(uv.shape[:-1], dtype=np.intp)
+
+    return (
+        lambda uv, sheet: direction_from_uv(uv),
+        uv_on_sheet,
+        lambda columns, rows, sheet, width, height: (*wrap(columns, rows, width, height), sheet),
+    )
+
+
+def _equirect() -> Representation:
+    functions = _one_sheet(equirect.direction_from_uv, equirect.uv_from_direction, equirect.wrap)
+    return Representation("equirect", *functions, equirect.texel_solid_angle, WORLD, aspect=2)
+
+
+def _sphere_map() -> Representation:
+    functions = _one_sheet(sphere_map.direction_from_uv, sphere_map.uv_from_direction, sphere_map.wrap)
+    return Representation(
+        "sphere_map", *functions, lambda n, _: sphere_map.texel_solid_angle(n), FRONT, disk=1.0
+    )
+
+
+def _mirror_ball(distance: float = np.inf) -> Representation:
+    functions = _one_sheet(
+        partial(mirror_ball.direction_from_uv, distance=distance),
+        partial(mirror_ball.uv_from_direction, distance=distance),
+        mirror_ball.wrap,
+    )
+    return Representation(
+        "mirror_ball",
+        *functions,
+        lambda n, _: mirror_ball.texel_solid_angle(n, distance),
+        FRONT,
+        disk=1.0,
+        blind_angle=mirror_ball.blind_angle(distance),
+    )
+
+
+def _angular_map() -> Representation:
+    functions = _one_sheet(angular_map.direction_from_uv, angular_map.uv_from_direction, angular_map.wrap)
+    return Representation(
+        "angular_map", *functions, lambda n, _: angular_map.texel_solid_angle(n), FRONT, disk=1.0
+    )
+
+
+def _octahedral() -> Representation:
+    functions = _one_sheet(octahedral.direction_from_uv, octahedral.uv_from_direction, octahedral.wrap)
+    return Representation("octahedral", *functions, lambda n, _: octahedral.texel_solid_angle(n), WORLD)
+
+
+def _dual_paraboloid(overscan: float = 1.0) -> Representation:
+    return Representation(
+        "dual_paraboloid",
+        partial(dual_paraboloid.direction_from_uv, overscan=overscan),
+        partial(dual_paraboloid.uv_from_direction, overscan=overscan),
+        dual_paraboloid.wrap,
+        lambda n, _: dual_paraboloid.texel_solid_angle(n, overscan),
+        FRONT,
+        dual_paraboloid.SHEETS,
+        disk=dual_paraboloid.disk_radius(overscan),
+    )
+
+
+def _orthographic() -> Representation:
+    return Representation(
+        "orthographic",
+        orthographic.direction_from_uv,
+        orthographic.uv_from_direction,
+        orthographic.wrap,
+        lambda n, _: orthographic.texel_solid_angle(n),
+        FRONT,
+        orthographic.SHEETS,
+        disk=1.0,
+    )
+
+
+def _cube_map() -> Representation:
+    return Representation(
+        "cube_map",
+        cube_map.direction_from_uv,
+        cube_map.uv_from_direction,
+        cube_map.wrap,
+        lambda n, _: cube_map.texel_solid_angle(n),
+        WORLD,
+        cube_map.SHEETS,
+    )
+
+
+REPRESENTATIONS: dict[str, Callable[..., Representation]] = {
+    "equirect": _equirect,
+    "sphere_map": _sphere_map,
+    "mirror_ball": _mirror_ball,
+    "angular_map": _angular_map,
+    "dual_paraboloid": _dual_paraboloid,
+    "orthographic": _orthographic,
+    "cube_map": _cube_map,
+    "octahedral": _octahedral,
+}
+"""Name -> function of the parameters that makes it."""

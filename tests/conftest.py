@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 
 TESTS = Path(__file__).parent
-BLENDER_WINDOW = TESTS.parents[1] / "shared" / "blender-window" / "run.sh"
+BLENDER_WINDOW = TESTS.parents[1] / "shared" / "blender-window"
 
 NEEDS = {"glsl": ("gl",), "blender": ("bpy",), "cycles": ("bpy", "cycles"), "gui": ("gui",)}
 """Folder of tests -> what its tests need; the other folders need numpy and OpenEXR only."""
@@ -44,8 +44,15 @@ def _start_cycles() -> None:
 def _start_gui() -> None:
     if not BLENDER_WINDOW.exists():
         raise FileNotFoundError("../shared/blender-window, which runs a Blender in a window, is not there")
+
+    def run(*command: str | Path) -> None:
+        subprocess.run(command, check=True, capture_output=True)
+
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([BLENDER_WINDOW, folder, "--version"], check=True, capture_output=True)
+        if "gui" not in required():
+            run(BLENDER_WINDOW / "run.sh", folder, "--version")  # installing takes minutes: only on demand
+        run(BLENDER_WINDOW / "setup.sh")  # starts the virtual screen too
+        run(BLENDER_WINDOW / "run.sh", folder, "--window", "--python-expr", "import os; os._exit(0)")
 
 
 START: dict[str, Callable[[], None]] = {
@@ -66,14 +73,18 @@ def absence(dependency: str) -> str | None:
     return None
 
 
+def required() -> set[str]:
+    """What RSIBR_REQUIRE names."""
+    return set(os.environ.get("RSIBR_REQUIRE", "").replace(",", " ").split())
+
+
 def require(dependencies: tuple[str, ...]) -> None:
     """Skip, or fail where RSIBR_REQUIRE names it, when one of `dependencies` is missing."""
-    required = os.environ.get("RSIBR_REQUIRE", "").replace(",", " ").split()
-    if unknown := set(required) - START.keys():
+    if unknown := required() - START.keys():
         pytest.fail(f"RSIBR_REQUIRE names {', '.join(sorted(unknown))}; it knows {', '.join(START)}")
     for dependency in dependencies:
         if reason := absence(dependency):
-            if dependency in required:
+            if dependency in required():
                 pytest.fail(f"{reason} (and RSIBR_REQUIRE asks for it)", pytrace=False)
             pytest.skip(reason, allow_module_level=True)
 
@@ -112,4 +123,4 @@ def _factory_file(request: pytest.FixtureRequest) -> None:
 @pytest.fixture(scope="session")
 def blender_window() -> Path:
     """The command `run.sh FOLDER [ARGUMENTS]`: a Blender that sees FOLDER as /job."""
-    return BLENDER_WINDOW
+    return BLENDER_WINDOW / "run.sh"

@@ -10,10 +10,10 @@ import sys
 from collections.abc import Sequence
 
 from ..core.errors import RsibrError
-from . import capture, compare, info, preview
+from . import capture, compare, convert, info, preview
 from .report import Report, result_stream
 
-COMMANDS = {"capture": capture, "preview": preview, "compare": compare, "info": info}
+COMMANDS = {"capture": capture, "preview": preview, "compare": compare, "info": info, "convert": convert}
 
 
 def console() -> int:

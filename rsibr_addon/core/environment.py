@@ -64,6 +64,33 @@ def environment_from_pixels(pixels: Array, name: str) -> Environment:
             f"{name} is {width}x{height}, but an environment is a latitude-longitude map, "
             f"twice as wide as high: resize or convert it."
         )
+    return Environment(usable_radiance(pixels, name), name)
+
+
+def usable_radiance(pixels: Array, name: str) -> Array:
+    """Check that `pixels` can be radiance.
+
+    Parameters
+    ----------
+    pixels : ndarray, any shape
+    name : str
+        Named in messages: the file, or the world.
+
+    Returns
+    -------
+    ndarray, shape of `pixels`, float32
+        With negative radiance, which no light has, set to 0.
+
+    Raises
+    ------
+    InputFileError
+        It holds NaN or infinite values.
+
+    Warns
+    -----
+    RsibrWarning
+        Negative values were set to 0; says how many.
+    """
     unusable = int(np.count_nonzero(~np.isfinite(pixels)))
     if unusable:
         raise InputFileError(
@@ -78,4 +105,4 @@ def environment_from_pixels(pixels: Array, name: str) -> Environment:
             stacklevel=2,
         )
         radiance = np.maximum(radiance, np.float32(0.0))
-    return Environment(radiance, name)
+    return radiance

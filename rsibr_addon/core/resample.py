@@ -124,7 +124,10 @@ def resample(image: Array, source: Representation, target: Representation, size:
     _fill(made, ~got.reshape(shape), image, source, target)
     if source.blind_angle == target.blind_angle == 0.0:
         _restore_power(made, after, deposit.power.sum(axis=1))
-    _fill(made, after == 0.0, made, target, target)
+    if target.goes_on:
+        _fill(made, after == 0.0, made, target, target)
+    else:
+        _repeat_rim(made, after == 0.0)
     return made
 
 
@@ -147,6 +150,16 @@ def _fill(
         sheet, row, column = np.unravel_index(texel, where.shape)
         uv = np.stack([(column + 0.5) / width, (row + 0.5) / height], axis=-1)
         flat[texel] = lookup(image, target.direction_from_uv(uv, sheet), source)
+
+
+def _repeat_rim(made: Array, outside: NDArray[np.bool]) -> None:
+    """Give texels outside a disk that touches the edges what its rim shows beside them."""
+    size = made.shape[1]
+    sheet, row, column = np.nonzero(outside)
+    from_middle = np.stack([row, column]) + 0.5 - 0.5 * size
+    # Half a texel within the rim: such a point's texel is not outside.
+    on_rim = from_middle * (0.5 * (size - 1.0) / np.linalg.norm(from_middle, axis=0))
+    made[sheet, row, column] = made[sheet, *np.floor(on_rim + 0.5 * size).astype(np.intp)]
 
 
 def _four_texels(uv: ArrayLike, width: int, height: int) -> tuple[Indices, Indices, Array]:

@@ -2,13 +2,8 @@
 
 from pathlib import Path
 
-import numpy as np
-
 from ..core.environment import Environment, environment_from_pixels
-from ..core.errors import InputFileError
-from . import exr, radiance_hdr
-from .pictures import read_exr
-from .reading import opened
+from .radiance_pictures import read_radiance
 
 
 def read_environment(path: str | Path) -> Environment:
@@ -35,13 +30,4 @@ def read_environment(path: str | Path) -> Environment:
     RsibrWarning
         Negative values were set to 0; says how many.
     """
-    with opened(path) as stream:
-        start = stream.read(max(len(exr.MAGIC), len(radiance_hdr.MAGIC)))
-    if start.startswith(exr.MAGIC):
-        pixels = read_exr(path)[..., :3]
-    elif start.startswith(radiance_hdr.MAGIC):
-        pixels = radiance_hdr.read_hdr(path)
-    else:
-        raise InputFileError(f"{path} is neither OpenEXR nor Radiance HDR: convert it to one of them.")
-    height, width = pixels.shape[:2]
-    return environment_from_pixels(np.broadcast_to(pixels, (height, width, 3)), Path(path).name)
+    return environment_from_pixels(read_radiance(path), Path(path).name)

@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from ..core.conventions import Array, Indices
-from ..core.errors import InputFileError
+from ..core.errors import InputFileError, RangeError, ShapeError
+from .atomic import written_aside
 from .chromaticities import REC_709, XYZ, rec709_from
 from .reading import opened
 
@@ -20,6 +21,9 @@ MAGIC = b"#?"
 AXES = re.compile(rb"([-+])([XY]) +(\d+) +([-+])([XY]) +(\d+) *")
 NEW_CODING_WIDTHS = range(8, 0x8000)
 """Widths that the newer run-length coding can state."""
+
+GREATEST = 255.0 * 2.0**119
+"""The greatest value that the format can state."""
 
 
 def read_hdr(path: str | Path) -> Array:
@@ -65,6 +69,41 @@ def read_hdr(path: str | Path) -> Array:
             ) from error
         lines.append(line)
     return _upright(_radiance(np.stack(lines)) @ header.matrix.T.astype(np.float32), header.axes)
+
+
+def write_hdr(path: str | Path, radiance: Array, force: bool = False) -> None:
+    """Write a Radiance picture: RGBE, flat, which every reader of the format knows.
+
+    Parameters
+    ----------
+    path : str or Path
+    radiance : ndarray, shape (height, width, 3)
+        Linear Rec. 709, row 0 at the bottom, at least 0. The greatest component of a pixel keeps 8
+        significant bits (an error of 1/256 at most), the others the same absolute precision.
+    force : bool
+        Whether an existing file is replaced.
+
+    Raises
+    ------
+    RangeError
+        A value is negative, NaN or beyond the format's range, which ends at 1.7e38.
+    ShapeError
+        `radiance` has another shape.
+    OutputFileError
+        See `written_aside`.
+
+    Notes
+    -----
+    Rounded for readers that take m and e as m 2^(e - 136), as `read_hdr` and Blender do.
+    """
+    if radiance.ndim != 3 or radiance.shape[2] != 3:
+        raise ShapeError(f"{path} takes a picture of shape (height, width, 3), not {radiance.shape}.")
+    if not np.all((radiance >= 0.0) & (radiance < GREATEST)):
+        raise RangeError(f"{path} cannot hold values that are negative, NaN or above 1e38: write an EXR.")
+    height, width = radiance.shape[:2]
+    header = f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n"
+    with written_aside(path, force) as aside:
+        aside.write_bytes(header.encode() + _rgbe(radiance[::-1]).tobytes())
 
 
 @dataclass(frozen=True)
@@ -166,6 +205,21 @@ def _radiance(rgbe: Indices) -> Array:
     exponent = rgbe[..., 3:].astype(np.int32)
     unit = np.where(exponent > 0, np.ldexp(np.float32(1.0), exponent - 136), np.float32(0.0))
     return rgbe[..., :3].astype(np.float32) * unit
+
+
+def _rgbe(radiance: Array) -> Indices:
+    """Mantissas and the shared exponent nearest to values, shape (..., 4); below 2^-128 is black.
+
+    The greatest mantissa is 128 to 255, so that no pixel looks like the start of a run.
+    """
+    greatest = radiance.max(axis=-1).astype(np.float64)
+    exponent = np.frexp(greatest)[1]
+    # A mantissa that would be rounded up to 256 needs the next exponent.
+    exponent += np.rint(np.ldexp(greatest, 8 - exponent)) > 255.0
+    mantissas = np.rint(np.ldexp(radiance.astype(np.float64), 8 - exponent[..., None]))
+    rgbe = np.concatenate([mantissas, exponent[..., None] + 128.0], axis=-1)
+    rgbe[(exponent < -127) | (greatest == 0.0)] = 0.0
+    return rgbe.astype(np.uint8)
 
 
 def _upright(lines: Array, axes: str) -> Array:

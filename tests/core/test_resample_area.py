@@ -187,6 +187,23 @@ def test_texels_outside_a_disk_show_what_lookups_need() -> None:
     np.testing.assert_allclose(made, 2.0 + target.texel_directions(32), atol=2.0 * 1.25 / 32 * np.sqrt(2.0))
 
 
+@pytest.mark.parametrize("name", ["sphere_map", "angular_map", "orthographic"])
+def test_texels_outside_a_disk_repeat_its_rim(name: str) -> None:
+    source, target = representation("equirect"), representation(name)
+    rng = np.random.default_rng(5)
+    image = rng.random((1, 128, 256, 1)).astype(np.float32)
+    made = resample(image, source, target, 32)
+    outside = target.texel_solid_angle(32) == 0.0
+    for sheet, row, column in np.argwhere(outside):
+        towards = np.array([row, column]) - 15.5
+        # The last texel inside, on the way from the middle
+        steps = 15.5 + towards * np.linspace(0.0, 1.0, 2000)[:, None]
+        way = [tuple(step) for step in np.floor(steps + 0.5).astype(int)]
+        inside = [texel for texel in way if not outside[sheet, *texel]]
+        found = made[sheet, row, column, 0]
+        assert found in [made[sheet, *texel, 0] for texel in dict.fromkeys(inside[-200:])]
+
+
 def test_a_blind_spot_lays_nothing_down_and_shows_its_edge() -> None:
     source, ball = representation("equirect"), representation("mirror_ball", distance=3.0)
     directions = source.texel_directions(256)

@@ -56,6 +56,8 @@ class Representation:
         Width of a sheet over its height.
     disk : float
         Radius of the disk that counts, in half-widths of a sheet; infinite where the whole sheet does.
+    goes_on : bool
+        Whether texels outside the disk show directions of their own, and not what its rim shows.
     blind_angle : float
         Half-angle of the cone about its own -z that the map does not show [rad].
     own_direction, own_uv, solid_angle, wrap_sheets : callable
@@ -71,6 +73,7 @@ class Representation:
     sheets: tuple[str, ...] = ("",)
     aspect: int = 1
     disk: float = np.inf
+    goes_on: bool = False
     blind_angle: float = 0.0
 
     def shape(self, size: int) -> tuple[int, int, int]:
@@ -301,6 +304,7 @@ def _dual_paraboloid(overscan: float = 1.0) -> Representation:
         FRONT,
         dual_paraboloid.SHEETS,
         disk=dual_paraboloid.disk_radius(overscan),
+        goes_on=True,
     )
 
 

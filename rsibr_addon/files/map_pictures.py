@@ -1,0 +1,246 @@
+"""Maps as pictures: a file for each sheet, or the faces of a cube as a cross or a strip in one."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from ..core.conventions import Array
+from ..core.errors import InputFileError, RangeError
+from ..core.maps.representation import AHEAD, Representation, representation
+from .radiance_pictures import check_radiance_target, write_radiance
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Places of a cube's faces in a picture of equal squares.
+
+    Attributes
+    ----------
+    rows, columns : int
+        Of squares.
+    places : tuple of six (int, int)
+        Row from the top and column of each face, in the order of its sheets.
+    turned : int or None
+        A face that stands on its head.
+    """
+
+    rows: int
+    columns: int
+    places: tuple[tuple[int, int], ...]
+    turned: int | None = None
+
+
+CROSSES = (
+    Grid(3, 4, ((1, 2), (1, 0), (0, 1), (2, 1), (1, 1), (1, 3))),
+    Grid(4, 3, ((1, 2), (1, 0), (0, 1), (2, 1), (1, 1), (3, 1)), turned=5),
+)
+"""What lies ahead, +Z, in the middle of the cross and all around it as one sees it; the first is written."""
+
+STRIPS = (
+    Grid(1, 6, tuple((0, face) for face in range(6))),
+    Grid(6, 1, tuple((face, 0) for face in range(6))),
+)
+"""The faces in their order; the first is written."""
+
+
+@dataclass(frozen=True)
+class Layout:
+    """How a map lies in pictures.
+
+    Attributes
+    ----------
+    name : str
+    representation : Representation
+    grids : tuple of Grid
+        Ways in which one picture may hold all sheets; empty where each sheet has a file of its own.
+    """
+
+    name: str
+    representation: Representation
+    grids: tuple[Grid, ...] = ()
+
+    @property
+    def is_cube(self) -> bool:
+        """Whether the pictures are a cube's, which have OpenGL's row 0 at the top."""
+        return self.representation.name == "cube_map"
+
+    def paths(self, path: Path) -> list[Path]:
+        """The files of a map.
+
+        Parameters
+        ----------
+        path : Path
+            Of the map as a whole: NAME.exr.
+
+        Returns
+        -------
+        list of Path
+            That one; or, where each sheet has a file, NAME-SHEET.exr for each.
+        """
+        if self.grids or len(self.representation.sheets) == 1:
+            return [path]
+        return [path.with_name(f"{path.stem}-{sheet}{path.suffix}") for sheet in self.representation.sheets]
+
+
+CUBES: dict[str, tuple[Grid, ...]] = {"cube_faces": (), "cube_cross": CROSSES, "cube_strip": STRIPS}
+
+
+def layout(name: str, **parameters: float) -> Layout:
+    """A layout by its name.
+
+    Parameters
+    ----------
+    name : str
+        One of `CUBES`, or of `core.maps.representation.REPRESENTATIONS` but the cube map.
+    **parameters : float
+        Of the representation.
+
+    Returns
+    -------
+    Layout
+        Pictures of cubes are seen by one who looks along +Y: `AHEAD`.
+
+    Raises
+    ------
+    RangeError
+        See `representation`.
+    """
+    if name in CUBES:
+        return Layout(name, replace(representation("cube_map"), frame=AHEAD), CUBES[name])
+    return Layout(name, representation(name, **parameters))
+
+
+def read_map(path: Path, layout: Layout, read_picture: Callable[[Path], Array]) -> Array:
+    """Read a map.
+
+    Parameters
+    ----------
+    path : Path
+        See `Layout.paths`.
+    layout : Layout
+    read_picture : callable
+        Reads one file as radiance (height, width, 3), row 0 at the bottom.
+
+    Returns
+    -------
+    ndarray, shape (sheets, height, width, 3), float32
+
+    Raises
+    ------
+    InputFileError
+        A file is missing, or its size does not fit the layout or the other files'; or what
+        `read_picture` raises.
+    """
+    paths = layout.paths(path)
+    missing = [file.name for file in paths if not file.exists()]
+    if missing and len(paths) > 1:
+        raise InputFileError(
+            f"{path} as {layout.name} is {len(paths)} files, of which {', '.join(missing)} "
+            f"{'is' if len(missing) == 1 else 'are'} not there: give NAME.exr for {paths[0].name} and so on."
+        )
+    pictures = [read_picture(file) for file in paths]
+    sizes = [picture.shape[1::-1] for picture in pictures]
+    for file, size in zip(paths, sizes, strict=True):
+        if size != sizes[0]:
+            raise InputFileError(
+                f"{file} is {size[0]}x{size[1]}, but {paths[0].name} is {sizes[0][0]}x{sizes[0][1]}: "
+                f"the pictures of a map must be of one size."
+            )
+    if layout.grids:
+        return _faces(path, layout, pictures[0])
+    _check_shape(paths[0], layout, sizes[0])
+    return np.stack([picture[::-1] if layout.is_cube else picture for picture in pictures])
+
+
+def write_map(path: Path, layout: Layout, image: Array, force: bool = False) -> list[Path]:
+    """Write a map.
+
+    Parameters
+    ----------
+    path : Path
+        See `Layout.paths`; NAME.exr or NAME.hdr.
+    layout : Layout
+    image : ndarray, shape (sheets, height, width, 3)
+    force : bool
+        Whether existing files are replaced.
+
+    Returns
+    -------
+    list of Path
+        The files that were written.
+
+    Raises
+    ------
+    OutputFileError, RangeError
+        See `write_radiance`.
+    """
+    check_map_target(path, layout, force)
+    if layout.grids:
+        pictures = [_picture(layout.grids[0], image)]
+    else:
+        pictures = [sheet[::-1] if layout.is_cube else sheet for sheet in image]
+    paths = layout.paths(path)
+    for file, picture in zip(paths, pictures, strict=True):
+        write_radiance(file, picture, force)
+    return paths
+
+
+def check_map_target(path: Path, layout: Layout, force: bool = False) -> None:
+    """Refuse names that `write_map` would refuse, before long work begins.
+
+    Parameters
+    ----------
+    path : Path
+    layout : Layout
+    force : bool
+        Whether existing files may be replaced.
+
+    Raises
+    ------
+    OutputFileError
+        See `check_radiance_target`.
+    """
+    for file in layout.paths(path):
+        check_radiance_target(file, force)
+
+
+def _check_shape(path: Path, layout: Layout, size: tuple[int, ...]) -> None:
+    width, height = size
+    try:
+        fits = layout.representation.shape(width)[1] == height
+    except RangeError:
+        fits = False
+    if not fits:
+        shape = "square" if layout.representation.aspect == 1 else "twice as wide as high"
+        raise InputFileError(
+            f"{path} is {width}x{height}, but {layout.name} is {shape}: check the layout, or crop it."
+        )
+
+
+def _faces(path: Path, layout: Layout, picture: Array) -> Array:
+    """The faces in a picture; their row 0 is their first from the top."""
+    height, width = picture.shape[:2]
+    for grid in layout.grids:
+        size = width // grid.columns
+        if size > 0 and (height, width) == (grid.rows * size, grid.columns * size):
+            squares = picture[::-1].reshape(grid.rows, size, grid.columns, size, 3)
+            faces = np.stack([squares[row, :, column] for row, column in grid.places])
+            if grid.turned is not None:
+                faces[grid.turned] = faces[grid.turned, ::-1, ::-1]
+            return faces
+    shapes = " or ".join(f"{grid.columns}:{grid.rows}" for grid in layout.grids)
+    raise InputFileError(
+        f"{path} is {width}x{height}, but {layout.name} is six square faces in a picture of {shapes}: "
+        f"check the layout, or crop it."
+    )
+
+
+def _picture(grid: Grid, faces: Array) -> Array:
+    """A picture of faces, black where there is none."""
+    size = faces.shape[1]
+    squares = np.zeros((grid.rows, size, grid.columns, size, 3))
+    for face, (row, column) in zip(faces, grid.places, strict=True):
+        squares[row, :, column] = face
+    return squares.reshape(grid.rows * size, grid.columns * size, 3)[::-1]

@@ -1,0 +1,112 @@
+"""Pictures of radiance in either format: OpenEXR and Radiance HDR."""
+
+from pathlib import Path
+
+import numpy as np
+
+from ..core.conventions import Array
+from ..core.errors import InputFileError, OutputFileError
+from . import exr, radiance_hdr
+from .atomic import check_target, written_aside
+from .pictures import read_exr
+from .reading import opened
+
+
+def holds_radiance(path: str | Path) -> bool:
+    """Whether a file is OpenEXR or Radiance HDR, by its first bytes.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    bool
+
+    Raises
+    ------
+    InputFileError
+        The file is missing or unreadable.
+    """
+    return _start(path).startswith((exr.MAGIC, radiance_hdr.MAGIC))
+
+
+def read_radiance(path: str | Path) -> Array:
+    """Read a picture of radiance.
+
+    Parameters
+    ----------
+    path : str or Path
+        OpenEXR or Radiance HDR, told by its first bytes, not by its name.
+
+    Returns
+    -------
+    ndarray, shape (height, width, 3), float32
+        Linear Rec. 709, row 0 at the bottom; may be negative, NaN or infinite.
+
+    Raises
+    ------
+    InputFileError
+        The file is missing, unreadable, of another format, truncated or damaged, or has no colour.
+    """
+    start = _start(path)
+    if start.startswith(exr.MAGIC):
+        pixels = read_exr(path)[..., :3]
+    elif start.startswith(radiance_hdr.MAGIC):
+        pixels = radiance_hdr.read_hdr(path)
+    else:
+        raise InputFileError(f"{path} is neither OpenEXR nor Radiance HDR: convert it to one of them.")
+    height, width = pixels.shape[:2]
+    return np.broadcast_to(pixels, (height, width, 3))
+
+
+def check_radiance_target(path: str | Path, force: bool = False) -> None:
+    """Refuse a name that `write_radiance` would refuse, before long work begins.
+
+    Parameters
+    ----------
+    path : str or Path
+    force : bool
+        Whether an existing file may be replaced.
+
+    Raises
+    ------
+    OutputFileError
+        The name ends neither in .exr nor in .hdr; or see `check_target`.
+    """
+    if Path(path).suffix.lower() not in (".exr", ".hdr"):
+        raise OutputFileError(f"{path} would be of an unknown kind: give a name that ends in .exr or .hdr.")
+    check_target(path, force)
+
+
+def write_radiance(path: str | Path, radiance: Array, force: bool = False) -> None:
+    """Write a picture of radiance.
+
+    Parameters
+    ----------
+    path : str or Path
+        NAME.exr for OpenEXR with R, G and B in float, NAME.hdr for Radiance HDR.
+    radiance : ndarray, shape (height, width, 3)
+        Linear Rec. 709, row 0 at the bottom.
+    force : bool
+        Whether an existing file is replaced.
+
+    Raises
+    ------
+    OutputFileError
+        See `check_radiance_target` and `written_aside`.
+    RangeError
+        Radiance HDR cannot hold the values: see `write_hdr`.
+    """
+    check_radiance_target(path, force)
+    if Path(path).suffix.lower() == ".hdr":
+        radiance_hdr.write_hdr(path, radiance, force)
+        return
+    pixels = radiance.astype(np.float32)
+    with written_aside(path, force) as aside:
+        exr.write_parts(aside, [exr.Part("", {name: pixels[..., i] for i, name in enumerate("RGB")})])
+
+
+def _start(path: str | Path) -> bytes:
+    with opened(path) as stream:
+        return stream.read(max(len(exr.MAGIC), len(radiance_hdr.MAGIC)))

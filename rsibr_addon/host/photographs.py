@@ -1,0 +1,46 @@
+"""Pictures that are not radiance yet: JPEG, PNG and whatever else Blender reads."""
+
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+from ..core.conventions import Array
+from ..core.errors import InputFileError
+from ..core.transfer_curve import linear_from_srgb
+from .scenes import temporary_scene
+
+
+def read_photograph(path: Path) -> Array:
+    """Read a picture of 8 or 16 bits, and undo its curve.
+
+    Parameters
+    ----------
+    path : Path
+        Of any kind that Blender reads; taken as sRGB, whatever profile it states. Alpha is left out.
+
+    Returns
+    -------
+    ndarray, shape (height, width, 3), float32
+        In [0, 1], proportional to radiance in linear Rec. 709, row 0 at the bottom.
+
+    Raises
+    ------
+    InputFileError
+        The file is missing, or no picture.
+    """
+    with temporary_scene():
+        try:
+            image = bpy.data.images.load(str(path.resolve()))
+        except RuntimeError as error:
+            raise InputFileError(f"{path} cannot be read as a picture: check the file.") from error
+        # Numbers as they are stored: otherwise Blender decodes 16 bits, but not 8.
+        image.colorspace_settings.name = "Non-Color"
+        image.alpha_mode = "CHANNEL_PACKED"
+        width, height = image.size
+        pixels = np.empty(width * height * image.channels, dtype=np.float32)
+        if not pixels.size:
+            raise InputFileError(f"{path} cannot be read as a picture: check the file.")
+        image.pixels.foreach_get(pixels)
+    encoded = pixels.reshape(height, width, -1)[..., :3]
+    return linear_from_srgb(np.broadcast_to(encoded, (height, width, 3))).astype(np.float32)

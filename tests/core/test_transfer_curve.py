@@ -1,0 +1,18 @@
+"""The sRGB curve, by the standard's own values."""
+
+import numpy as np
+from rsibr.rsibr_addon.core.transfer_curve import linear_from_srgb
+
+
+def test_ends_middle_and_the_straight_piece() -> None:
+    # Below 0.04045 the slope is 1 / 12.92
+    np.testing.assert_allclose(linear_from_srgb([0.0, 1.0, 0.01292]), [0.0, 1.0, 0.001], rtol=1e-15)
+    # 18 percent grey is level 118 of 255, to half a level, which is 2.4 * 0.5 / 118 of it
+    np.testing.assert_allclose(linear_from_srgb(118 / 255), 0.18, rtol=0.0102)
+
+
+def test_it_inverts_the_encoding() -> None:
+    linear = np.linspace(0.0, 1.0, 1001)
+    encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+    # The standard's two pieces meet but for the rounding of its constants
+    np.testing.assert_allclose(linear_from_srgb(encoded), linear, atol=1e-7)

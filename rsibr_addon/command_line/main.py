@@ -8,12 +8,22 @@ import argparse
 import json
 import sys
 from collections.abc import Sequence
+from types import ModuleType
+from typing import Any
 
 from ..core.errors import RsibrError
-from . import capture, compare, convert, info, preview
+from . import capture, compare, convert, illuminate, info, preview
 from .report import Report, result_stream
 
-COMMANDS = {"capture": capture, "preview": preview, "compare": compare, "info": info, "convert": convert}
+COMMANDS = {
+    "capture": capture,
+    "preview": preview,
+    "compare": compare,
+    "info": info,
+    "convert": convert,
+    "illuminate": illuminate,
+}
+"""Name -> the module with its arguments and its run; or with `KINDS`, such modules in turn."""
 
 
 def console() -> int:
@@ -63,13 +73,28 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="rsibr", description="Prefiltered reflection maps with Blender.")
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     for name, module in COMMANDS.items():
-        summary = (module.__doc__ or "").splitlines()[0]
-        command = commands.add_parser(
-            name, help=summary, description=summary, parents=[common], allow_abbrev=False
-        )
-        module.add_arguments(command)
-        command.set_defaults(run=module.run)
+        if hasattr(module, "KINDS"):
+            summary = _summary(module)
+            family = commands.add_parser(name, help=summary, description=summary, allow_abbrev=False)
+            kinds = family.add_subparsers(metavar="KIND", required=True)
+            for kind, member in module.KINDS.items():
+                _add_command(kinds, kind, member, common)
+        else:
+            _add_command(commands, name, module, common)
     return parser
+
+
+def _add_command(commands: Any, name: str, module: ModuleType, common: argparse.ArgumentParser) -> None:
+    summary = _summary(module)
+    command = commands.add_parser(
+        name, help=summary, description=summary, parents=[common], allow_abbrev=False
+    )
+    module.add_arguments(command)
+    command.set_defaults(run=module.run)
+
+
+def _summary(module: ModuleType) -> str:
+    return (module.__doc__ or "").splitlines()[0]
 
 
 def _with_joined_directions(argv: Sequence[str]) -> list[str]:

@@ -3,13 +3,11 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..core.conventions import Array
-from ..core.environment import usable_radiance
 from ..core.errors import RangeError
 from ..core.progress import Progress, Steps
 from ..core.resample import resample
 from ..files.map_pictures import Layout, check_map_target, layout, read_map, write_map
-from ..files.radiance_pictures import holds_radiance, read_radiance
+from .light_pictures import read_light
 
 LARGEST = 16384
 """Width of the largest map."""
@@ -103,17 +101,8 @@ def convert(source: Path, settings: ConvertSettings, output: Path, force: bool =
     before, after = settings.layout(settings.source), settings.layout(settings.target)
     check_map_target(output, after, force)
     yield Progress(0, 3, f"reading {source.name}")
-    image = read_map(source, before, _read_picture)
+    image = read_map(source, before, read_light)
     yield Progress(1, 3, f"making {output.name}")
     made = resample(image, before.representation, after.representation, settings.size)
     yield Progress(2, 3, f"writing {output.name}")
     return write_map(output, after, made, force)
-
-
-def _read_picture(path: Path) -> Array:
-    if holds_radiance(path):
-        return usable_radiance(read_radiance(path), path.name)
-    # Only such pictures need Blender, which takes a second to start
-    from ..host.photographs import read_photograph
-
-    return read_photograph(path)

@@ -51,7 +51,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     RsibrError
         See `tasks.compare`.
     """
-    from ..core.shading import Mode, Warping
+    from ..core.shading.radiance_views import Mode, Warping
     from ..tasks.compare import compare
     from ..tasks.comparison import ComparisonSettings, comparison_table
 

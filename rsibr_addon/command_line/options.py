@@ -44,7 +44,7 @@ def degrees(text: str) -> float:
 
 def add_map_set(parser: argparse.ArgumentParser) -> None:
     """Declare `map_set`, the file to work on."""
-    parser.add_argument("map_set", metavar="NAME.rsibr.exr", type=Path, help="a map set of radiance views")
+    parser.add_argument("map_set", metavar="NAME.rsibr.exr", type=Path, help="a map set")
 
 
 def add_scene(parser: argparse.ArgumentParser, size: int) -> None:

@@ -1,9 +1,9 @@
-"""Draw a mesh in a captured material, once or as a turntable."""
+"""Draw a mesh shaded from a map set, once or as a turntable."""
 
 import argparse
 from typing import Any
 
-from . import options
+from . import looks, options
 from .report import Report
 
 
@@ -19,25 +19,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="from the object to the eye (default: 0,-1,0, the front)",
     )
     parser.add_argument(
-        "--mode",
-        choices=["paper", "texel", "fragment"],
-        default="fragment",
-        help="warp once a frame on a tessellated disk, once a frame for each texel, or for each fragment "
-        "with its own view (default: %(default)s)",
-    )
-    parser.add_argument(
-        "--warp",
-        choices=["single", "split", "albedo"],
-        default="albedo",
-        help="mirror warp for the whole radiance; normal warp for diffuse and mirror warp for glossy; "
-        "or these with the material's directional albedo taken out and put back (default: %(default)s)",
-    )
-    parser.add_argument(
         "--turntable",
         metavar="N",
         type=options.positive,
         help="N frames around the object: a contact sheet in OUT and a movie beside it, OUT.mp4",
     )
+    looks.add_arguments(parser)
     options.add_output(parser, "OUT.exr|OUT.png", "EXR holds linear radiance, and coverage in alpha")
 
 
@@ -55,15 +42,15 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
         See `tasks.preview`.
     """
     from ..core.camera import Camera
-    from ..core.shading import Mode, Warping
+    from ..files.map_set import read_map_set_header
     from ..tasks.preview import PreviewSettings, preview, turntable
 
+    kind = read_map_set_header(arguments.map_set)["kind"]
     settings = PreviewSettings(
         camera=Camera(arguments.view, options.radians_or_none(arguments.perspective)),
         mesh=arguments.mesh,
         size=arguments.size,
-        mode=Mode(arguments.mode),
-        warping=Warping(arguments.warp),
+        look=looks.look(arguments, kind),
     )
     target = arguments.output, arguments.force
     if arguments.turntable is None:

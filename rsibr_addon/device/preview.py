@@ -1,37 +1,29 @@
 """Pictures of a mesh drawn off-screen, in linear radiance."""
 
+from typing import Any
+
 import gpu
 import numpy as np
 
 from ..core.camera import Camera
 from ..core.conventions import Array
-from ..core.radiance_views import RadianceViews
-from ..core.shading import Mode, Warping
 from . import buffers
-from .context import ensure_context
-from .radiance_views import Draw, RadianceViewsOnDevice, mesh_batch
+from .drawing import Draw, OnDevice, mesh_batch
 
 SAMPLES_PER_AXIS = 4
 """Each pixel is the mean of SAMPLES_PER_AXIS**2 samples: antialiased, as Cycles' box filter."""
 
 
 class PreviewRenderer:
-    """Draws meshes with a map set's radiance views into pictures.
+    """Draws meshes with what a map set holds into pictures.
 
     Parameters
     ----------
-    views : RadianceViews
-        Uploaded once.
-
-    Raises
-    ------
-    DeviceError
-        There is no graphics driver, or it refuses a shader.
+    subject : OnDevice
     """
 
-    def __init__(self, views: RadianceViews) -> None:
-        ensure_context()
-        self._views = RadianceViewsOnDevice(views)
+    def __init__(self, subject: OnDevice) -> None:
+        self._subject = subject
 
     def draw(
         self,
@@ -40,8 +32,7 @@ class PreviewRenderer:
         triangles: Array,
         camera: Camera,
         size: int,
-        mode: Mode,
-        warping: Warping,
+        look: Any,
     ) -> Array:
         """Draw one picture.
 
@@ -53,8 +44,8 @@ class PreviewRenderer:
         camera : Camera
         size : int
             Width and height of the picture in pixels.
-        mode : Mode
-        warping : Warping
+        look : object
+            Of the subject's kind: see `core.shading`.
 
         Returns
         -------
@@ -79,7 +70,7 @@ class PreviewRenderer:
             gpu.state.depth_test_set("LESS_EQUAL")
             gpu.state.depth_mask_set(True)
             try:
-                self._views.draw(mesh, placed, mode, warping)
+                self._subject.draw(mesh, placed, look)
             finally:
                 gpu.state.depth_test_set(depth_test)
                 gpu.state.depth_mask_set(depth_mask)

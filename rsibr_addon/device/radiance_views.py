@@ -4,8 +4,6 @@ The modes of [Cabral1999]: `paper` draws the destination sphere map of the frame
 disk and shades from it; `texel` warps that map per texel; `fragment` needs no map in between.
 """
 
-from dataclasses import dataclass
-
 import gpu
 import numpy as np
 
@@ -14,36 +12,11 @@ from ..core.directions import camera_frame
 from ..core.disk_mesh import disk_mesh
 from ..core.geodesic import GeodesicSphere, barycentric_weights, find_triangle
 from ..core.radiance_views import RadianceViews
-from ..core.shading import LEAST_ALBEDO, Mode, Warping
+from ..core.shading.radiance_views import LEAST_ALBEDO, Mode, ViewsLook, Warping
 from . import buffers, shaders
+from .drawing import Draw
 
 _SCREEN_TRIANGLE = np.array([[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]])
-
-
-@dataclass(frozen=True)
-class Draw:
-    """Where a mesh stands and from where it is seen; matrices of shape (4, 4) for column vectors.
-
-    Attributes
-    ----------
-    model, view, projection : ndarray, shape (4, 4)
-    eye : ndarray, shape (4,)
-        Homogeneous position of the eye in world space, as `core.camera.Camera.eye`.
-    view_dir : ndarray, shape (3,)
-        Unit vector from the object to the eye: the view that destination maps are made for.
-    """
-
-    model: Array
-    view: Array
-    projection: Array
-    eye: Array
-    view_dir: Array
-
-    def uniforms(self) -> gpu.types.GPUUniformBuf:
-        """The block `Draw` of the shaders."""
-        normal_matrix = np.eye(4)
-        normal_matrix[:3, :3] = np.linalg.inv(self.model[:3, :3]).T
-        return buffers.uniform_block(self.model, normal_matrix, self.view, self.projection, self.eye)
 
 
 class RadianceViewsOnDevice:
@@ -78,42 +51,29 @@ class RadianceViewsOnDevice:
             shaders.views_texel_shader(), {"position": _SCREEN_TRIANGLE}, np.array([[0, 1, 2]])
         )
 
-    def draw(self, mesh: gpu.types.GPUBatch, draw: Draw, mode: Mode, warping: Warping) -> None:
-        """Draw a mesh into the active frame buffer, with the depth test as it is set.
-
-        Parameters
-        ----------
-        mesh : GPUBatch
-            With attributes `position` and `normal`: see `mesh_batch`.
-        draw : Draw
-        mode : Mode
-        warping : Warping
-
-        Notes
-        -----
-        Reference: core/shading.py.
-        """
+    def draw(self, mesh: gpu.types.GPUBatch, draw: Draw, look: ViewsLook) -> None:
+        """See `OnDevice.draw`. Reference: core/shading/radiance_views.py."""
         # Bound blocks must outlive the draw: Blender keeps no reference to them.
         placed, blend = draw.uniforms(), _blend_uniforms(self._sphere, draw.view_dir)
-        if mode is Mode.FRAGMENT:
+        if look.mode is Mode.FRAGMENT:
             shader = shaders.views_fragment_shader()
             shader.bind()
             shader.uniform_sampler("views", self._views)
             shader.uniform_sampler("sphere", self._geodesic)
         else:
-            self._make_destination(blend, mode, warping)
+            self._make_destination(blend, look)
             shader = shaders.views_destination_shader()
             shader.bind()
             shader.uniform_block("blend", blend)
             shader.uniform_sampler("by_normal", self._targets[0])
             shader.uniform_sampler("by_mirror", self._targets[1])
         shader.uniform_block("draw", placed)
-        shader.uniform_block("mode", self._modes[warping])
+        shader.uniform_block("mode", self._modes[look.warping])
         shader.uniform_sampler("albedo", self._albedo)
         mesh.draw(shader)
 
-    def _make_destination(self, blend: gpu.types.GPUUniformBuf, mode: Mode, warping: Warping) -> None:
-        if mode is Mode.PAPER:
+    def _make_destination(self, blend: gpu.types.GPUUniformBuf, look: ViewsLook) -> None:
+        if look.mode is Mode.PAPER:
             shader, surface = shaders.views_disk_shader(), self._disk
         else:
             shader, surface = shaders.views_texel_shader(), self._screen
@@ -122,27 +82,11 @@ class RadianceViewsOnDevice:
             gpu.state.depth_test_set("NONE")
             shader.bind()
             shader.uniform_block("blend", blend)
-            shader.uniform_block("mode", self._modes[warping])
+            shader.uniform_block("mode", self._modes[look.warping])
             shader.uniform_sampler("views", self._views)
             shader.uniform_sampler("albedo", self._albedo)
             surface.draw(shader)
         gpu.state.depth_test_set(depth_test)
-
-
-def mesh_batch(positions: Array, normals: Array, triangles: Array) -> gpu.types.GPUBatch:
-    """Upload a mesh for `RadianceViewsOnDevice.draw`.
-
-    Parameters
-    ----------
-    positions, normals : ndarray, shape (V, 3)
-    triangles : ndarray of int, shape (F, 3)
-
-    Returns
-    -------
-    GPUBatch
-    """
-    attributes = {"position": positions, "normal": normals}
-    return buffers.triangles(shaders.views_fragment_shader(), attributes, triangles)
 
 
 def _layers(views: RadianceViews) -> Array:

@@ -1,5 +1,7 @@
 """The GPU programs: their interfaces; their sources stand in `gpu_shaders`."""
 
+import atexit
+from collections.abc import Callable
 from functools import cache
 
 import gpu
@@ -13,7 +15,17 @@ _BLEND_BLOCK = "struct Blend { mat4 frame; vec4 source_dirs[3]; vec4 weights; ve
 _MODE_BLOCK = "struct Mode { float warping; float last_level; float unused_0; float unused_1; };"
 
 
-@cache
+def kept_until_exit(build: Callable[[], gpu.types.GPUShader]) -> Callable[[], gpu.types.GPUShader]:
+    """Build a program when it is first wanted, and let go of it before Blender's graphics end.
+
+    A program that is freed later than them ends the process with a segmentation fault.
+    """
+    cached = cache(build)
+    atexit.register(cached.cache_clear)
+    return cached
+
+
+@kept_until_exit
 def views_fragment_shader() -> gpu.types.GPUShader:
     """Draws a mesh from radiance views, `fragment` mode.
 
@@ -28,7 +40,7 @@ def views_fragment_shader() -> gpu.types.GPUShader:
     return _build("views_fragment", info, "mesh_vert.glsl", "views_fragment_frag.glsl")
 
 
-@cache
+@kept_until_exit
 def views_destination_shader() -> gpu.types.GPUShader:
     """Draws a mesh from the destination maps of one view."""
     info = _mesh_interface(_BLEND_BLOCK)
@@ -38,7 +50,7 @@ def views_destination_shader() -> gpu.types.GPUShader:
     return _build("views_destination", info, "mesh_vert.glsl", "views_destination_frag.glsl")
 
 
-@cache
+@kept_until_exit
 def views_texel_shader() -> gpu.types.GPUShader:
     """Makes the destination maps of one view, `texel` mode."""
     info = _destination_interface()
@@ -48,7 +60,7 @@ def views_texel_shader() -> gpu.types.GPUShader:
     return _build("views_texel", info, "screen_vert.glsl", "views_texel_frag.glsl")
 
 
-@cache
+@kept_until_exit
 def views_disk_shader() -> gpu.types.GPUShader:
     """Makes the destination maps of one view, `paper` mode, drawn on the tessellated disk."""
     info = _destination_interface()

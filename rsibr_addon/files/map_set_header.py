@@ -8,13 +8,15 @@ import re
 from collections.abc import Callable, Iterator
 from typing import Any
 
+from ..core.conventions import WORLD_AXES
+from ..core.environment import Environment
 from ..core.errors import MapSetError
 
 FORMAT = 1
 """The version of the format that this code writes, and the only one that it reads."""
 
 ENVIRONMENT = "environment"
-"""The role of the part that holds the environment."""
+"""The role of the part that holds the environment, and its name."""
 
 type Rule = tuple[str, Callable[[Any], bool]]
 
@@ -90,6 +92,53 @@ ROLE_FIELDS: dict[tuple[str, str], dict[str, Rule]] = {
     ("mip_chain", "prefiltered"): {"mip": INDEX, "roughness": NUMBER},
 }
 """Kind and role -> what a part says beyond `PART_FIELDS`; parts of other roles say no more."""
+
+
+def make_header(
+    layout: str,
+    size: tuple[int, int],
+    environment: Environment,
+    embedded: bool,
+    material: dict[str, Any],
+    parts: list[dict[str, Any]],
+    error_bound: dict[str, Any] | None,
+    settings: dict[str, Any],
+    software: str,
+) -> dict[str, Any]:
+    """The description of a map set, as `MapSet.header` takes it.
+
+    Parameters
+    ----------
+    layout : str
+    size : tuple of two int
+        Width and height of the maps.
+    environment : Environment
+    embedded : bool
+        Whether one of `parts` is the environment, by the name `ENVIRONMENT`.
+    material, parts, error_bound, settings, software
+        See docs/map-set-format.md.
+
+    Returns
+    -------
+    dict
+    """
+    height, width = environment.radiance.shape[:2]
+    return {
+        "layout": layout,
+        "size": list(size),
+        "axes": WORLD_AXES,
+        "environment": {
+            "name": environment.name,
+            "sha256": environment.sha256,
+            "size": [width, height],
+            "part": ENVIRONMENT if embedded else None,
+        },
+        "material": material,
+        "parts": parts,
+        "error_bound": error_bound,
+        "settings": settings,
+        "software": software,
+    }
 
 
 def check_header(header: Any, name: str) -> None:

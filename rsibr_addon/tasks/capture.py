@@ -8,16 +8,15 @@ from typing import Any
 import numpy as np
 
 from ..core.camera import Camera
-from ..core.conventions import WORLD_AXES, Array
-from ..core.environment import Environment
+from ..core.conventions import Array
 from ..core.errors import InputFileError, RsibrWarning, SceneError
 from ..core.geodesic import geodesic_sphere
 from ..core.maps.sphere_map import fill_rim
 from ..core.progress import Progress, Steps
 from ..files.atomic import check_target, written_aside
-from ..files.environments import read_environment
 from ..files.exr import Part, read_parts, write_parts
 from ..files.map_set import MapSet, write_map_set
+from ..files.map_set_header import ENVIRONMENT, make_header
 from ..files.work_folder import work_folder
 from ..host.cameras import add_camera
 from ..host.cycles import RenderedView, RenderSettings, render_view
@@ -27,14 +26,12 @@ from ..host.scenes import temporary_scene
 from ..host.shape_dependence import shape_dependence
 from ..host.spheres import add_sphere
 from ..host.version import software
-from ..host.worlds import current_world, light_with, sample_world, studio_environments
+from ..host.worlds import current_world, light_with, sample_world
 from ..job import CaptureJob
+from .environments import load_environment
 
 WORLD_HEIGHT = 512
 """Of the environment that a world is sampled into, in texels."""
-
-ENVIRONMENT = "environment"
-"""Name and role of the part that holds the environment."""
 
 ALBEDO = "albedo"
 """Name and role of the part that holds the material's directional albedo."""
@@ -103,7 +100,11 @@ class _Subject:
 
     def __init__(self, job: CaptureJob) -> None:
         self.job = job
-        self.environment = _environment(job.environment)
+        self.environment = (
+            sample_world(current_world(), WORLD_HEIGHT)
+            if job.environment is None
+            else load_environment(job.environment)
+        )
         with temporary_scene():
             material = load_material(job.material)
             self.fingerprint = fingerprint(material)
@@ -151,17 +152,6 @@ class _Subject:
         return material
 
 
-def _environment(spec: str | None) -> Environment:
-    if spec is None:
-        return sample_world(current_world(), WORLD_HEIGHT)
-    own = studio_environments()
-    if Path(spec).exists():
-        return read_environment(spec)
-    if spec not in own:
-        raise InputFileError(f"There is no environment {spec}: give a file, or one of {', '.join(own)}.")
-    return read_environment(own[spec])
-
-
 def _write_view(path: Path, view: RenderedView) -> None:
     maps = {"diffuse": view.diffuse, "glossy": view.glossy}
     parts = []
@@ -195,31 +185,25 @@ def _map_set(subject: _Subject, paths: list[Path]) -> MapSet:
 
 
 def _header(subject: _Subject, parts: list[dict[str, Any]], noise: float) -> dict[str, Any]:
-    job, environment = subject.job, subject.environment
-    height, width = environment.radiance.shape[:2]
-    return {
-        "layout": "sphere_map",
-        "size": [job.size, job.size],
-        "axes": WORLD_AXES,
-        "environment": {
-            "name": environment.name,
-            "sha256": environment.sha256,
-            "size": [width, height],
-            "part": ENVIRONMENT,
-        },
-        "material": {
+    job = subject.job
+    return make_header(
+        layout="sphere_map",
+        size=(job.size, job.size),
+        environment=subject.environment,
+        embedded=True,
+        material={
             "spec": lasting_spec(job.material),
             "name": material_name(job.material),
             "fingerprint": subject.fingerprint,
         },
-        "parts": parts,
-        "error_bound": {"relative_noise": noise},
-        "settings": {
+        parts=parts,
+        error_bound={"relative_noise": noise},
+        settings={
             "views": job.views,
             "size": job.size,
             "samples": job.samples,
             "denoise": job.denoise,
             "seed": job.seed,
         },
-        "software": software(),
-    }
+        software=software(),
+    )

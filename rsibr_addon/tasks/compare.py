@@ -11,13 +11,16 @@ from ..core.directions import normalize
 from ..core.errors import MapSetError
 from ..core.metrics import relative_rmse, relative_rmse_beyond_noise, unpremultiplied
 from ..core.progress import Progress, Steps
+from ..core.shading.radiance_views import ViewsLook
+from ..device.context import ensure_context
 from ..device.preview import PreviewRenderer
+from ..device.radiance_views import RadianceViewsOnDevice
 from ..files.folders import check_folder_target, folder_written_aside
 from ..host.meshes import load_mesh
-from .captured import Captured, read_captured
 from .comparison import Comparison, ComparisonSettings, Way, WayError
 from .comparison_page import comparison_page
 from .comparison_pictures import save_sheets
+from .kinds import OpenedMapSet, open_map_set
 from .references import Reference, Subject, check_material, render_reference
 
 RESULT = "comparison.json"
@@ -65,7 +68,7 @@ def compare(
     check_folder_target(output, RESULT, force)
     total = settings.views + 2
     yield Progress(0, total, f"reading {map_set.name}")
-    captured = read_captured(map_set)
+    captured = open_map_set(map_set, "radiance_views")
     subject = _subject(map_set, captured, settings)
     easel = _Easel(captured, settings)
     cameras = _cameras(settings)
@@ -82,7 +85,7 @@ def compare(
         map_set=map_set.name,
         environment=subject.environment.name,
         material=subject.material,
-        map_size=captured.views.size,
+        map_size=captured.subject.size,
         settings=settings,
         view_dirs=tuple(camera.view_dir for camera in cameras),
         reference_noise=_noise(references),
@@ -114,12 +117,15 @@ def random_directions(count: int, seed: int) -> Array:
 class _Easel:
     """A map set and a mesh, uploaded, to be drawn in every way asked for."""
 
-    def __init__(self, captured: Captured, settings: ComparisonSettings) -> None:
+    def __init__(self, captured: OpenedMapSet, settings: ComparisonSettings) -> None:
         self._mesh = load_mesh(settings.mesh)
         self._size = settings.size
-        whole = len(captured.views.diffuse)
+        whole = len(captured.subject.diffuse)
         counts = settings.captured_views or (whole,)
-        self._renderers = {count: PreviewRenderer(captured.views.coarser(count)) for count in counts}
+        ensure_context()
+        self._renderers = {
+            count: PreviewRenderer(RadianceViewsOnDevice(captured.subject.coarser(count))) for count in counts
+        }
         self.ways = [
             Way(count, mode, warping)
             for count in counts
@@ -130,7 +136,9 @@ class _Easel:
     def draw(self, way: Way, camera: Camera) -> Array:
         """A picture of radiance times coverage, and coverage, shape (size, size, 4)."""
         mesh = self._mesh.positions, self._mesh.normals, self._mesh.triangles
-        return self._renderers[way.captured_views].draw(*mesh, camera, self._size, way.mode, way.warping)
+        return self._renderers[way.captured_views].draw(
+            *mesh, camera, self._size, ViewsLook(way.mode, way.warping)
+        )
 
 
 def _cameras(settings: ComparisonSettings) -> list[Camera]:
@@ -138,7 +146,7 @@ def _cameras(settings: ComparisonSettings) -> list[Camera]:
     return [Camera((x, y, z), settings.field_of_view) for x, y, z in directions]
 
 
-def _subject(map_set: Path, captured: Captured, settings: ComparisonSettings) -> Subject:
+def _subject(map_set: Path, captured: OpenedMapSet, settings: ComparisonSettings) -> Subject:
     if captured.environment is None:
         raise MapSetError(
             f"{map_set} does not hold the environment to render a reference in: capture it again."

@@ -7,7 +7,7 @@ from statistics import median
 from typing import Any, Self
 
 from ..core.errors import RangeError
-from ..core.shading import Mode, Warping
+from ..core.shading.radiance_views import Mode, Warping
 
 LARGEST = 1024
 """Width and height of the largest picture to compare."""

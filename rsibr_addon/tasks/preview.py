@@ -1,9 +1,10 @@
-"""Pictures of a mesh in a captured material: one, or a turn around it."""
+"""Pictures of a mesh shaded from a map set: one, or a turn around it."""
 
 import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -11,15 +12,14 @@ from ..core.camera import Camera
 from ..core.conventions import Array
 from ..core.errors import OutputFileError, RangeError
 from ..core.progress import Progress, Steps
-from ..core.shading import Mode, Warping
 from ..device.preview import PreviewRenderer
 from ..files.atomic import check_target, written_aside
 from ..files.pictures import write_exr
 from ..host.meshes import TriangleMesh, load_mesh
 from ..host.movies import save_movie
 from ..host.pictures import save_png
-from .captured import read_captured
 from .contact_sheet import contact_sheet
+from .kinds import KINDS, open_map_set
 
 LARGEST = 2048
 """Width and height of the largest picture: drawn at four times that, it takes 1 GiB."""
@@ -39,8 +39,8 @@ class PreviewSettings:
         As `host.meshes.load_mesh` takes it.
     size : int
         Width and height in pixels, 1 to `LARGEST`.
-    mode : Mode
-    warping : Warping
+    look : object, optional
+        Of the map set's kind, see `core.shading`; by default that kind's own.
 
     Raises
     ------
@@ -51,8 +51,7 @@ class PreviewSettings:
     camera: Camera
     mesh: str = "sphere"
     size: int = 512
-    mode: Mode = Mode.FRAGMENT
-    warping: Warping = Warping.ALBEDO
+    look: Any = None
 
     def __post_init__(self) -> None:
         if not 1 <= self.size <= LARGEST:
@@ -65,7 +64,7 @@ def preview(map_set: Path, settings: PreviewSettings, output: Path, force: bool 
     Parameters
     ----------
     map_set : Path
-        A map set of radiance views.
+        A map set of any kind.
     settings : PreviewSettings
     output : Path
         NAME.exr for linear radiance, premultiplied, with coverage in alpha; NAME.png for a picture
@@ -102,7 +101,7 @@ def turntable(
     Parameters
     ----------
     map_set : Path
-        A map set of radiance views.
+        A map set of any kind.
     settings : PreviewSettings
         Its camera is the first frame's; an even size, as H.264 demands.
     frame_count : int
@@ -158,12 +157,13 @@ class _Studio:
     def __init__(self, map_set: Path, settings: PreviewSettings) -> None:
         self._settings = settings
         self._mesh: TriangleMesh = load_mesh(settings.mesh)
-        self._renderer = PreviewRenderer(read_captured(map_set).views)
+        opened = open_map_set(map_set)
+        self._look = settings.look or KINDS[opened.kind].look()
+        self._renderer = PreviewRenderer(opened.upload())
 
     def __call__(self, camera: Camera) -> Array:
         mesh = self._mesh.positions, self._mesh.normals, self._mesh.triangles
-        settings = self._settings
-        return self._renderer.draw(*mesh, camera, settings.size, settings.mode, settings.warping)
+        return self._renderer.draw(*mesh, camera, self._settings.size, self._look)
 
 
 def _orbit(camera: Camera, frame_count: int) -> Iterator[Camera]:

@@ -11,7 +11,7 @@ from rsibr.rsibr_addon.core.directions import reflect
 from rsibr.rsibr_addon.core.errors import MapSetError, OutputFileError, RangeError
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.core.shading import Mode, Warping
+from rsibr.rsibr_addon.core.shading.radiance_views import Mode, ViewsLook, Warping
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.files.pictures import read_exr
 from rsibr.rsibr_addon.tasks.preview import PreviewSettings, preview, turntable
@@ -36,7 +36,7 @@ def mirrored_sphere(camera: Camera, size: int) -> tuple[np.ndarray, np.ndarray]:
 def test_a_mirrored_sphere_shows_its_surroundings(tmp_path: Path, mode: Mode, warping: Warping) -> None:
     path = write_mirror_capture(tmp_path / "mirror.rsibr.exr")
     camera = Camera(VIEW)
-    settings = PreviewSettings(camera, size=SIZE, mode=mode, warping=warping)
+    settings = PreviewSettings(camera, size=SIZE, look=ViewsLook(mode, warping))
     output = drain(preview(path, settings, tmp_path / "out.exr"))
     assert output == tmp_path / "out.exr"
     rgba = read_exr(output)

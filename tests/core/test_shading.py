@@ -11,7 +11,7 @@ from rsibr.rsibr_addon.core.directions import camera_frame, dot, normalize
 from rsibr.rsibr_addon.core.geodesic import find_triangle
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.radiance_views import RadianceViews
-from rsibr.rsibr_addon.core.shading import (
+from rsibr.rsibr_addon.core.shading.radiance_views import (
     LEAST_ALBEDO,
     Destination,
     Warping,

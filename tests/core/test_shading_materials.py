@@ -14,7 +14,7 @@ from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.radiance_views import RadianceViews
 from rsibr.rsibr_addon.core.reflection_warp import Warp, confidence, source_cosine, source_uv
 from rsibr.rsibr_addon.core.resample import bilinear
-from rsibr.rsibr_addon.core.shading import (
+from rsibr.rsibr_addon.core.shading.radiance_views import (
     Destination,
     Warping,
     destination_by_mesh,

@@ -30,7 +30,7 @@ from rsibr.rsibr_addon.host.worlds import light_with
 from rsibr.rsibr_addon.job import CaptureJob
 from rsibr.rsibr_addon.tasks import capture as task
 from rsibr.rsibr_addon.tasks.capture import capture
-from rsibr.rsibr_addon.tasks.captured import read_captured
+from rsibr.rsibr_addon.tasks.kinds import open_map_set
 from rsibr.tests.open_file import open_file_state
 
 LIT = (12, 3)
@@ -98,7 +98,7 @@ def test_a_capture_is_whole(job: CaptureJob, environment: Environment, partial: 
     assert map_set.header["material"]["spec"] == map_set.header["material"]["name"] == "copper"
     assert map_set.header["software"].endswith(f"Blender {bpy.app.version_string}")
     assert 0.0 < map_set.header["error_bound"]["relative_noise"] < 10.0
-    views = read_captured(Path(job.output)).views
+    views = open_map_set(Path(job.output)).subject
     assert views.size == 12
     assert not np.any(views.diffuse)  # copper is a metal
     # Filled beyond the rim: corners repeat what is there.
@@ -108,7 +108,7 @@ def test_a_capture_is_whole(job: CaptureJob, environment: Environment, partial: 
 def test_a_lit_texel_lands_in_every_view_where_the_conventions_say(job: CaptureJob) -> None:
     size = 48
     drain(capture(replace(job, material="mirror", size=size, samples=8)))
-    views = read_captured(Path(job.output)).views
+    views = open_map_set(Path(job.output)).subject
     lit = equirect.direction_from_uv(texel_centres(32, 16)[LIT])
     inside = sphere_map.texel_solid_angle(size) * size**2 / 16.0 > 0.999
     for view_dir, frame, glossy in zip(views.sphere.vertices, views.frames, views.glossy, strict=True):

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import InputFileError, MapSetError, OutputFileError, RangeError
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.core.shading import Mode, Warping
+from rsibr.rsibr_addon.core.shading.radiance_views import Mode, Warping
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.host.materials import fingerprint, load_material
 from rsibr.rsibr_addon.host.scenes import temporary_scene

@@ -1,16 +1,17 @@
-"""Pictures drawn on the GPU, in every mode, against core/shading.py at every sample."""
+"""Pictures drawn on the GPU, in every mode, against core/shading at every sample."""
 
 import gpu
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core import shading
 from rsibr.rsibr_addon.core.camera import Camera
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.directions import dot, normalize
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.radiance_views import RadianceViews
-from rsibr.rsibr_addon.core.shading import Mode, Warping
+from rsibr.rsibr_addon.core.shading import radiance_views as shading
+from rsibr.rsibr_addon.core.shading.radiance_views import Mode, ViewsLook, Warping
 from rsibr.rsibr_addon.device.preview import SAMPLES_PER_AXIS, PreviewRenderer
+from rsibr.rsibr_addon.device.radiance_views import RadianceViewsOnDevice
 from rsibr.tests.synthetic_views import random_views, smooth_views, with_random_albedo
 
 SIZE = 32
@@ -62,7 +63,7 @@ def samples(camera: Camera) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 def reference(
     views: RadianceViews, camera: Camera, mode: Mode, warping: Warping
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Radiance by core/shading.py, and the pixels all of whose samples see the sphere at n.v > 0.2."""
+    """Radiance by core/shading, and the pixels all of whose samples see the sphere at n.v > 0.2."""
     normal, view_dir, cosine = samples(camera)
     if mode is Mode.FRAGMENT:
         radiance = shading.views_fragment(views, normal, view_dir, warping)
@@ -78,13 +79,13 @@ def reference(
 @pytest.fixture(scope="module")
 def smooth() -> tuple[RadianceViews, PreviewRenderer]:
     views = smooth_views(12, 32)
-    return views, PreviewRenderer(views)
+    return views, PreviewRenderer(RadianceViewsOnDevice(views))
 
 
 @pytest.fixture(scope="module")
 def patternless() -> tuple[RadianceViews, PreviewRenderer]:
     views = with_random_albedo(random_views(42, 16))
-    return views, PreviewRenderer(views)
+    return views, PreviewRenderer(RadianceViewsOnDevice(views))
 
 
 @MODE
@@ -93,7 +94,7 @@ def patternless() -> tuple[RadianceViews, PreviewRenderer]:
 def test_a_picture_is_what_the_reference_says(smooth, mode: Mode, warping: Warping, camera: Camera) -> None:
     views, renderer = smooth
     expected, inside = reference(views, camera, mode, warping)
-    picture = renderer.draw(*SPHERE, camera, SIZE, mode, warping)
+    picture = renderer.draw(*SPHERE, camera, SIZE, ViewsLook(mode, warping))
     assert picture.dtype == np.float32
     assert np.all(picture[inside, 3] == 1.0)
     assert np.count_nonzero(inside) > 0.6 * SIZE**2
@@ -109,7 +110,7 @@ def test_a_picture_is_what_the_reference_says(smooth, mode: Mode, warping: Warpi
 def test_every_lookup_finds_its_texel(patternless, mode: Mode, warping: Warping, camera: Camera) -> None:
     views, renderer = patternless
     expected, inside = reference(views, camera, mode, warping)
-    picture = renderer.draw(*SPHERE, camera, SIZE, mode, warping)
+    picture = renderer.draw(*SPHERE, camera, SIZE, ViewsLook(mode, warping))
     # As above, with differences of 1 between texels: 4e-4 of 16 texels a unit, and 2 times 2 / 512.
     assert np.abs(picture[..., :3] - expected)[inside].max() < 1.5e-2
     assert expected[inside].std() > 0.05
@@ -119,8 +120,8 @@ def test_every_lookup_finds_its_texel(patternless, mode: Mode, warping: Warping,
 @BY_CAMERA
 def test_coverage(mode: Mode, camera: Camera) -> None:
     maps = np.ones((12, 16, 16, 3), np.float32)
-    picture = PreviewRenderer(RadianceViews(0.25 * maps, 0.5 * maps)).draw(
-        *SPHERE, camera, SIZE, mode, Warping.ALBEDO
+    picture = PreviewRenderer(RadianceViewsOnDevice(RadianceViews(0.25 * maps, 0.5 * maps))).draw(
+        *SPHERE, camera, SIZE, ViewsLook(mode, Warping.ALBEDO)
     )
     alpha = picture[..., 3]
     # No sample lies within 4e-4 of the rim, facets are off by 4e-5: every sample is told right. In all
@@ -137,7 +138,7 @@ def test_coverage(mode: Mode, camera: Camera) -> None:
 def test_nearer_surfaces_hide_farther_ones(smooth) -> None:
     _, renderer = smooth
     positions, normals, triangles = SPHERE
-    alone = renderer.draw(*SPHERE, CAMERAS[1], SIZE, Mode.FRAGMENT, Warping.SPLIT)
+    alone = renderer.draw(*SPHERE, CAMERAS[1], SIZE, ViewsLook(Mode.FRAGMENT, Warping.SPLIT))
     # The same sphere and a smaller one behind its surface, drawn before and after.
     for scale_first, scale_second in ((1.0, 0.7), (0.7, 1.0)):
         both = (
@@ -148,7 +149,7 @@ def test_nearer_surfaces_hide_farther_ones(smooth) -> None:
             np.concatenate([triangles, triangles + len(positions)]),
         )
         np.testing.assert_array_equal(
-            renderer.draw(*both, CAMERAS[1], SIZE, Mode.FRAGMENT, Warping.SPLIT), alone
+            renderer.draw(*both, CAMERAS[1], SIZE, ViewsLook(Mode.FRAGMENT, Warping.SPLIT)), alone
         )
 
 
@@ -159,7 +160,7 @@ def test_drawing_leaves_the_state_as_it_was(smooth, mode: Mode, test: str) -> No
     gpu.state.depth_test_set(test)
     gpu.state.depth_mask_set(test == "LESS")
     try:
-        renderer.draw(*SPHERE, CAMERAS[0], 8, mode, Warping.SPLIT)
+        renderer.draw(*SPHERE, CAMERAS[0], 8, ViewsLook(mode, Warping.SPLIT))
         assert gpu.state.depth_test_get() == test
         assert gpu.state.depth_mask_get() == (test == "LESS")
         assert gpu.state.blend_get() == "NONE"
@@ -170,7 +171,9 @@ def test_drawing_leaves_the_state_as_it_was(smooth, mode: Mode, test: str) -> No
 
 def test_pictures_do_not_depend_on_what_was_drawn_before(smooth) -> None:
     _, renderer = smooth
-    first = renderer.draw(*SPHERE, CAMERAS[0], SIZE, Mode.TEXEL, Warping.SPLIT)
+    first = renderer.draw(*SPHERE, CAMERAS[0], SIZE, ViewsLook(Mode.TEXEL, Warping.SPLIT))
     for mode in Mode:
-        renderer.draw(*SPHERE, CAMERAS[1], 16, mode, Warping.SINGLE)
-    np.testing.assert_array_equal(renderer.draw(*SPHERE, CAMERAS[0], SIZE, Mode.TEXEL, Warping.SPLIT), first)
+        renderer.draw(*SPHERE, CAMERAS[1], 16, ViewsLook(mode, Warping.SINGLE))
+    np.testing.assert_array_equal(
+        renderer.draw(*SPHERE, CAMERAS[0], SIZE, ViewsLook(Mode.TEXEL, Warping.SPLIT)), first
+    )

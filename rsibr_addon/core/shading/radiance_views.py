@@ -1,7 +1,6 @@
-"""The reference of every shading mode, per pixel.
+"""Shading from radiance views [Cabral1999], in three modes.
 
-Each mode is one function here and its twin in `gpu_shaders`. Radiance views [Cabral1999] come in
-three modes. `views_fragment` needs nothing but a normal and a view direction. The others make the
+`views_fragment` needs nothing but a normal and a view direction. The others make the
 sphere map of one view first, texel by texel (`destination_by_texel`) or over a tessellated disk as
 the paper does (`destination_by_mesh`), and `destination_lookup` shades from it.
 """
@@ -11,14 +10,14 @@ from enum import StrEnum
 
 import numpy as np
 
-from .conventions import Array, ArrayLike, Indices, texel_centres
-from .directions import camera_frame, dot, reflect
-from .disk_mesh import MARGIN, disk_mesh, interpolate
-from .geodesic import barycentric_weights, find_triangle
-from .maps import sphere_map
-from .radiance_views import RadianceViews
-from .reflection_warp import Warp, confidence, source_cosine, source_uv
-from .resample import bilinear
+from ..conventions import Array, ArrayLike, Indices, texel_centres
+from ..directions import camera_frame, dot, reflect
+from ..disk_mesh import MARGIN, disk_mesh, interpolate
+from ..geodesic import barycentric_weights, find_triangle
+from ..maps import sphere_map
+from ..radiance_views import RadianceViews
+from ..reflection_warp import Warp, confidence, source_cosine, source_uv
+from ..resample import bilinear
 
 
 class Mode(StrEnum):
@@ -41,6 +40,26 @@ class Warping(StrEnum):
     SINGLE = "single"
     SPLIT = "split"
     ALBEDO = "albedo"
+
+
+@dataclass(frozen=True)
+class ViewsLook:
+    """How radiance views are shaded.
+
+    Attributes
+    ----------
+    mode : Mode
+        Or its value, as text.
+    warping : Warping
+        Likewise.
+    """
+
+    mode: Mode = Mode.FRAGMENT
+    warping: Warping = Warping.ALBEDO
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "mode", Mode(self.mode))
+        object.__setattr__(self, "warping", Warping(self.warping))
 
 
 LEAST_ALBEDO = 1e-3

@@ -1,0 +1,58 @@
+"""How `rsibr preview` shades each kind of map set, as options."""
+
+import argparse
+from typing import Any
+
+KIND_OF: dict[str, tuple[str, ...]] = {
+    "mode": ("radiance_views",),
+    "warping": ("radiance_views",),
+}
+"""Name of an option's value, and of the look's field -> the kinds of map sets that have it."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare every kind's options; those that are not given are not in the namespace."""
+    views = parser.add_argument_group("radiance views", argument_default=argparse.SUPPRESS)
+    views.add_argument(
+        "--mode",
+        choices=["paper", "texel", "fragment"],
+        help="warp once a frame on a tessellated disk, once a frame for each texel, or for each fragment "
+        "with its own view (default: fragment)",
+    )
+    views.add_argument(
+        "--warp",
+        dest="warping",
+        choices=["single", "split", "albedo"],
+        help="mirror warp for the whole radiance; normal warp for diffuse and mirror warp for glossy; "
+        "or these with the material's directional albedo taken out and put back (default: albedo)",
+    )
+
+
+def look(arguments: argparse.Namespace, kind: str) -> Any:
+    """The look that the options ask for.
+
+    Parameters
+    ----------
+    arguments : Namespace
+    kind : str
+        Of the map set.
+
+    Returns
+    -------
+    object
+        Of the kind's own type, see `core.shading`.
+
+    Raises
+    ------
+    RangeError
+        An option is of another kind of map sets, or its value out of range.
+    """
+    from ..core.errors import RangeError
+    from ..tasks.kinds import KINDS
+
+    given = {name: value for name, value in vars(arguments).items() if name in KIND_OF}
+    for name in given:
+        if kind not in KIND_OF[name]:
+            kinds = " or ".join(KIND_OF[name])
+            raise RangeError(f"The option for {name} is for {kinds}, but this map set holds {kind}: omit it.")
+    return KINDS[kind].look(**given)

@@ -1,0 +1,99 @@
+"""The kinds of map sets: how each is read, uploaded and shaded."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..core.environment import Environment
+from ..core.shading.radiance_views import ViewsLook
+from ..device.context import ensure_context
+from ..device.drawing import OnDevice
+from ..device.radiance_views import RadianceViewsOnDevice
+from ..files.kinds import radiance_views
+from ..files.map_set import MapSet, read_map_set
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What can be done with map sets of one kind.
+
+    Attributes
+    ----------
+    from_map_set : callable
+        The file's path, for messages, and a `MapSet` to what it holds, the subject.
+    on_device : callable
+        The subject to an `OnDevice`.
+    look : type
+        How it is shaded; its defaults are this kind's best.
+    """
+
+    from_map_set: Callable[[Path, MapSet], Any]
+    on_device: Callable[[Any], OnDevice]
+    look: type
+
+
+KINDS = {
+    "radiance_views": Kind(radiance_views.from_map_set, RadianceViewsOnDevice, ViewsLook),
+}
+
+
+@dataclass(frozen=True)
+class OpenedMapSet:
+    """A map set as tasks use it.
+
+    Attributes
+    ----------
+    kind : str
+    subject : object
+        What `Kind.from_map_set` made of it.
+    environment : Environment or None
+        The light it was made in; None where the file does not hold it.
+    material : dict
+        Of the map set's header.
+    """
+
+    kind: str
+    subject: Any
+    environment: Environment | None
+    material: dict[str, Any]
+
+    def upload(self) -> OnDevice:
+        """Put the subject on the GPU.
+
+        Raises
+        ------
+        DeviceError
+            There is no graphics driver, or it refuses a shader.
+        """
+        ensure_context()
+        return KINDS[self.kind].on_device(self.subject)
+
+
+def open_map_set(path: Path, kind: str | None = None) -> OpenedMapSet:
+    """Read a map set.
+
+    Parameters
+    ----------
+    path : Path
+    kind : str, optional
+        The only kind that will do.
+
+    Returns
+    -------
+    OpenedMapSet
+
+    Raises
+    ------
+    MapSetError
+        As `files.map_set.read_map_set`, or the kind's own `from_map_set`.
+    """
+    map_set = read_map_set(path, kind)
+    environment = map_set.header["environment"]
+    part = environment["part"]
+    return OpenedMapSet(
+        map_set.kind,
+        KINDS[map_set.kind].from_map_set(path, map_set),
+        None if part is None else Environment(map_set.maps[part], environment["name"]),
+        map_set.header["material"],
+    )

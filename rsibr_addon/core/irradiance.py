@@ -92,6 +92,45 @@ def irradiance_from_harmonics(coefficients: ArrayLike, normal: ArrayLike) -> Arr
     return irradiance
 
 
+def irradiance_matrix(coefficients: ArrayLike) -> Array:
+    """The nine coefficients of degree 2 as quadratic forms of the normal.
+
+    Parameters
+    ----------
+    coefficients : array_like, shape (9, channels)
+        Of `real_harmonics`.
+
+    Returns
+    -------
+    ndarray, shape (channels, 4, 4), float64
+        Symmetric; n M n of n = (x, y, z, 1) is the irradiance of `irradiance_from_harmonics`.
+
+    Raises
+    ------
+    ShapeError
+        The coefficients are not nine.
+
+    Notes
+    -----
+    [Ramamoorthi2001] Eq. 12, which a shader evaluates with four products of a vector.
+    """
+    coefficients = np.asarray(coefficients, dtype=np.float64)
+    if len(coefficients) != 9:
+        raise ShapeError(f"{len(coefficients)} coefficients are not those of degree 2: give nine.")
+    a0, a1, a2 = zonal_coefficients(cosine_lobe(), 2)
+    l00, l1m1, l10, l11, l2m2, l2m1, l20, l21, l22 = coefficients
+    c1, c2 = a2 * np.sqrt(15.0 / (16.0 * np.pi)), a1 * np.sqrt(3.0 / (16.0 * np.pi))
+    c4, c5 = a0 * np.sqrt(1.0 / (4.0 * np.pi)), a2 * np.sqrt(5.0 / (16.0 * np.pi))
+    c3 = 3.0 * c5
+    rows = [
+        [c1 * l22, c1 * l2m2, c1 * l21, c2 * l11],
+        [c1 * l2m2, -c1 * l22, c1 * l2m1, c2 * l1m1],
+        [c1 * l21, c1 * l2m1, c3 * l20, c2 * l10],
+        [c2 * l11, c2 * l1m1, c2 * l10, c4 * l00 - c5 * l20],
+    ]
+    return np.moveaxis(np.array(rows), -1, 0)
+
+
 def irradiance_exact(radiance: Array, normal: ArrayLike) -> Array:
     """Irradiance as the sum over all texels of radiance, solid angle and cosine.
 

@@ -8,8 +8,15 @@ import pytest
 from rsibr.rsibr_addon.core.conventions import Array, texel_centres
 from rsibr.rsibr_addon.core.errors import RangeError, ShapeError
 from rsibr.rsibr_addon.core.harmonics.analysis import analyse_environment
-from rsibr.rsibr_addon.core.irradiance import irradiance_exact, irradiance_from_harmonics, real_harmonics
+from rsibr.rsibr_addon.core.irradiance import (
+    irradiance_exact,
+    irradiance_from_harmonics,
+    irradiance_matrix,
+    real_harmonics,
+)
 from rsibr.rsibr_addon.core.maps import equirect
+from rsibr.rsibr_addon.core.maps.representation import representation
+from rsibr.rsibr_addon.core.resample import resample
 from rsibr.rsibr_addon.files.radiance_hdr import read_hdr
 
 RNG = np.random.default_rng(3)
@@ -94,9 +101,43 @@ def test_few_harmonics_come_as_close_as_published() -> None:
         assert 0.5 * worst < error <= worst * (1.0 + 1e-9)
 
 
+def test_the_matrix_says_the_same() -> None:
+    nine = RNG.normal(size=(9, 3))
+    matrix = irradiance_matrix(nine)
+    assert matrix.shape == (3, 4, 4)
+    np.testing.assert_array_equal(matrix, matrix.swapaxes(1, 2))
+    n = np.concatenate([NORMALS, np.ones((len(NORMALS), 1))], axis=1)
+    found = np.einsum("ni,cij,nj->nc", n, matrix, n)
+    np.testing.assert_allclose(found, irradiance_from_harmonics(nine, NORMALS), rtol=0, atol=1e-13)
+
+
 def test_a_wrong_number_of_coefficients_is_refused() -> None:
     with pytest.raises(ShapeError, match="8 coefficients"):
         irradiance_from_harmonics(np.zeros((8, 3)), NORMALS)
+    with pytest.raises(ShapeError, match="25 coefficients"):
+        irradiance_matrix(np.zeros((25, 3)))
+
+
+@pytest.mark.parametrize("probe", ["grace", "galileo", "beach", "kitchen"])
+def test_under_the_light_probes_more_harmonics_come_closer(probe: str) -> None:
+    if not PROBES.exists():
+        pytest.skip("../shared/data/probes, the light probes, is not there")
+    picture = read_hdr(PROBES / "angular" / f"{probe}_probe.hdr")[None]
+    radiance = resample(picture, representation("angular_map"), representation("equirect"), 256)[0]
+    exact = irradiance_exact(radiance, NORMALS)
+    light = np.einsum("ji,jic->c", equirect.texel_solid_angle(256, 128), radiance)
+    error = {
+        degree: np.abs(
+            irradiance_from_harmonics(analyse_environment(radiance, degree).real(degree), NORMALS) - exact
+        )
+        / light
+        for degree in (2, 4)
+    }
+    # [Ramamoorthi2001] section 3: about 1 % of all light in the mean; the bounds are those of a point light.
+    assert error[2].mean() < 0.015
+    assert error[2].max() < 3.0 / 32.0
+    assert error[4].max() < 15.0 / 256.0
+    assert error[4].mean() < 0.5 * error[2].mean()
 
 
 @pytest.mark.parametrize(

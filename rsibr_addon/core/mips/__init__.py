@@ -1,0 +1,1 @@
+"""Ways to filter a cube map down to ever smaller ones: in texture space, and on the sphere."""

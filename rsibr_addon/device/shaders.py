@@ -34,20 +34,20 @@ def views_fragment_shader() -> gpu.types.GPUShader:
     DeviceError
         The driver refuses the program; so for every function here.
     """
-    info = _mesh_interface()
+    info = _views_interface()
     info.sampler(1, "FLOAT_2D_ARRAY", "views")
     info.sampler(2, "FLOAT_2D", "sphere")
-    return _build("views_fragment", info, "mesh_vert.glsl", "views_fragment_frag.glsl")
+    return build("views_fragment", info, "mesh_vert.glsl", "views_fragment_frag.glsl")
 
 
 @kept_until_exit
 def views_destination_shader() -> gpu.types.GPUShader:
     """Draws a mesh from the destination maps of one view."""
-    info = _mesh_interface(_BLEND_BLOCK)
+    info = _views_interface(_BLEND_BLOCK)
     info.uniform_buf(2, "Blend", "blend")
     info.sampler(1, "FLOAT_2D", "by_normal")
     info.sampler(2, "FLOAT_2D", "by_mirror")
-    return _build("views_destination", info, "mesh_vert.glsl", "views_destination_frag.glsl")
+    return build("views_destination", info, "mesh_vert.glsl", "views_destination_frag.glsl")
 
 
 @kept_until_exit
@@ -57,7 +57,7 @@ def views_texel_shader() -> gpu.types.GPUShader:
     varyings = gpu.types.GPUStageInterfaceInfo("rsibr_screen")
     varyings.smooth("VEC2", "map_uv")
     info.vertex_out(varyings)
-    return _build("views_texel", info, "screen_vert.glsl", "views_texel_frag.glsl")
+    return build("views_texel", info, "screen_vert.glsl", "views_texel_frag.glsl")
 
 
 @kept_until_exit
@@ -69,16 +69,26 @@ def views_disk_shader() -> gpu.types.GPUShader:
         for source in range(3):
             varyings.smooth("VEC3", f"{warp}_seen_{source}")
     info.vertex_out(varyings)
-    return _build("views_disk", info, "views_disk_vert.glsl", "views_disk_frag.glsl")
+    return build("views_disk", info, "views_disk_vert.glsl", "views_disk_frag.glsl")
 
 
-def _mesh_interface(more_blocks: str = "") -> gpu.types.GPUShaderCreateInfo:
+def mesh_interface(blocks: str) -> gpu.types.GPUShaderCreateInfo:
+    """What every program that draws a mesh has: the block `draw` in slot 0, and mesh_vert.glsl's varyings.
+
+    Parameters
+    ----------
+    blocks : str
+        The structs of the program's other uniform blocks.
+
+    Returns
+    -------
+    GPUShaderCreateInfo
+        To be completed with them, with samplers, and built with mesh_vert.glsl.
+    """
     info = gpu.types.GPUShaderCreateInfo()
     # Once for all blocks: a second call would replace the first.
-    info.typedef_source(_DRAW_BLOCK + _MODE_BLOCK + more_blocks)
+    info.typedef_source(_DRAW_BLOCK + blocks)
     info.uniform_buf(0, "Draw", "draw")
-    info.uniform_buf(1, "Mode", "mode")
-    info.sampler(0, "FLOAT_2D", "albedo")
     info.vertex_in(0, "VEC3", "position")
     info.vertex_in(1, "VEC3", "normal")
     varyings = gpu.types.GPUStageInterfaceInfo("rsibr_surface")
@@ -86,6 +96,13 @@ def _mesh_interface(more_blocks: str = "") -> gpu.types.GPUShaderCreateInfo:
     varyings.smooth("VEC3", "world_normal")
     info.vertex_out(varyings)
     info.fragment_out(0, "VEC4", "radiance")
+    return info
+
+
+def _views_interface(more_blocks: str = "") -> gpu.types.GPUShaderCreateInfo:
+    info = mesh_interface(_MODE_BLOCK + more_blocks)
+    info.uniform_buf(1, "Mode", "mode")
+    info.sampler(0, "FLOAT_2D", "albedo")
     return info
 
 
@@ -102,7 +119,27 @@ def _destination_interface() -> gpu.types.GPUShaderCreateInfo:
     return info
 
 
-def _build(name: str, info: gpu.types.GPUShaderCreateInfo, vertex: str, fragment: str) -> gpu.types.GPUShader:
+def build(name: str, info: gpu.types.GPUShaderCreateInfo, vertex: str, fragment: str) -> gpu.types.GPUShader:
+    """Build a program.
+
+    Parameters
+    ----------
+    name : str
+        For messages.
+    info : GPUShaderCreateInfo
+        Its interface.
+    vertex, fragment : str
+        Its sources, as `shader_source` takes them.
+
+    Returns
+    -------
+    GPUShader
+
+    Raises
+    ------
+    DeviceError
+        The driver refuses it.
+    """
     info.vertex_source(shader_source(vertex))
     info.fragment_source(shader_source(fragment))
     try:

@@ -1,4 +1,4 @@
-"""Unit vectors: normalisation, reflection, half vectors, and the frame of a camera."""
+"""Unit vectors: normalisation, reflection, refraction, and the frame of a camera."""
 
 import numpy as np
 
@@ -67,6 +67,35 @@ def reflect(view_dir: ArrayLike, normal: ArrayLike) -> Array:
     view_dir, normal = np.asarray(view_dir), np.asarray(normal)
     mirrored: Array = 2.0 * dot(normal, view_dir)[..., None] * normal - view_dir
     return mirrored
+
+
+def refract(view_dir: ArrayLike, normal: ArrayLike, eta: float) -> Array:
+    """Direction in which an eye sees on through a surface that refracts.
+
+    Parameters
+    ----------
+    view_dir, normal : array_like, shape (..., 3)
+        Unit vectors, both pointing away from the surface.
+    eta : float
+        Index of refraction behind the surface over that in front of it, greater than 0.
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        Unit directions, pointing away from the eye. Beyond the critical angle (eta < 1), where no light
+        comes through, the direction along the surface that is seen at that angle.
+
+    Notes
+    -----
+    Snell's law for the parts of both directions along the surface. GLSL twin:
+    gpu_shaders/lib/directions_lib.glsl `refract_dir`, absolute tolerance 1e-6, near the critical angle
+    2e-3: the cosine there is the root of a rounding error.
+    """
+    view_dir, normal = np.asarray(view_dir), np.asarray(normal)
+    along = (dot(view_dir, normal)[..., None] * normal - view_dir) / eta
+    inwards = np.sqrt(np.maximum(1.0 - dot(along, along), 0.0))[..., None]
+    refracted: Array = along - inwards * normal
+    return refracted / np.linalg.norm(refracted, axis=-1, keepdims=True)
 
 
 def camera_frame(view_dir: ArrayLike) -> Array:

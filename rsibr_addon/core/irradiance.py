@@ -177,6 +177,8 @@ def irradiance_exact(radiance: Array, normal: ArrayLike) -> Array:
         # Columns run against phi; the first whose centre is inside, and the first beyond.
         first = np.ceil(width * (0.5 - (azimuth + half_arc) / (2.0 * np.pi)) - 0.5).astype(np.intp)
         beyond = np.ceil(width * (0.5 - (azimuth - half_arc) / (2.0 * np.pi)) - 0.5).astype(np.intp)
+        # A row that is lit all around has no ends: what rounding makes of them could drop the texel there.
+        beyond = np.where(edge <= -1.0, first + width, beyond)
         lap = beyond // width - first // width
         arc = running[beyond % width] - running[first % width] + lap[:, None, None] * running[-1]
         factors = np.stack([n[:, 2] * cosine, n[:, 0] * sine, n[:, 1] * sine], axis=-1)

@@ -1,4 +1,4 @@
-"""Radially symmetric lobes with a name: von Mises-Fisher, GGX about the mirror direction, the cosine."""
+"""Radially symmetric lobes with a name: von Mises-Fisher, GGX about the mirror direction, cosine, Phong."""
 
 import numpy as np
 
@@ -140,3 +140,44 @@ def cosine_lobe() -> ZonalLobe:
         return found[: degree + 1]
 
     return ZonalLobe(profile, (0.0, 0.5 * np.pi, np.pi), coefficients)
+
+
+def phong_lobe(exponent: float) -> ZonalLobe:
+    """(n + 1) / (2 pi) max(cos, 0)^n, which integrates to 1.
+
+    Parameters
+    ----------
+    exponent : float
+        n, at least 1; the lobe's width is about 1 / sqrt(n).
+
+    Returns
+    -------
+    ZonalLobe
+        Of Phong's highlight about the mirror direction. Its n-th derivative jumps at pi / 2, so below n = 2
+        its coefficients fall slowly: ask for less tolerance there.
+
+    Raises
+    ------
+    RangeError
+        The exponent is below 1 or not finite.
+    """
+    if not 1.0 <= exponent < np.inf:
+        raise RangeError(f"An exponent of {exponent} is out of range: choose 1 or more.")
+
+    def profile(lobe_angle: Array) -> Array:
+        powers: Array = np.maximum(np.cos(lobe_angle), 0.0) ** exponent
+        return (exponent + 1.0) / (2.0 * np.pi) * powers
+
+    def coefficients(degree: int) -> Array:
+        # The integral of x^n P_l over [0, 1] is that of P_{l-2} times (n - l + 2) / (n + l + 1): integrate
+        # Legendre's differential equation times x^n by parts.
+        found = np.empty(max(degree, 1) + 1)
+        found[:2] = 1.0, (exponent + 1.0) / (exponent + 2.0)
+        l = np.arange(2, degree + 1)
+        ratios = (exponent - l + 2.0) / (exponent + l + 1.0)
+        for first in (0, 1):
+            found[first + 2 :: 2] = found[first] * np.cumprod(ratios[first::2])
+        return found[: degree + 1]
+
+    knots = tuple(sorted({*graded_knots(1.0 / np.sqrt(exponent)), 0.5 * np.pi}))
+    return ZonalLobe(profile, knots, coefficients)

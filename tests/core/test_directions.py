@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.directions import camera_frame, dot, normalize, reflect
+from rsibr.rsibr_addon.core.directions import camera_frame, dot, normalize, reflect, refract
 from rsibr.rsibr_addon.core.errors import RangeError
 
 RNG = np.random.default_rng(1)
@@ -37,6 +37,32 @@ def test_a_mirror_obeys_the_law_of_reflection() -> None:
     np.testing.assert_allclose(reflect(OTHERS, OTHERS), OTHERS, atol=1e-15)
     # Seen from +X, a surface that is tilted half-way to +Z shows what is above.
     np.testing.assert_allclose(reflect((1, 0, 0), normalize((1, 0, 1))), (0, 0, 1), atol=1e-15)
+
+
+@pytest.mark.parametrize("eta", [1.0, 1.5, 2.4, 0.75])
+def test_refraction_obeys_snells_law(eta: float) -> None:
+    facing = dot(DIRECTIONS, OTHERS)[:, None]
+    view_dir, normal = DIRECTIONS[facing[:, 0] > 0.0], OTHERS[facing[:, 0] > 0.0]
+    refracted = refract(view_dir, normal, eta)
+    np.testing.assert_allclose(np.linalg.norm(refracted, axis=-1), 1.0, rtol=1e-14)
+    np.testing.assert_allclose(dot(refracted, np.cross(view_dir, normal)), 0.0, atol=1e-15)
+    sine_outside = np.linalg.norm(np.cross(view_dir, normal), axis=-1)
+    sine_inside = np.linalg.norm(np.cross(refracted, normal), axis=-1)
+    passes = sine_outside < eta
+    np.testing.assert_allclose(eta * sine_inside[passes], sine_outside[passes], atol=1e-14)
+    # On the other side of the normal and of the surface; beyond the critical angle along it.
+    across = dot(refracted, view_dir) - dot(refracted, normal) * dot(view_dir, normal)
+    assert np.all(across <= 1e-14)
+    assert np.all(dot(refracted, normal)[passes] < 0.0)
+    assert np.count_nonzero(~passes) == 0 or eta < 1.0
+    np.testing.assert_allclose(dot(refracted, normal)[~passes], 0.0, atol=1e-14)
+
+
+def test_refraction_in_numbers() -> None:
+    # Light at 45 degrees goes on at 30 in a material of index sqrt(2).
+    view_dir = (np.sqrt(0.5), 0.0, np.sqrt(0.5))
+    expected = (-0.5, 0.0, -np.sqrt(0.75))
+    np.testing.assert_allclose(refract(view_dir, (0.0, 0.0, 1.0), np.sqrt(2.0)), expected, atol=1e-15)
 
 
 POLES = np.array([(0.0, 0.0, 1.0), (0.0, 0.0, -1.0)])

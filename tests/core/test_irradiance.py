@@ -74,6 +74,16 @@ def test_exact_irradiance_keeps_shapes_and_refuses_bad_normals() -> None:
             irradiance_exact(radiance, bad)
 
 
+def test_a_texel_opposite_a_normal_is_not_lost() -> None:
+    # Some normals have an azimuth exactly opposite a texel: where a whole row
+    # is lit, rounding once left such a texel out.
+    normals = equirect.direction_from_uv(texel_centres(80, 40))
+    radiance = np.zeros((24, 48, 1))
+    radiance[3, 7] = 1.0
+    expected = brute_force(radiance, normals.reshape(-1, 3)).reshape(40, 80, 1)
+    np.testing.assert_allclose(irradiance_exact(radiance, normals), expected, rtol=0, atol=1e-15)
+
+
 def test_bands_scale_by_their_factors() -> None:
     texels = equirect.direction_from_uv(texel_centres(64, 32))
     for degree, factor in enumerate([np.pi, 2 * np.pi / 3, np.pi / 4, 0.0, -np.pi / 24]):

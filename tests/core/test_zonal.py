@@ -10,6 +10,7 @@ from rsibr.rsibr_addon.core.radial_lobes import (
     cosine_lobe,
     ggx_lobe,
     ggx_n_dot_l_lobe,
+    phong_lobe,
     von_mises_fisher_lobe,
 )
 from rsibr.rsibr_addon.core.zonal import ZonalLobe, expand, graded_knots, zonal_coefficients
@@ -25,6 +26,9 @@ LOBES = {
     "ggx n.l 0.1": ggx_n_dot_l_lobe(0.1),
     "ggx n.l 0.999999": ggx_n_dot_l_lobe(0.999999),
     "ggx n.l 1": ggx_n_dot_l_lobe(1.0),
+    "phong 5": phong_lobe(5.0),
+    "phong 6.5": phong_lobe(6.5),
+    "phong 3000": phong_lobe(3000.0),
     "vmf 1e-3": von_mises_fisher_lobe(1e-3),
     "vmf 2": von_mises_fisher_lobe(2.0),
     "vmf 1e4": von_mises_fisher_lobe(1e4),

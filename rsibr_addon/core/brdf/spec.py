@@ -83,7 +83,7 @@ def brdf_from_spec(spec: str, read_measured: ReadMeasured) -> Brdf:
     if name not in MODELS:
         raise RangeError(f'There is no BRDF model "{name}": choose one of {", ".join((*MODELS, *MEASURED))}.')
     try:
-        return MODELS[name](**_arguments(MODELS[name], _values(rest), read_measured))
+        return MODELS[name](**arguments_from_text(MODELS[name], rest, read_measured))
     except RangeError as error:
         raise RangeError(f"{name}: {error}") from error
 
@@ -114,31 +114,52 @@ def spec_from_brdf(brdf: Brdf) -> str:
     raise RangeError(f"No text describes a {type(brdf).__name__}: describe what it is made of.")
 
 
-def _arguments(owner: type[Brdf], values: dict[str, str], read_measured: ReadMeasured) -> dict[str, Any]:
-    """What a model is made from, out of the texts of its keys."""
+def arguments_from_text(owner: type, text: str, read_measured: ReadMeasured) -> dict[str, Any]:
+    """What a model, or anything else with parameters like one's, is made from.
+
+    Parameters
+    ----------
+    owner : type
+        A dataclass whose fields are numbers and colours as in `parameters`, names, a `Fresnel`, and models.
+    text : str
+        ``key=value,key=value``.
+    read_measured : callable
+        Reads the models of `MEASURED`.
+
+    Returns
+    -------
+    dict
+        Field -> its value, for all that the text gives; the others have defaults.
+
+    Raises
+    ------
+    RangeError, InputFileError
+        See `brdf_from_spec`.
+    """
+    values = _values(text)
     hints = get_type_hints(owner)
-    fields = dataclasses.fields(owner)  # type: ignore[arg-type]  # its subclasses are dataclasses
+    fields = dataclasses.fields(owner)
     keys = [key for field in fields for key in _keys(field.name, hints[field.name])]
     if unknown := [key for key in values if key not in keys]:
         raise RangeError(f"it has no parameter {unknown[0]}, but {', '.join(keys)}.")
     arguments: dict[str, Any] = {}
     for field in fields:
-        kind, text = hints[field.name], values.get(field.name)
+        kind, value = hints[field.name], values.get(field.name)
         if kind is Fresnel:
             arguments[field.name] = _fresnel(values)
-        elif text is None:
+        elif value is None:
             if field.default is dataclasses.MISSING:
                 raise RangeError(f"{field.name} is missing; it must be {_taken(owner, field.name, kind)}.")
         elif kind is str:
-            arguments[field.name] = text
+            arguments[field.name] = value
         elif kind is Brdf:
-            arguments[field.name] = _inner(field.name, text, read_measured)
+            arguments[field.name] = _inner(field.name, value, read_measured)
         elif kind == tuple[Brdf, ...]:
             arguments[field.name] = tuple(
-                _inner(field.name, part, read_measured) for part in _split(text, "+")
+                _inner(field.name, part, read_measured) for part in _split(value, "+")
             )
         else:
-            arguments[field.name] = _number(owner, field.name, text)
+            arguments[field.name] = _number(owner, field.name, value)
     return arguments
 
 

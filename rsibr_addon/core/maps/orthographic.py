@@ -1,4 +1,4 @@
-"""The orthographic pair [MillerHoffman1984]: each hemisphere projected onto the xy plane.
+"""The orthographic pair [Miller1984]: each hemisphere projected onto the xy plane.
 
 Own axes: x to the right, y up, z towards the viewer. Section 4.2: u = x and v = y, and there are two map
 arrays, sheet 0 for z >= 0, the `front`, and sheet 1 for z < 0, the `back`. Texels outside the inscribed

@@ -114,7 +114,7 @@ def test_an_overscan_that_leaves_directions_out_is_refused(overscan: float) -> N
 
 
 def test_orthographic_pair_as_the_paper_has_it() -> None:
-    # [MillerHoffman1984] section 4.2: u = x, v = y, one array for z >= 0 and one for z < 0
+    # [Miller1984] section 4.2: u = x, v = y, one array for z >= 0 and one for z < 0
     uv, sheet = orthographic.uv_from_direction(DIRECTIONS)
     np.testing.assert_array_equal(uv, 0.5 + 0.5 * DIRECTIONS[:, :2])
     np.testing.assert_array_equal(sheet, DIRECTIONS[:, 2] < 0.0)

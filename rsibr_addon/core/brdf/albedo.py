@@ -18,13 +18,19 @@ TOLERATED_GAIN = 0.01
 """How much more light than it gets a surface may reflect before somebody is told."""
 
 
-def hemisphere_quadrature(mu: float) -> tuple[Array, Array]:
+def hemisphere_quadrature(
+    mu: float, radial_nodes: int = RADIAL_NODES, arc_nodes: int = ARC_NODES, narrowest: float = NARROWEST
+) -> tuple[Array, Array]:
     """Directions and weights that integrate over the hemisphere what one view sees.
 
     Parameters
     ----------
     mu : float
         Cosine of the view's angle from the normal, in (0, 1]; the view is (sqrt(1 - mu^2), 0, mu).
+    radial_nodes, arc_nodes : int
+        Nodes of each panel of radii, and of each arc.
+    narrowest : float
+        Radians about the mirror and the view direction within which a lobe is taken as smooth.
 
     Returns
     -------
@@ -48,12 +54,12 @@ def hemisphere_quadrature(mu: float) -> tuple[Array, Array]:
     if not 0.0 < mu <= 1.0:
         raise RangeError(f"An elevation has a cosine greater than 0 and at most 1, not {mu:g}.")
     sine = max(np.sqrt(1.0 - mu**2), 1e-12)
-    radius, radial_weight = _radial_nodes(np.arccos(mu))
+    radius, radial_weight = _radial_nodes(np.arccos(mu), radial_nodes, narrowest)
     cot = 1.0 / np.tan(radius)
     # Arc angle psi counts from straight down; the horizon cuts the start, the other half the end
     start = np.arccos(np.minimum(1.0, cot * mu / sine))
     end = np.arccos(-np.minimum(1.0, cot * sine / mu))
-    node, node_weight = np.polynomial.legendre.leggauss(ARC_NODES)
+    node, node_weight = np.polynomial.legendre.leggauss(arc_nodes)
     psi = start[:, None] + (end - start)[:, None] * (node + 1.0) / 2.0
     weight = (radial_weight * np.sin(radius) * (end - start) / 2.0)[:, None] * node_weight
     along, down = np.cos(radius)[:, None], np.sin(radius)[:, None] * np.cos(psi)
@@ -123,18 +129,18 @@ def warn_of_gain(brdf: BrdfFunction, name: str) -> None:
 
 
 @cache
-def _panel() -> tuple[Array, Array]:
+def _panel(nodes: int) -> tuple[Array, Array]:
     """Gauss-Legendre nodes and weights on [0, 1] in t^2."""
-    node, weight = np.polynomial.legendre.leggauss(RADIAL_NODES)
+    node, weight = np.polynomial.legendre.leggauss(nodes)
     t = (node + 1.0) / 2.0
     return t**2, weight * t
 
 
-def _radial_nodes(theta: float) -> tuple[Array, Array]:
+def _radial_nodes(theta: float, nodes: int, narrowest: float) -> tuple[Array, Array]:
     """Radii in (0, pi/2) and their weights; panels end where arcs meet the horizon or the border."""
-    halvings = np.pi / 2.0 * 0.5 ** np.arange(np.ceil(np.log2(np.pi / 2.0 / NARROWEST)) + 1.0)
-    corners = [corner for corner in (theta, np.pi / 2.0 - theta) if NARROWEST < corner < np.pi / 2.0]
+    halvings = np.pi / 2.0 * 0.5 ** np.arange(np.ceil(np.log2(np.pi / 2.0 / narrowest)) + 1.0)
+    corners = [corner for corner in (theta, np.pi / 2.0 - theta) if narrowest < corner < np.pi / 2.0]
     edges = np.unique([0.0, *halvings, *corners])
-    node, weight = _panel()
+    node, weight = _panel(nodes)
     width = np.diff(edges)[:, None]
     return (edges[:-1, None] + width * node).ravel(), (width * weight).ravel()

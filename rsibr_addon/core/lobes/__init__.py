@@ -1,0 +1,1 @@
+"""Reflectance as a few radially symmetric lobes for each view elevation."""

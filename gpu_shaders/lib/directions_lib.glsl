@@ -5,6 +5,14 @@ vec3 reflect_dir(vec3 view_dir, vec3 normal)
   return 2.0 * dot(normal, view_dir) * normal - view_dir;
 }
 
+// eta: index of refraction behind the surface over that in front of it. Beyond the critical angle, the
+// direction along the surface.
+vec3 refract_dir(vec3 view_dir, vec3 normal, float eta)
+{
+  vec3 along = (dot(view_dir, normal) * normal - view_dir) / eta;
+  return normalize(along - sqrt(max(1.0 - dot(along, along), 0.0)) * normal);
+}
+
 // Columns are the camera's x (right), y (up) and z (towards the camera) in world coordinates.
 mat3 camera_frame(vec3 view_dir)
 {

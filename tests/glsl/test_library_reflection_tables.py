@@ -1,0 +1,119 @@
+"""Looking reflection tables up, on the GPU and in numpy."""
+
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.core.directions import dot, normalize, refract
+from rsibr.rsibr_addon.core.maps import equirect
+from rsibr.rsibr_addon.core.reflection_tables import ReflectionTables, Role
+from rsibr.rsibr_addon.core.resample import bilinear
+from rsibr.rsibr_addon.core.shading.reflection_tables import TablesLook, reflect_tables
+from rsibr.rsibr_addon.device import buffers
+from rsibr.rsibr_addon.device.reflection_tables import _with_alpha, bordered
+from rsibr.tests.glsl.evaluation import Samplers
+from rsibr.tests.glsl.twins import AXES, COUNT, ULP, Twin, check, single, unit_vectors
+
+ROWS = 8
+FILTERING = 2.0 / 512.0
+"""Hardware may round the weight of a texel to 8 bits along each axis; neighbours here differ by up to 1."""
+
+RNG = np.random.default_rng(8)
+IMAGE = RNG.random((ROWS, 2 * ROWS, 3), dtype=np.float32)
+WEIGHTS = RNG.random((len(Role), 16, 3), dtype=np.float32)
+
+NEAR_POLES_AND_SEAM = normalize(
+    [(1e-6, 0.0, 1.0), (0.0, -1e-6, -1.0), (1e-3, 2e-3, 1.0), (-1.0, 1e-6, 0.0), (-1.0, -1e-6, 0.1)]
+)
+DIRECTIONS = unit_vectors(1, np.concatenate([AXES, NEAR_POLES_AND_SEAM]))
+
+ARCTANGENT = 2e-5
+"""Relative error of drivers' arctangents, in turns here: at most half of one."""
+
+
+def samplers() -> Samplers:
+    return {
+        "image": ("FLOAT_2D", buffers.texture(_with_alpha(bordered(IMAGE)))),
+        "weights": ("FLOAT_2D", buffers.texture(_with_alpha(WEIGHTS))),
+    }
+
+
+def equirect_uv_error(direction: np.ndarray) -> np.ndarray:
+    """Of u the driver's; none where it means nothing or wraps; of v likewise."""
+    seam_or_pole = (np.abs(direction[:, 1]) < 1e-6) & (direction[:, 0] <= 0.0)
+    u_error = np.where(seam_or_pole, 1.0, 0.5 * ARCTANGENT)
+    return np.stack([u_error, np.full(COUNT, ARCTANGENT)], axis=-1)[:, None]
+
+
+def refraction_error(view_dir: np.ndarray, normal: np.ndarray, eta: np.ndarray) -> np.ndarray:
+    """Six roundings of the squared sine, over twice the cosine, or their root where that is smaller."""
+    sine2 = (1.0 - dot(view_dir, normal) ** 2) / eta[:, 0] ** 2
+    inwards = np.sqrt(np.maximum(1.0 - sine2, 0.0))
+    squared = 12.0 * ULP / np.minimum(eta[:, 0], 1.0) ** 2
+    error = 1e-6 + squared / np.maximum(inwards, np.sqrt(squared))
+    return error[:, None, None]
+
+
+def refract_each(view_dir: np.ndarray, normal: np.ndarray, eta: np.ndarray) -> np.ndarray:
+    refracted = np.empty_like(view_dir)
+    for index in np.unique(eta):
+        chosen = eta[:, 0] == index
+        refracted[chosen] = refract(view_dir[chosen], normal[chosen], float(index))
+    return refracted
+
+
+def weighted(role: Role, direction: np.ndarray, cosine: np.ndarray) -> np.ndarray:
+    """Weight times table through the reference: of the diffuse table, which goes by the normal."""
+    weights = np.zeros_like(WEIGHTS)
+    weights[0] = WEIGHTS[list(Role).index(role)]
+    tables = ReflectionTables({Role.DIFFUSE: IMAGE}, weights)
+    across = normalize(np.cross(direction, direction[:, [1, 2, 0]] + (0.3, 0.5, 0.7)))
+    view_dir = cosine * direction + np.sqrt(1.0 - cosine**2) * across
+    return reflect_tables(tables, direction, view_dir, TablesLook())
+
+
+TWINS = {
+    "refract_dir": Twin(
+        "directions_lib.glsl",
+        "result_0.xyz = refract_dir(in_0.xyz, in_1.xyz, in_2.x);",
+        lambda: [
+            unit_vectors(1),
+            unit_vectors(2, -AXES),
+            single(np.random.default_rng(3).choice([0.6, 0.75, 1.0, 1.5, 2.4], (COUNT, 1))),
+        ],
+        refract_each,
+        refraction_error,
+    ),
+    "equirect_uv": Twin(
+        "equirect_lib.glsl",
+        "result_0.xy = equirect_uv(in_0.xyz);",
+        lambda: [DIRECTIONS],
+        equirect.uv_from_direction,
+        equirect_uv_error,
+    ),
+    "equirect_radiance": Twin(
+        "equirect_lib.glsl",
+        "result_0.xyz = equirect_radiance(image, in_0.xyz);",
+        lambda: [DIRECTIONS],
+        lambda direction: bilinear(IMAGE, equirect.uv_from_direction(direction), equirect.wrap),
+        # A place off by the arctangent's error, in texels, twice
+        2.0 * (FILTERING + 2 * ROWS * ARCTANGENT),
+        samplers=samplers,
+    ),
+} | {
+    f"weighted_table {role}": Twin(
+        "reflection_tables_lib.glsl",
+        f"result_0.xyz = weighted_table(in_1.y, image, weights, TABLE_{role.name}, in_1.x, in_0.xyz);",
+        lambda: [
+            DIRECTIONS,
+            single(np.c_[RNG.uniform(-0.2, 1.0, COUNT), RNG.integers(0, 2, COUNT).astype(np.float64)]),
+        ],
+        lambda direction, more, role=role: more[:, 1:] * weighted(role, direction, more[:, :1]),
+        3.0 * (FILTERING + 2 * ROWS * ARCTANGENT),
+        samplers=samplers,
+    )
+    for role in Role
+}
+
+
+@pytest.mark.parametrize("name", TWINS)
+def test_a_function_says_what_its_twin_says(name: str) -> None:
+    check(TWINS[name])

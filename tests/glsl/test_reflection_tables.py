@@ -1,0 +1,67 @@
+"""Pictures drawn from reflection tables against core/shading/reflection_tables.py at every sample."""
+
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.core.camera import Camera
+from rsibr.rsibr_addon.core.conventions import texel_centres
+from rsibr.rsibr_addon.core.maps import equirect
+from rsibr.rsibr_addon.core.reflection_tables import ReflectionTables, Role
+from rsibr.rsibr_addon.core.shading.reflection_tables import TablesLook, reflect_tables
+from rsibr.rsibr_addon.device.context import ensure_context
+from rsibr.rsibr_addon.device.preview import SAMPLES_PER_AXIS, PreviewRenderer
+from rsibr.rsibr_addon.device.reflection_tables import ReflectionTablesOnDevice
+from rsibr.tests.glsl.test_preview_renderer import BY_CAMERA, SIZE, SPHERE, samples
+from rsibr.tests.synthetic_views import environment_radiance
+
+
+def smooth_map(rows: int, turn: np.ndarray) -> np.ndarray:
+    directions = equirect.direction_from_uv(texel_centres(2 * rows, rows))
+    return environment_radiance(directions @ turn).astype(np.float32)
+
+
+def smooth_tables(eta: float) -> ReflectionTables:
+    """A smooth map for each role, each turned another way and of another size; smooth weights."""
+    rng = np.random.default_rng(4)
+    turns = [np.linalg.qr(rng.normal(size=(3, 3)))[0] for _ in Role]
+    maps = {role: smooth_map(24 + 8 * number, turns[number]) for number, role in enumerate(Role)}
+    cosine = ((np.arange(32) + 0.5) / 32)[:, None]
+    weights = np.stack([0.2 + rng.random(3) * cosine ** (number + 1) for number in range(len(Role))])
+    return ReflectionTables(maps, weights.astype(np.float32), eta)
+
+
+LOOKS = {"all": TablesLook()} | {role.value: TablesLook((role,)) for role in Role}
+
+
+@pytest.mark.parametrize("name", LOOKS)
+@pytest.mark.parametrize("eta", [1.5, 0.7])
+@BY_CAMERA
+def test_a_picture_is_what_the_reference_says(name: str, eta: float, camera: Camera) -> None:
+    ensure_context()
+    tables, look = smooth_tables(eta), LOOKS[name]
+    picture = PreviewRenderer(ReflectionTablesOnDevice(tables)).draw(*SPHERE, camera, SIZE, look)
+    normal, view_dir, cosine = samples(camera)
+    blocks = (SIZE, SAMPLES_PER_AXIS, SIZE, SAMPLES_PER_AXIS)
+    expected = reflect_tables(tables, normal, view_dir, look).reshape(*blocks, 3).mean(axis=(1, 3))
+    # Near the critical angle a refracted direction turns without limit for the normal's smallest turn.
+    clear = np.abs(np.sqrt(np.maximum(1.0 - cosine**2, 0.0)) - eta) > 0.05
+    inside = ((cosine > 0.2) & clear).reshape(blocks).all(axis=(1, 3))
+    assert np.count_nonzero(inside) > 0.4 * SIZE**2
+    # As in test_preview_renderer: facets turn normals by up to 2e-4, directions that come of them by
+    # twice to six times that, radiance changes by up to 2.6 a radian.
+    error = np.abs(picture[..., :3] - expected)[inside].max()
+    assert error < 2e-3 * expected[inside].max()
+    assert expected[inside].std() > 0.02
+
+
+def test_tables_that_are_not_there_are_black() -> None:
+    ensure_context()
+    tables = smooth_tables(1.5)
+    alone = ReflectionTables({Role.RETRO: tables.maps[Role.RETRO]}, tables.weights)
+    renderer = PreviewRenderer(ReflectionTablesOnDevice(alone))
+    hidden = renderer.draw(*SPHERE, Camera((1.0, 0.0, 0.0)), 8, TablesLook((Role.DIFFUSE, Role.COAT)))
+    np.testing.assert_array_equal(hidden[..., :3], 0.0)
+    assert hidden[4, 4, 3] == 1.0
+    seen = renderer.draw(*SPHERE, Camera((1.0, 0.0, 0.0)), 8, TablesLook())
+    # In an orthographic view retro-reflection depends on the angle alone.
+    expected = reflect_tables(alone, (1.0, 0.0, 0.0), (1.0, 0.0, 0.0), TablesLook())
+    np.testing.assert_allclose(seen[3:5, 3:5, :3], np.broadcast_to(expected, (2, 2, 3)), rtol=0.05)

@@ -3,9 +3,16 @@
 import argparse
 from typing import Any
 
+from .options import colour
+
 KIND_OF: dict[str, tuple[str, ...]] = {
     "mode": ("radiance_views",),
     "warping": ("radiance_views",),
+    "f_lambda": ("mip_chain",),
+    "k_d": ("mip_chain",),
+    "bias": ("mip_chain",),
+    "roughness": ("mip_chain",),
+    "borders": ("mip_chain",),
 }
 """Name of an option's value, and of the look's field -> the kinds of map sets that have it."""
 
@@ -25,6 +32,31 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         choices=["single", "split", "albedo"],
         help="mirror warp for the whole radiance; normal warp for diffuse and mirror warp for glossy; "
         "or these with the material's directional albedo taken out and put back (default: albedo)",
+    )
+    mips = parser.add_argument_group("mip chains", argument_default=argparse.SUPPRESS)
+    mips.add_argument(
+        "--f-lambda",
+        metavar="F|R,G,B",
+        type=colour,
+        help="reflectance of the glossy part at normal incidence, 0 to 1 (default: 0.04)",
+    )
+    mips.add_argument(
+        "--k-d",
+        metavar="K|R,G,B",
+        type=colour,
+        help="albedo of the diffuse part, 0 to 1 (default: 0.8)",
+    )
+    mips.add_argument(
+        "--bias", metavar="B", type=float, help="mip that glossy light comes from, 2.3 say (default: 0)"
+    )
+    mips.add_argument(
+        "--roughness", metavar="R", type=float, help="instead of the bias, of a chain of the filter ggx"
+    )
+    mips.add_argument(
+        "--borders",
+        choices=["seamless", "clamped"],
+        help="interpolate with the neighbouring face's texels, or as the hardware of 2004 did with the "
+        "face's own (default: seamless)",
     )
 
 

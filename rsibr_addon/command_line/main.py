@@ -12,7 +12,7 @@ from types import ModuleType
 from typing import Any
 
 from ..core.errors import RsibrError
-from . import capture, compare, convert, illuminate, info, preview
+from . import capture, compare, convert, illuminate, info, mips, preview
 from .report import Report, result_stream
 
 COMMANDS = {
@@ -22,6 +22,7 @@ COMMANDS = {
     "info": info,
     "convert": convert,
     "illuminate": illuminate,
+    "mips": mips,
 }
 """Name -> the module with its arguments and its run; or with `KINDS`, such modules in turn."""
 

@@ -31,6 +31,16 @@ def direction(text: str) -> tuple[float, float, float]:
     return x, y, z
 
 
+def colour(text: str) -> tuple[float, float, float]:
+    """Three numbers, R,G,B, or one for all of them."""
+    try:
+        numbers = [float(number) for number in text.split(",")]
+        red, green, blue = numbers if len(numbers) > 1 else 3 * numbers
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}' is neither a number nor R,G,B, three numbers") from None
+    return red, green, blue
+
+
 def degrees(text: str) -> float:
     """An angle in degrees, above 0 and below 180."""
     try:

@@ -48,6 +48,7 @@ def _is_hash(value: Any) -> bool:
 
 TEXT: Rule = ("text", lambda value: isinstance(value, str))
 NUMBER: Rule = ("a finite number", _is_number)
+NUMBER_OR_NULL: Rule = ("a finite number or null", lambda value: value is None or _is_number(value))
 INDEX: Rule = ("a whole number from 0", _is_index)
 SIZE: Rule = ("[width, height]", _is_size)
 COLOUR: Rule = ("three numbers", _is_colour)
@@ -89,7 +90,8 @@ ROLE_FIELDS: dict[tuple[str, str], dict[str, Rule]] = {
     ("radiance_views", "glossy"): _VIEW,
     ("radiance_views", "albedo"): {},
     ("lobe_stack", "prefiltered"): {"lobe": INDEX, "mu": NUMBER, "axis_offset": NUMBER, "albedo": COLOUR},
-    ("mip_chain", "prefiltered"): {"mip": INDEX, "roughness": NUMBER},
+    ("mip_chain", "prefiltered"): {"mip": INDEX, "roughness": NUMBER_OR_NULL},
+    ("mip_chain", "harmonics"): {},
 }
 """Kind and role -> what a part says beyond `PART_FIELDS`; parts of other roles say no more."""
 

@@ -6,11 +6,13 @@ from pathlib import Path
 from typing import Any
 
 from ..core.environment import Environment
+from ..core.shading.mip_chain import MipLook
 from ..core.shading.radiance_views import ViewsLook
 from ..device.context import ensure_context
 from ..device.drawing import OnDevice
+from ..device.mip_chain import MipChainOnDevice
 from ..device.radiance_views import RadianceViewsOnDevice
-from ..files.kinds import radiance_views
+from ..files.kinds import mip_chain, radiance_views
 from ..files.map_set import MapSet, read_map_set
 
 
@@ -35,6 +37,7 @@ class Kind:
 
 KINDS = {
     "radiance_views": Kind(radiance_views.from_map_set, RadianceViewsOnDevice, ViewsLook),
+    "mip_chain": Kind(mip_chain.from_map_set, MipChainOnDevice, MipLook),
 }
 
 

@@ -1,0 +1,30 @@
+// Twin of rsibr_addon/core/shading/mip_chain.py: [Kautz2004] section 4.2.
+// The atlas (see device/mip_chain.py) holds a row of six faces for each mip, the first at the bottom, and
+// around every face a border of one texel: what lies there on the cube.
+#include "lib/cube_map_lib.glsl"
+
+// Bilinear within a face, and with its border unless clamped.
+vec3 mip_radiance(sampler2D atlas, int mip, vec3 place, bool clamped)
+{
+  vec2 atlas_size = vec2(textureSize(atlas, 0));
+  float first_size = atlas_size.x / 6.0 - 2.0;
+  float size = exp2(-float(mip)) * first_size;
+  vec2 texel = place.xy * size;
+  if (clamped) {
+    texel = clamp(texel, 0.5, size - 0.5);
+  }
+  vec2 corner = vec2(place.z * (size + 2.0), 2.0 * (first_size - size + float(mip))) + 1.0;
+  return textureLod(atlas, (corner + texel) / atlas_size, 0.0).rgb;
+}
+
+// Linear between mips; level lies in [0, mips - 1].
+vec3 glossy_radiance(sampler2D atlas, vec3 direction, float level, bool clamped)
+{
+  vec3 place = cube_place(direction);
+  float mip = floor(level);
+  vec3 near = mip_radiance(atlas, int(mip), place, clamped);
+  if (level == mip) {
+    return near;
+  }
+  return mix(near, mip_radiance(atlas, int(mip) + 1, place, clamped), level - mip);
+}

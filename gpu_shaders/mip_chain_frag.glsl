@@ -1,0 +1,18 @@
+// Twin of core/shading/mip_chain.py `mip_chain_radiance`: [Kautz2004] Eq. 8 in one pass.
+#include "lib/directions_lib.glsl"
+#include "lib/draw_lib.glsl"
+#include "lib/fresnel_lib.glsl"
+#include "lib/irradiance_lib.glsl"
+#include "lib/mip_chain_lib.glsl"
+
+void main()
+{
+  vec3 unit_normal = normalize(world_normal);
+  vec3 view_dir = view_direction(draw.eye, world_position);
+  vec3 fresnel = fresnel_schlick(clamp(dot(unit_normal, view_dir), 0.0, 1.0), look.f_lambda.rgb);
+  vec3 light = irradiance(look.irradiance_red, look.irradiance_green, look.irradiance_blue, unit_normal);
+  vec3 diffuse = look.k_d.rgb / 3.14159265 * max(light, 0.0);
+  vec3 mirror_dir = reflect_dir(view_dir, unit_normal);
+  vec3 glossy = glossy_radiance(atlas, mirror_dir, look.level, look.clamped > 0.5);
+  radiance = vec4(mix(diffuse, glossy, fresnel), 1.0);
+}

@@ -1,0 +1,115 @@
+"""Map sets of kind `mip_chain`."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...core.conventions import Array
+from ...core.environment import Environment
+from ...core.errors import MapSetError, RangeError, ShapeError
+from ...core.mip_chain import MipChain
+from ..map_set import MapSet
+from ..map_set_header import ENVIRONMENT, make_header
+
+KIND = "mip_chain"
+HARMONICS = "harmonics"
+"""The role of the part that holds the nine coefficients, and its name."""
+
+
+def to_map_set(
+    chain: MipChain,
+    environment: Environment,
+    material: dict[str, Any],
+    error_bound: dict[str, Any] | None,
+    settings: dict[str, Any],
+    software: str,
+) -> MapSet:
+    """A mip chain as a map set holds it.
+
+    Parameters
+    ----------
+    chain : MipChain
+    environment : Environment
+        What it was made of; embedded.
+    material, error_bound, settings, software
+        See docs/map-set-format.md.
+
+    Returns
+    -------
+    MapSet
+    """
+    maps = {ENVIRONMENT: environment.radiance, HARMONICS: chain.harmonics[None].astype(np.float32)}
+    parts: list[dict[str, Any]] = [{"name": name, "role": name} for name in maps]
+    for mip, faces in enumerate(chain.mips):
+        name = f"mip{mip:02d}"
+        roughness = None if chain.roughness is None else chain.roughness[mip]
+        maps[name] = _strip(faces)
+        parts.append({"name": name, "role": "prefiltered", "mip": mip, "roughness": roughness})
+    header = make_header(
+        layout="cube_map",
+        size=(chain.size, 6 * chain.size),
+        environment=environment,
+        embedded=True,
+        material=material,
+        parts=parts,
+        error_bound=error_bound,
+        settings=settings,
+        software=software,
+    )
+    return MapSet(KIND, maps, header)
+
+
+def from_map_set(path: Path, map_set: MapSet) -> MipChain:
+    """A mip chain as a map set holds it.
+
+    Parameters
+    ----------
+    path : Path
+        The map set's file, for messages.
+    map_set : MapSet
+        Of this kind.
+
+    Returns
+    -------
+    MipChain
+
+    Raises
+    ------
+    MapSetError
+        It is not laid out as cubes, its mips are not numbered from 0 or not each half the one before, the
+        nine coefficients are missing, or some mips state a roughness and others none.
+    """
+    layout = map_set.header["layout"]
+    if layout != "cube_map":
+        raise MapSetError(f"{path} holds mips laid out as {layout}, not as cube_map: make it again.")
+    filtered = [part for part in map_set.header["parts"] if part["role"] == "prefiltered"]
+    mips = {part["mip"]: part for part in filtered}
+    nine = [map_set.maps[part["name"]] for part in map_set.header["parts"] if part["role"] == HARMONICS]
+    if len(nine) != 1 or not mips or set(mips) != set(range(len(filtered))):
+        raise MapSetError(f"{path} lacks its coefficients or one of its mips: make it again.")
+    roughness = [mips[mip]["roughness"] for mip in range(len(mips))]
+    known = [value for value in roughness if value is not None]
+    if known and len(known) < len(roughness):
+        raise MapSetError(f"{path} states the roughness of some of its mips only: make it again.")
+    try:
+        return MipChain(
+            tuple(_faces(map_set.maps[mips[mip]["name"]]) for mip in range(len(mips))),
+            nine[0].reshape(-1, 3).astype(np.float64),
+            tuple(known) if known else None,
+        )
+    except (RangeError, ShapeError) as error:
+        raise MapSetError(f"{path} holds no mip chain. {error}") from error
+
+
+def _strip(faces: Array) -> Array:
+    """Faces below each other, +X at the top, each with its row 0 at the top: as OpenGL stores a cube."""
+    return faces.reshape(-1, *faces.shape[2:])[::-1]
+
+
+def _faces(strip: Array) -> Array:
+    """The inverse of `_strip`; a picture that is no strip keeps a shape that `MipChain` refuses."""
+    height, width = strip.shape[:2]
+    if height != 6 * width:
+        return strip
+    return strip[::-1].reshape(6, width, width, -1)

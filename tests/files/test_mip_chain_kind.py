@@ -1,0 +1,77 @@
+"""Map sets of mip chains: what is written comes back, and everything else is named."""
+
+from pathlib import Path
+
+import numpy as np
+import OpenEXR
+import pytest
+from rsibr.rsibr_addon.core.environment import Environment
+from rsibr.rsibr_addon.core.errors import MapSetError
+from rsibr.rsibr_addon.core.mip_chain import MipChain
+from rsibr.rsibr_addon.files.kinds.mip_chain import from_map_set, to_map_set
+from rsibr.rsibr_addon.files.map_set import MapSet, read_map_set, write_map_set
+
+RNG = np.random.default_rng(41)
+
+
+def make_chain(roughness: tuple[float, ...] | None = None) -> MipChain:
+    mips = tuple(RNG.random((6, n, n, 3), dtype=np.float32) for n in (4, 2, 1))
+    return MipChain(mips, RNG.normal(size=(9, 3)).astype(np.float32).astype(np.float64), roughness)
+
+
+def make_map_set(chain: MipChain) -> MapSet:
+    environment = Environment(RNG.random((8, 16, 3), dtype=np.float32), "somewhere")
+    return to_map_set(
+        chain, environment, {"filter": "ggx"}, {"relative_to_peak": 1e-3}, {"size": 4}, "a test"
+    )
+
+
+@pytest.mark.parametrize("roughness", [None, (0.0, 0.25, 1.0)])
+def test_a_chain_comes_back_bit_by_bit(tmp_path: Path, roughness: tuple[float, ...] | None) -> None:
+    chain = make_chain(roughness)
+    path = tmp_path / "a.rsibr.exr"
+    write_map_set(path, make_map_set(chain))
+    back = from_map_set(path, read_map_set(path, "mip_chain"))
+    assert back.roughness == roughness
+    np.testing.assert_array_equal(back.harmonics, chain.harmonics)
+    for mip, expected in zip(back.mips, chain.mips, strict=True):
+        assert mip.dtype == np.float32
+        np.testing.assert_array_equal(mip, expected)
+
+
+def test_others_find_the_faces_in_opengl_s_order(tmp_path: Path) -> None:
+    chain = make_chain()
+    write_map_set(tmp_path / "a.rsibr.exr", make_map_set(chain))
+    with OpenEXR.File(str(tmp_path / "a.rsibr.exr")) as file:
+        pixels = {part.name(): part.channels["RGB"].pixels for part in file.parts}
+    # From the file's first row on: all of +X, then all of -X, ..., each from its first row in memory.
+    np.testing.assert_array_equal(pixels["mip00"].ravel(), chain.mips[0].ravel())
+    np.testing.assert_allclose(pixels["harmonics"][0], chain.harmonics)
+
+
+def test_what_is_no_mip_chain_is_named(tmp_path: Path) -> None:
+    path = tmp_path / "a.rsibr.exr"
+
+    def refusal(change) -> str:
+        map_set = make_map_set(make_chain((0.0, 0.25, 1.0)))
+        maps, header = dict(map_set.maps), dict(map_set.header)
+        change(maps, header, {part["name"]: part for part in header["parts"]})
+        header["parts"] = [part for part in header["parts"] if part["name"] in maps]
+        write_map_set(path, MapSet("mip_chain", maps, header), force=True)
+        with pytest.raises(MapSetError) as refused:
+            from_map_set(path, read_map_set(path))
+        assert str(path) in str(refused.value)
+        return str(refused.value).removeprefix(f"{path} ")
+
+    lacking = "lacks its coefficients or one of its mips: make it again."
+    assert refusal(lambda maps, header, parts: maps.pop("mip01")) == lacking
+    assert refusal(lambda maps, header, parts: maps.pop("harmonics")) == lacking
+    assert refusal(lambda maps, header, parts: parts["mip02"].update(mip=1)) == lacking
+    assert "some of its mips only" in refusal(
+        lambda maps, header, parts: parts["mip02"].update(roughness=None)
+    )
+    assert "do not ascend" in refusal(lambda maps, header, parts: parts["mip02"].update(roughness=0.1))
+    assert "laid out as octahedral" in refusal(lambda maps, header, parts: header.update(layout="octahedral"))
+    strip = np.ones((6, 2, 3), np.float32)
+    assert "Mip 1 must have the shape" in refusal(lambda maps, header, parts: maps.update(mip01=strip))
+    assert "nine coefficients" in refusal(lambda maps, header, parts: maps.update(harmonics=strip[:1]))

@@ -1,0 +1,105 @@
+"""The functions that mip chains are shaded with against their numpy twins."""
+
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.core.brdf.fresnel import fresnel_schlick
+from rsibr.rsibr_addon.core.directions import normalize
+from rsibr.rsibr_addon.core.irradiance import irradiance_from_harmonics, irradiance_matrix
+from rsibr.rsibr_addon.core.maps import cube_map
+from rsibr.rsibr_addon.core.mip_chain import MipChain
+from rsibr.rsibr_addon.core.mips.texture_space import filtered_mips, tent_halved
+from rsibr.rsibr_addon.core.shading.mip_chain import Borders, glossy_radiance
+from rsibr.rsibr_addon.device import buffers
+from rsibr.rsibr_addon.device.mip_chain import atlas_texels
+from rsibr.tests.glsl.evaluation import Samplers, evaluate
+from rsibr.tests.glsl.twins import COUNT, ULP, Twin, check, single, unit_vectors
+
+RNG = np.random.default_rng(21)
+NINE = np.float32(RNG.normal(size=(9, 3))).astype(np.float64)
+
+CORNERS = normalize([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+EDGES = normalize([(1.0, 1.0, 0.3), (-1.0, 0.2, 1.0), (0.1, -1.0, -1.0), (1.0, -1.0, 0.0)])
+
+
+def random_chain() -> MipChain:
+    """Texels that differ by 1 from their neighbours, in the first mips at least."""
+    faces = np.random.default_rng(22).random((6, 16, 16, 3), dtype=np.float32)
+    mips = tuple(mip.astype(np.float32) for mip in filtered_mips(faces, tent_halved))
+    return MipChain(mips, NINE)
+
+
+CHAIN = random_chain()
+
+
+def atlas() -> Samplers:
+    return {"atlas": ("FLOAT_2D", buffers.texture(atlas_texels(CHAIN)))}
+
+
+def cosines() -> np.ndarray:
+    return single(np.linspace(0.0, 1.0, COUNT)[:, None])
+
+
+def matrices() -> str:
+    """The three matrices as GLSL."""
+    columns = [
+        f"mat4({', '.join(repr(float(value)) for value in m.T.ravel())})" for m in irradiance_matrix(NINE)
+    ]
+    return ", ".join(columns)
+
+
+def expected_place(direction: np.ndarray) -> np.ndarray:
+    uv, face = cube_map.uv_from_direction(direction)
+    return np.c_[uv, face]
+
+
+TWINS = {
+    "fresnel_schlick": Twin(
+        "fresnel_lib.glsl",
+        "result_0.xyz = fresnel_schlick(in_0.x, in_1.xyz);",
+        lambda: [cosines(), single(RNG.random((COUNT, 3)))],
+        lambda cosine, f0: fresnel_schlick(cosine, f0),
+        # Some eight operations on values up to 1.
+        8 * ULP,
+    ),
+    "irradiance": Twin(
+        "irradiance_lib.glsl",
+        f"result_0.xyz = irradiance({matrices()}, in_0.xyz);",
+        lambda: [unit_vectors(23)],
+        lambda normal: irradiance_from_harmonics(NINE, normal),
+        # As the docstring has it. The two forms differ by |n|^2 - 1 of a rounded normal, and roundings.
+        1e-6 * np.abs(NINE).sum(),
+    ),
+    "cube_place": Twin(
+        "cube_map_lib.glsl",
+        "result_0.xyz = cube_place(in_0.xyz);",
+        lambda: [unit_vectors(24, np.concatenate([np.eye(3), -np.eye(3), CORNERS, EDGES]))],
+        expected_place,
+        # A quotient up to 1, halved, and a sum.
+        3 * ULP,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", TWINS)
+def test_twin(name: str) -> None:
+    check(TWINS[name])
+
+
+@pytest.mark.parametrize("borders", Borders)
+@pytest.mark.parametrize("mip", range(len(CHAIN.mips)))
+def test_mip_radiance(borders: Borders, mip: int) -> None:
+    clamped = str(borders is Borders.CLAMPED).lower()
+    direction = unit_vectors(25, np.concatenate([CORNERS, EDGES]))
+    code = f"result_0.rgb = mip_radiance(atlas, {mip}, cube_place(in_0.xyz), {clamped});"
+    found = evaluate("mip_chain_lib.glsl", code, [direction], samplers=atlas())[:, 0, :3]
+    expected = glossy_radiance(CHAIN, direction, float(mip), borders)
+    # Weights of texels may be rounded to 8 bits, both ways: 2 / 512 of differences up to 1.
+    assert np.abs(found - expected).max() < 5e-3
+
+
+@pytest.mark.parametrize("level", [0.0, 0.25, 2.7, 4.0])
+def test_glossy_radiance(level: float) -> None:
+    direction = unit_vectors(26, np.concatenate([CORNERS, EDGES]))
+    code = f"result_0.rgb = glossy_radiance(atlas, in_0.xyz, {level}, false);"
+    found = evaluate("mip_chain_lib.glsl", code, [direction], samplers=atlas())[:, 0, :3]
+    assert np.abs(found - glossy_radiance(CHAIN, direction, level, Borders.SEAMLESS)).max() < 5e-3

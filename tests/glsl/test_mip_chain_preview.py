@@ -1,0 +1,91 @@
+"""Pictures drawn from mip chains against core/shading/mip_chain.py at every sample."""
+
+import gpu
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.core.camera import Camera
+from rsibr.rsibr_addon.core.errors import RangeError
+from rsibr.rsibr_addon.core.maps.representation import representation
+from rsibr.rsibr_addon.core.mip_chain import MipChain
+from rsibr.rsibr_addon.core.mips.texture_space import box_halved, filtered_mips, tent_halved
+from rsibr.rsibr_addon.core.shading.mip_chain import Borders, MipLook, mip_chain_radiance
+from rsibr.rsibr_addon.device.context import ensure_context
+from rsibr.rsibr_addon.device.mip_chain import MipChainOnDevice, atlas_texels
+from rsibr.rsibr_addon.device.mip_chain_shaders import mip_chain_shader
+from rsibr.rsibr_addon.device.preview import SAMPLES_PER_AXIS, PreviewRenderer
+from rsibr.tests.glsl.test_preview_renderer import BY_CAMERA, SIZE, SPHERE, samples
+
+BIASES = pytest.mark.parametrize("bias", [0.0, 1.6, 9.4])
+
+
+def smooth_chain(halved) -> MipChain:
+    """Light that varies slowly, with nine coefficients of which the higher are small, as light's are."""
+    direction = representation("cube_map").texel_directions(64)
+    faces = np.float32(0.5 + 0.2 * np.sin(3.0 * direction + (0.0, 1.0, 2.0)))
+    mips = tuple(mip.astype(np.float32) for mip in filtered_mips(faces, halved))
+    nine = np.random.default_rng(5).uniform(-0.3, 0.3, size=(9, 3))
+    nine[0] = 2.0
+    return MipChain(mips, nine, (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6))
+
+
+@pytest.fixture(scope="module", params=[box_halved, tent_halved])
+def smooth(request: pytest.FixtureRequest) -> tuple[MipChain, PreviewRenderer]:
+    ensure_context()
+    chain = smooth_chain(request.param)
+    return chain, PreviewRenderer(MipChainOnDevice(chain))
+
+
+def reference(chain: MipChain, camera: Camera, look: MipLook) -> tuple[np.ndarray, np.ndarray]:
+    """Radiance of every pixel, and those all of whose samples see the sphere at n.v > 0.2."""
+    normal, view_dir, cosine = samples(camera)
+    radiance = mip_chain_radiance(chain, normal, view_dir, look)
+    blocks = (SIZE, SAMPLES_PER_AXIS, SIZE, SAMPLES_PER_AXIS)
+    inside = (cosine > 0.2).reshape(blocks).all(axis=(1, 3))
+    return radiance.reshape(*blocks, 3).mean(axis=(1, 3)), inside
+
+
+@BIASES
+@BY_CAMERA
+def test_a_picture_is_what_the_reference_says(smooth, bias: float, camera: Camera) -> None:
+    chain, renderer = smooth
+    look = MipLook(f_lambda=(0.3, 0.5, 0.9), k_d=(0.9, 0.5, 0.1), bias=bias)
+    expected, inside = reference(chain, camera, look)
+    picture = renderer.draw(*SPHERE, camera, SIZE, look)
+    assert np.all(picture[inside, 3] == 1.0)
+    assert np.count_nonzero(inside) > 0.6 * SIZE**2
+    # Facets turn a normal by 2e-4 and its mirror direction by 4e-4, light changes by up to 0.6 a radian; the
+    # weights of texels may be rounded to 8 bits, 2 / 512 of their difference, 0.7 in the last mips at most.
+    assert np.abs(picture[..., :3] - expected)[inside].max() < 2e-3 * expected.max()
+
+
+@pytest.mark.parametrize("look", [MipLook(borders=Borders.CLAMPED, bias=9.4), MipLook(roughness=0.25)])
+def test_clamped_borders_and_roughness(smooth, look: MipLook) -> None:
+    chain, renderer = smooth
+    camera = Camera((1.0, -0.7, 0.4))
+    expected, inside = reference(chain, camera, look)
+    picture = renderer.draw(*SPHERE, camera, SIZE, look)
+    # Where faces meet, a sample may fall on either side: one of 16, of a difference below 1.
+    assert np.abs(picture[..., :3] - expected)[inside].max() < 2.0 / 16.0
+    assert np.quantile(np.abs(picture[..., :3] - expected)[inside], 0.8) < 2e-3 * expected.max()
+
+
+def test_a_box_chain_knows_no_roughness() -> None:
+    ensure_context()
+    chain = smooth_chain(box_halved)
+    renderer = PreviewRenderer(MipChainOnDevice(MipChain(chain.mips, chain.harmonics)))
+    with pytest.raises(RangeError, match="choose a bias instead"):
+        renderer.draw(*SPHERE, Camera((0.0, -1.0, 0.0)), SIZE, MipLook(roughness=0.3))
+    assert gpu.state.depth_test_get() == "NONE"
+
+
+def test_the_atlas_holds_every_mip() -> None:
+    chain = smooth_chain(box_halved)
+    atlas = atlas_texels(chain)
+    assert atlas.shape == (66 + 34 + 18 + 10 + 6 + 4 + 3, 6 * 66, 4)
+    assert np.all(atlas[..., 3] == 1.0)
+    np.testing.assert_array_equal(atlas[66 + 1 : 66 + 33, 34 + 1 : 34 + 33, :3], chain.mips[1][1])
+
+
+def test_the_program_is_built_once() -> None:
+    ensure_context()
+    assert mip_chain_shader() is mip_chain_shader()

@@ -11,7 +11,7 @@ help:
 	@echo "make lint        ruff and mypy"
 	@echo "make extension   dist/rsibr-*.zip, to be installed in Blender"
 	@echo "make test-gui    the built extension in a Blender of its own"
-	@echo "make bench       how long captures and previews take here"
+	@echo "make bench       how long captures, previews and filtering take here; tables for docs"
 	@echo "make clean       remove everything that these targets made"
 
 $(READY): pyproject.toml .python-version .ci/constraints.txt
@@ -43,6 +43,7 @@ extension: $(READY)
 
 bench: $(READY)
 	$(PYTHON) .ci/bench.py
+	$(PYTHON) .ci/bench_prefilter.py
 
 clean:
 	rm -rf $(VENV) build demo dist wheels rsibr.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache

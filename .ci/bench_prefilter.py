@@ -1,7 +1,7 @@
 """Measure filtering: CPU time, memory and errors of each piece of work, beside what it has to reach.
 
 Each measurement runs in a process of its own. Errors are those against a run whose own promised error is
-negligible, and that run is compared with brute force in some directions. Prints a Markdown table.
+negligible, and that run is compared with brute force in some directions.
 """
 
 import importlib.util
@@ -16,11 +16,13 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
+from docs_table import write_table
 from rsibr.rsibr_addon.core.conventions import Array
 from rsibr.rsibr_addon.core.harmonics.analysis import analyse_environment
 from rsibr.rsibr_addon.core.irradiance import irradiance_exact
+from rsibr.rsibr_addon.core.maps.representation import representation
 from rsibr.rsibr_addon.core.prefilter import Prefiltered, analysis_degree, prefilter, prefilter_exact
-from rsibr.rsibr_addon.core.radial_lobes import ggx_lobe, ggx_n_dot_l_lobe
+from rsibr.rsibr_addon.core.radial_lobes import ggx_lobe
 from rsibr.rsibr_addon.core.zonal import ZonalLobe, expand
 from rsibr.rsibr_addon.files.environments import read_environment
 
@@ -64,21 +66,9 @@ def environment(repeat: int) -> Array:
     return np.repeat(np.repeat(radiance, repeat, axis=0), repeat, axis=1)
 
 
-def paraboloids(size: int) -> Array:
-    """Directions of two paraboloid maps, shape (2, size, size, 3)."""
-    centres = (2.0 * np.arange(size) + 1.0) / size - 1.0
-    s, t = np.meshgrid(centres, centres)
-    up = np.stack([2.0 * s, 2.0 * t, 1.0 - s**2 - t**2], axis=-1) / (1.0 + s**2 + t**2)[..., None]
-    return np.stack([up, up * [1.0, 1.0, -1.0]])
-
-
-def cube(size: int) -> Array:
-    """Directions of the six faces of a cube, shape (6, size, size, 3)."""
-    centres = (2.0 * np.arange(size) + 1.0) / size - 1.0
-    s, t = np.meshgrid(centres, centres)
-    one = np.ones_like(s)
-    faces = [(one, s, t), (-one, s, t), (s, one, t), (s, -one, t), (s, t, one), (s, t, -one)]
-    return np.stack([np.stack(face, axis=-1) for face in faces])
+def directions_of(name: str, size: int) -> Array:
+    """Directions of all texels of a map."""
+    return representation(name).texel_directions(size)
 
 
 def filtered(radiance: Array, lobes: list[ZonalLobe], directions: Array, tolerance: float) -> Prefiltered:
@@ -96,7 +86,7 @@ def cpu_seconds(work: Callable[[], object]) -> float:
 
 def measure_time(stack: Stack) -> dict[str, float]:
     """CPU seconds and the process's largest memory [MiB], with the environment in it."""
-    radiance, directions = environment(stack.repeat), paraboloids(128)
+    radiance, directions = environment(stack.repeat), directions_of("dual_paraboloid", 128)
     lobes = [ggx_lobe(alpha) for alpha in np.geomspace(stack.narrowest, 0.5, stack.slices)]
     seconds = cpu_seconds(lambda: filtered(radiance, lobes, directions, stack.tolerance))
     return {
@@ -107,7 +97,7 @@ def measure_time(stack: Stack) -> dict[str, float]:
 
 def measure_errors(stack: Stack) -> dict[str, float]:
     """Errors over the slices: the worst of each kind."""
-    radiance, directions = environment(stack.repeat), paraboloids(128)
+    radiance, directions = environment(stack.repeat), directions_of("dual_paraboloid", 128)
     lobes = [ggx_lobe(alpha) for alpha in np.geomspace(stack.narrowest, 0.5, stack.slices)]
     found = filtered(radiance, lobes, directions, stack.tolerance)
     exact = filtered(radiance, lobes, directions, REFERENCE).radiance
@@ -136,32 +126,16 @@ def measure_errors(stack: Stack) -> dict[str, float]:
 def measure_others() -> dict[str, float]:
     """Whatever is no stack of slices."""
     radiance = environment(1)
-    lobes = [ggx_n_dot_l_lobe((mip / 8) ** 2) for mip in range(1, 9)]
-    found: list[Prefiltered] = []
-
-    def chain() -> None:
-        series = [expand(lobe, 1e-4) for lobe in lobes]
-        harmonics = analyse_environment(radiance, analysis_degree(series))
-        for mip, lobe in enumerate(series, 1):
-            found.append(prefilter(harmonics, [lobe], cube(256 >> mip)))
-
-    chain_seconds = cpu_seconds(chain)
-    some = cube(64).reshape(-1, 3)[::500]
-    exact = prefilter_exact(radiance, lobes[1:2], some)[0]
-    error = np.abs(found[1].radiance.reshape(-1, 3)[::500] / exact - 1.0)
     normals = np.random.default_rng(1).normal(size=(36 * 72, 3))
     white = np.ones((512, 1024, 1))
     furnace = 0.0
     for alpha in (0.04, 0.1, 0.5, 1.0):
         series = [expand(ggx_lobe(alpha))]
         harmonics = analyse_environment(white, series[0].degree, texels="areas")
-        for directions in (paraboloids(64), cube(32)):
+        for directions in (directions_of("dual_paraboloid", 64), directions_of("cube_map", 32)):
             values = prefilter(harmonics, series, directions).radiance
             furnace = max(furnace, float(np.abs(values - 1.0).max()))
     return {
-        "chain_seconds": chain_seconds,
-        "chain_median": float(np.median(error)),
-        "chain_worst": float(error.max()),
         "nine_seconds": statistics.median(
             cpu_seconds(lambda: analyse_environment(radiance, 2).real(2)) for _ in range(RUNS)
         ),
@@ -180,36 +154,35 @@ def apart(name: str, *arguments: object) -> dict[str, float]:
 
 
 def main() -> None:
-    """Print the tables."""
-    print(
-        "| work | CPU s | brute force / ours | MiB | rel. RMSE | max / peak | bound / seen | < 0 | to reach |"
-    )
-    print("|---|---|---|---|---|---|---|---|---|")
+    """Print the tables, and write them into docs/prefiltering.md."""
+    lines = [
+        "| work | CPU s | brute force / ours | MiB | rel. RMSE | max / peak | bound / seen | < 0 | asked |",
+        "|---|---|---|---|---|---|---|---|---|",
+    ]
     reference = 0.0
     for stack in STACKS:
         runs = [apart("measure_time", asdict(stack)) for _ in range(RUNS)]
         seconds = statistics.median(run["seconds"] for run in runs)
         seen = apart("measure_errors", asdict(stack))
         reference = max(reference, seen["reference"])
-        print(
+        lines.append(
             f"| {stack.what} | {seconds:.2f} | {seen['brute_seconds'] / seconds:,.0f} "
             f"| {max(run['memory'] for run in runs):.0f} | {seen['rms']:.1e} | {seen['peak']:.1e} "
             f"| {seen['least_ratio']:.1f}-{seen['largest_ratio']:.1f} | {seen['negative']:.0f} "
-            f"| {stack.target} |",
-            flush=True,
+            f"| {stack.target} |"
         )
-    print(f"\nThe reference differs from brute force by {reference:.0e} of the peak.\n")
     seen = apart("measure_others")
-    print("| work | seen | to reach |")
-    print("|---|---|---|")
-    print(f"| GGX n.l cube chain, 128..1 of 256, 1024x512 | {seen['chain_seconds']:.2f} s | 1.4 s |")
-    print(
-        f"| its relative error at 64, median / largest "
-        f"| {seen['chain_median']:.0e} / {seen['chain_worst']:.0e} | 1e-3 |"
-    )
-    print(f"| nine coefficients of 1024x512 | {seen['nine_seconds']:.3f} s | 0.1 s |")
-    print(f"| exact diffuse table 36x72 of 1024x512 | {seen['diffuse_seconds']:.2f} s | |")
-    print(f"| white furnace, texels as areas | {seen['furnace']:.0e} | 1e-10 |")
+    lines += [
+        f"\nThe reference differs from brute force by {reference:.0e} of the peak.\n",
+        "| work | seen | asked |",
+        "|---|---|---|",
+        f"| nine coefficients of 1024x512 | {seen['nine_seconds']:.3f} s | 0.1 s |",
+        f"| exact diffuse table 36x72 of 1024x512 | {seen['diffuse_seconds']:.2f} s | |",
+        f"| white furnace, texels as areas | {seen['furnace']:.0e} | 1e-10 |",
+    ]
+    table = "\n".join(lines)
+    print(table)
+    write_table("prefiltering.md", "prefiltering", table)
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ from .options import colour
 KIND_OF: dict[str, tuple[str, ...]] = {
     "mode": ("radiance_views",),
     "warping": ("radiance_views",),
+    "shown": ("reflection_tables",),
     "f_lambda": ("mip_chain",),
     "k_d": ("mip_chain",),
     "bias": ("mip_chain",),
@@ -32,6 +33,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         choices=["single", "split", "albedo"],
         help="mirror warp for the whole radiance; normal warp for diffuse and mirror warp for glossy; "
         "or these with the material's directional albedo taken out and put back (default: albedo)",
+    )
+    tables = parser.add_argument_group("reflection tables", argument_default=argparse.SUPPRESS)
+    tables.add_argument(
+        "--tables",
+        dest="shown",
+        metavar="NAMES",
+        type=lambda text: tuple(text.split(",")),
+        help="those that count, of diffuse,specular,coat,retro,refraction (default: all)",
     )
     mips = parser.add_argument_group("mip chains", argument_default=argparse.SUPPRESS)
     mips.add_argument(

@@ -12,7 +12,7 @@ from types import ModuleType
 from typing import Any
 
 from ..core.errors import RsibrError
-from . import capture, compare, convert, illuminate, info, mips, preview
+from . import capture, compare, convert, illuminate, info, mips, preview, tables
 from .report import Report, result_stream
 
 COMMANDS = {
@@ -23,6 +23,7 @@ COMMANDS = {
     "convert": convert,
     "illuminate": illuminate,
     "mips": mips,
+    "tables": tables,
 }
 """Name -> the module with its arguments and its run; or with `KINDS`, such modules in turn."""
 

@@ -56,6 +56,10 @@ DIRECTION: Rule = ("a unit vector", _is_direction)
 HASH: Rule = ("64 hexadecimal digits", _is_hash)
 OBJECT: Rule = ("an object", lambda value: isinstance(value, dict))
 OBJECT_OR_NULL: Rule = ("an object or null", lambda value: value is None or isinstance(value, dict))
+TEXTS: Rule = (
+    "a list of texts",
+    lambda value: isinstance(value, list) and all(isinstance(item, str) for item in value),
+)
 TEXT_OR_NULL: Rule = ("text or null", lambda value: value is None or isinstance(value, str))
 OBJECTS: Rule = (
     "a list of at least one object",
@@ -90,6 +94,8 @@ ROLE_FIELDS: dict[tuple[str, str], dict[str, Rule]] = {
     ("radiance_views", "glossy"): _VIEW,
     ("radiance_views", "albedo"): {},
     ("lobe_stack", "prefiltered"): {"lobe": INDEX, "mu": NUMBER, "axis_offset": NUMBER, "albedo": COLOUR},
+    ("reflection_tables", "weights"): {"rows": TEXTS},
+    ("reflection_tables", "refraction"): {"eta": NUMBER},
     ("mip_chain", "prefiltered"): {"mip": INDEX, "roughness": NUMBER_OR_NULL},
     ("mip_chain", "harmonics"): {},
 }

@@ -26,12 +26,9 @@ from ..host.scenes import temporary_scene
 from ..host.shape_dependence import shape_dependence
 from ..host.spheres import add_sphere
 from ..host.version import software
-from ..host.worlds import current_world, light_with, sample_world
+from ..host.worlds import light_with
 from ..job import CaptureJob
 from .environments import load_environment
-
-WORLD_HEIGHT = 512
-"""Of the environment that a world is sampled into, in texels."""
 
 ALBEDO = "albedo"
 """Name and role of the part that holds the material's directional albedo."""
@@ -100,11 +97,7 @@ class _Subject:
 
     def __init__(self, job: CaptureJob) -> None:
         self.job = job
-        self.environment = (
-            sample_world(current_world(), WORLD_HEIGHT)
-            if job.environment is None
-            else load_environment(job.environment)
-        )
+        self.environment = load_environment(job.environment)
         with temporary_scene():
             material = load_material(job.material)
             self.fingerprint = fingerprint(material)

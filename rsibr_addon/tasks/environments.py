@@ -5,16 +5,20 @@ from pathlib import Path
 from ..core.environment import Environment
 from ..core.errors import InputFileError
 from ..files.environments import read_environment
-from ..host.worlds import studio_environments
+from ..host.worlds import current_world, sample_world, studio_environments
+
+WORLD_HEIGHT = 512
+"""Of the environment that a world is sampled into, in texels."""
 
 
-def load_environment(spec: str) -> Environment:
-    """An environment from a file, or one of Blender's own.
+def load_environment(spec: str | None) -> Environment:
+    """An environment from a file, one of Blender's own, or the world of the open file.
 
     Parameters
     ----------
-    spec : str
-        A file as `files.environments.read_environment` takes it, or a name such as "forest".
+    spec : str or None
+        A file as `files.environments.read_environment` takes it, or a name such as "forest"; None for the
+        world as it is, sampled through Cycles.
 
     Returns
     -------
@@ -24,12 +28,16 @@ def load_environment(spec: str) -> Environment:
     ------
     InputFileError
         There is neither; or the file cannot be used.
+    SceneError, RenderError
+        There is no world, or Cycles did not deliver its picture.
 
     Warns
     -----
     RsibrWarning
         Negative values were set to 0; says how many.
     """
+    if spec is None:
+        return sample_world(current_world(), WORLD_HEIGHT)
     own = studio_environments()
     if Path(spec).exists():
         return read_environment(spec)

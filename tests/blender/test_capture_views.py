@@ -16,7 +16,7 @@ pytestmark = pytest.mark.needs("cycles")
 
 @pytest.fixture(autouse=True)
 def _registered(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    monkeypatch.setattr("rsibr.rsibr_addon.tasks.capture.WORLD_HEIGHT", 16)
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.environments.WORLD_HEIGHT", 16)
     rsibr.register()
     yield
     rsibr.unregister()

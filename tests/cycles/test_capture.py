@@ -29,6 +29,7 @@ from rsibr.rsibr_addon.host.cycles import render_view
 from rsibr.rsibr_addon.host.worlds import light_with
 from rsibr.rsibr_addon.job import CaptureJob
 from rsibr.rsibr_addon.tasks import capture as task
+from rsibr.rsibr_addon.tasks import environments
 from rsibr.rsibr_addon.tasks.capture import capture
 from rsibr.rsibr_addon.tasks.kinds import open_map_set
 from rsibr.tests.open_file import open_file_state
@@ -242,7 +243,7 @@ def test_a_failing_render_leaves_nothing_behind(
 def test_the_artists_own_world_and_material_can_be_captured(
     job: CaptureJob, environment: Environment, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(task, "WORLD_HEIGHT", 16)
+    monkeypatch.setattr(environments, "WORLD_HEIGHT", 16)
     light_with(bpy.context.scene, environment)
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
     before = open_file_state()

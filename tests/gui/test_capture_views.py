@@ -7,9 +7,9 @@ from collections.abc import Callable
 SCRIPT = """
 import json, os, time, traceback
 import bpy
-from bl_ext.user_default.rsibr.rsibr_addon.tasks import capture
+from bl_ext.user_default.rsibr.rsibr_addon.tasks import environments
 
-capture.WORLD_HEIGHT = 32
+environments.WORLD_HEIGHT = 32
 OUTPUT = "/job/captured.rsibr.exr"
 told = {}
 

@@ -121,6 +121,19 @@ class TableMaterial:
         return (*(() if dark else (Role.DIFFUSE,)), *self.lobes)
 
 
+def preset(name: str) -> dict[str, str]:
+    """The parts of one of `PRESETS`.
+
+    Raises
+    ------
+    RangeError
+        There is none of that name.
+    """
+    if name not in PRESETS:
+        raise RangeError(f"There is no preset {name}: choose one of {', '.join(PRESETS)}.")
+    return PRESETS[name]
+
+
 def material_from_texts(texts: Mapping[str, str], read_measured: ReadMeasured) -> TableMaterial:
     """Make the material that texts describe.
 

@@ -1,0 +1,108 @@
+"""Map sets of kind `reflection_tables`."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...core.environment import Environment
+from ...core.errors import MapSetError, RangeError, ShapeError
+from ...core.reflection_tables import ReflectionTables, Role
+from ..map_set import MapSet
+from ..map_set_header import ENVIRONMENT, make_header
+
+KIND = "reflection_tables"
+WEIGHTS = "weights"
+"""The role of the part that holds the weights, and its name."""
+
+
+def to_map_set(
+    tables: ReflectionTables,
+    environment: Environment,
+    material: dict[str, Any],
+    error_bound: dict[str, Any] | None,
+    settings: dict[str, Any],
+    software: str,
+) -> MapSet:
+    """Reflection tables as a map set holds them.
+
+    Parameters
+    ----------
+    tables : ReflectionTables
+    environment : Environment
+        What they were made of; embedded.
+    material, error_bound, settings, software
+        See docs/map-set-format.md.
+
+    Returns
+    -------
+    MapSet
+    """
+    maps = {ENVIRONMENT: environment.radiance, WEIGHTS: tables.weights}
+    maps |= {role.value: image for role, image in tables.maps.items()}
+    parts: list[dict[str, Any]] = [{"name": name, "role": name} for name in maps]
+    for part in parts:
+        if part["role"] == WEIGHTS:
+            part["rows"] = [role.value for role in Role]
+        elif part["role"] == Role.REFRACTION:
+            part["eta"] = tables.eta
+    height = max(len(image) for image in tables.maps.values())
+    header = make_header(
+        layout="equirect",
+        size=(2 * height, height),
+        environment=environment,
+        embedded=True,
+        material=material,
+        parts=parts,
+        error_bound=error_bound,
+        settings=settings,
+        software=software,
+    )
+    return MapSet(KIND, maps, header)
+
+
+def from_map_set(path: Path, map_set: MapSet) -> ReflectionTables:
+    """Reflection tables as a map set holds them.
+
+    Parameters
+    ----------
+    path : Path
+        The map set's file, for messages.
+    map_set : MapSet
+        Of this kind.
+
+    Returns
+    -------
+    ReflectionTables
+
+    Raises
+    ------
+    MapSetError
+        It is not laid out as latitude-longitude maps, holds two tables of one role or none at all, or
+        lacks weights, or a row of them for each table.
+    """
+    layout = map_set.header["layout"]
+    if layout != "equirect":
+        raise MapSetError(f"{path} holds tables laid out as {layout}, not as equirect: make it again.")
+    parts = {part["role"]: part for part in map_set.header["parts"]}
+    there = {role: parts[role] for role in Role if role in parts}
+    # Whatever is not known here does no harm, but two of what is would hide one another.
+    if (
+        sum(part["role"] in there or part["role"] == WEIGHTS for part in map_set.header["parts"])
+        != len(there) + 1
+    ):
+        raise MapSetError(f"{path} lacks its weights or holds two parts of one role: make it again.")
+    weights, rows = map_set.maps[parts[WEIGHTS]["name"]], parts[WEIGHTS]["rows"]
+    if len(rows) != len(weights) or not set(there) <= set(rows):
+        raise MapSetError(f"{path} lacks the weights of one of its tables: make it again.")
+    ordered = np.zeros((len(Role), *weights.shape[1:]), dtype=np.float32)
+    for row, role in zip(ordered, Role, strict=True):
+        if role in there:
+            row[:] = weights[rows.index(role)]
+    eta = there[Role.REFRACTION]["eta"] if Role.REFRACTION in there else 1.0
+    try:
+        return ReflectionTables(
+            {role: map_set.maps[part["name"]] for role, part in there.items()}, ordered, eta
+        )
+    except (RangeError, ShapeError) as error:
+        raise MapSetError(f"{path} holds no reflection tables. {error}") from error

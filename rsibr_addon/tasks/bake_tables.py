@@ -1,0 +1,87 @@
+"""An environment and a material to reflection tables, in a map set."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ..core.progress import Progress, Steps
+from ..core.tables.bake import TableSizes, bake_tables
+from ..core.tables.material import material_from_texts
+from ..core.tables.weights import warn_of_table_gain
+from ..files.atomic import check_target
+from ..files.brdfs import READERS
+from ..files.kinds.reflection_tables import to_map_set
+from ..files.map_set import write_map_set
+from ..host.version import software
+from .environments import load_environment
+
+
+@dataclass(frozen=True)
+class TableSettings:
+    """What to make tables of, and how.
+
+    Attributes
+    ----------
+    material : mapping of str to str
+        Part -> its text: see `core.tables.material`.
+    sizes : TableSizes
+    exact : bool
+        Whether lobes are summed over all texels by brute force.
+    """
+
+    material: Mapping[str, str]
+    sizes: TableSizes = field(default_factory=TableSizes)
+    exact: bool = False
+
+
+def bake_table_set(
+    environment: str | None, settings: TableSettings, output: Path, force: bool = False
+) -> Steps[Path]:
+    """Make the tables of a material.
+
+    Parameters
+    ----------
+    environment : str or None
+        See `load_environment`.
+    settings : TableSettings
+    output : Path
+        By custom NAME.rsibr.exr.
+    force : bool
+        Whether an existing file is replaced.
+
+    Yields
+    ------
+    Progress
+
+    Returns
+    -------
+    Path
+        `output`.
+
+    Raises
+    ------
+    InputFileError, OutputFileError, SceneError
+    RangeError
+        The material is none, or a lobe narrower than the environment resolves.
+
+    Warns
+    -----
+    RsibrWarning
+        Negative values of the environment were set to 0; the material reflects more light than it gets.
+    """
+    check_target(output, force)
+    material = material_from_texts(settings.material, lambda name, path: READERS[name](path))
+    warn_of_table_gain(material)
+    yield Progress(0, 1, "reading the environment")
+    light = load_environment(environment)
+    baked = yield from bake_tables(light.radiance, material, settings.sizes, settings.exact)
+    map_set = to_map_set(
+        baked.tables,
+        light,
+        dict(settings.material),
+        {role.value: bound.tolist() for role, bound in baked.bounds.items()} or None,
+        {"exact": settings.exact},
+        software(),
+    )
+    write_map_set(output, map_set, force)
+    return output

@@ -1,6 +1,7 @@
 """Operators, one per file; thin: properties to settings, then a task."""
 
+from .bake_mips import RSIBR_OT_bake_mips
 from .capture_views import RSIBR_OT_capture_views
 
-CLASSES: tuple[type, ...] = (RSIBR_OT_capture_views,)
+CLASSES: tuple[type, ...] = (RSIBR_OT_capture_views, RSIBR_OT_bake_mips)
 """Every operator's class, in the order of registration."""

@@ -1,16 +1,14 @@
 """Capture a material of the open file in its world."""
 
-import warnings
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 import bpy
 
-from ..rsibr_addon.core.errors import RsibrError, RsibrWarning, SceneError
+from ..rsibr_addon.core.errors import SceneError
 from ..rsibr_addon.core.progress import Steps, drain
 from ..rsibr_addon.job import CaptureJob
 from ..rsibr_addon.tasks.capture import capture
+from .reporting import reporting
 
 
 class RSIBR_OT_capture_views(bpy.types.Operator):
@@ -43,7 +41,7 @@ class RSIBR_OT_capture_views(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Capture at a stretch."""
-        with self._reporting():
+        with reporting(self):
             path = drain(capture(self._job(context)))
             self.report({"INFO"}, f"Captured {path}")
             return {"FINISHED"}
@@ -54,7 +52,7 @@ class RSIBR_OT_capture_views(bpy.types.Operator):
         if not self.filepath:
             context.window_manager.fileselect_add(self)
             return {"RUNNING_MODAL"}
-        with self._reporting():
+        with reporting(self):
             self._steps: Steps[Path] = capture(self._job(context))
             self._timer = context.window_manager.event_timer_add(0.01, window=context.window)
             context.window_manager.modal_handler_add(self)
@@ -71,7 +69,7 @@ class RSIBR_OT_capture_views(bpy.types.Operator):
             return {"PASS_THROUGH"}
         result = {"CANCELLED"}
         try:
-            with self._reporting():
+            with reporting(self):
                 result = self._step(context)
         finally:
             if result != {"RUNNING_MODAL"}:
@@ -109,14 +107,3 @@ class RSIBR_OT_capture_views(bpy.types.Operator):
             seed=self.seed,
             force=self.force,
         )
-
-    @contextmanager
-    def _reporting(self) -> Iterator[None]:
-        """Turn our errors, which end the block, and our warnings into reports."""
-        with warnings.catch_warnings(record=True, action="always", category=RsibrWarning) as caught:
-            try:
-                yield
-            except (RsibrError, OSError) as error:
-                self.report({"ERROR"}, str(error))
-        for warning in caught:
-            self.report({"WARNING"}, str(warning.message))

@@ -74,13 +74,16 @@ class MipSettings:
         return self.roughness
 
 
-def bake_mips(environment: str, settings: MipSettings, output: Path, force: bool = False) -> Steps[Path]:
+def bake_mips(
+    environment: str | None, settings: MipSettings, output: Path, force: bool = False
+) -> Steps[Path]:
     """Filter an environment.
 
     Parameters
     ----------
-    environment : str
-        A latitude-longitude file, or a name of one of Blender's own: see `load_environment`.
+    environment : str or None
+        A latitude-longitude file, a name of one of Blender's own, or None for the open file's world:
+        see `load_environment`.
     settings : MipSettings
     output : Path
         By custom NAME.rsibr.exr.
@@ -98,7 +101,7 @@ def bake_mips(environment: str, settings: MipSettings, output: Path, force: bool
 
     Raises
     ------
-    InputFileError, OutputFileError
+    InputFileError, OutputFileError, SceneError, RenderError
     RangeError
         A mip's lobe is narrower than the environment resolves.
 
@@ -109,7 +112,7 @@ def bake_mips(environment: str, settings: MipSettings, output: Path, force: bool
     """
     check_target(output, force)
     total = settings.size.bit_length() + 2
-    yield Progress(0, total, f"reading {environment}")
+    yield Progress(0, total, "reading the environment")
     light = load_environment(environment)
     stated: dict[str, Any] = {"filter": settings.filter, "size": settings.size}
     bound = None

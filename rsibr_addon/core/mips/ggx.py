@@ -1,6 +1,7 @@
 """Mips filtered with GGX lobes, the more so the smaller they are: what engines shade glossy surfaces from."""
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -107,18 +108,31 @@ def ggx_mips(radiance: Array, size: int, roughness: Sequence[float]) -> Iterator
     """
     check_size(size, len(roughness))
     check_roughness(tuple(roughness))
-    lobes = [expand(ggx_n_dot_l_lobe(r**2), TOLERANCE) if r > 0.0 else None for r in roughness]
-    needed = [lobe for lobe in lobes if lobe is not None]
-    harmonics = analyse_environment(radiance, analysis_degree(needed)) if needed else None
-    for mip, lobe in enumerate(lobes):
-        if lobe is None or harmonics is None:
+    lobes = {}
+    for mip, r in enumerate(roughness):
+        if r > 0.0:
+            with _naming(mip, r):
+                lobes[mip] = expand(ggx_n_dot_l_lobe(r**2), TOLERANCE)
+    degree = analysis_degree([*lobes.values()]) if lobes else 0
+    harmonics = analyse_environment(radiance, degree)
+    for mip, r in enumerate(roughness):
+        if mip not in lobes:
             yield GgxMip(environment_faces(radiance, size >> mip), 0.0)
             continue
-        try:
-            filtered = prefilter(harmonics, [lobe], CUBE.texel_directions(size >> mip))
-        except RangeError as error:
-            raise RangeError(f"Mip {mip} cannot have roughness {roughness[mip]:.3g}. {error}") from error
+        with _naming(mip, r):
+            filtered = prefilter(harmonics, [lobes[mip]], CUBE.texel_directions(size >> mip))
         yield GgxMip(filtered.radiance[0], float(filtered.bound.max()))
+
+
+@contextmanager
+def _naming(mip: int, roughness: float) -> Iterator[None]:
+    """Say of which mip's lobe an error tells."""
+    try:
+        yield
+    except RangeError as error:
+        raise RangeError(
+            f"Mip {mip} cannot have roughness {roughness:.3g}, choose a larger one: {error}"
+        ) from error
 
 
 def environment_faces(radiance: Array, size: int) -> Array:

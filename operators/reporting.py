@@ -1,0 +1,21 @@
+"""How operators tell of errors and warnings."""
+
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import bpy
+
+from ..rsibr_addon.core.errors import RsibrError, RsibrWarning
+
+
+@contextmanager
+def reporting(operator: bpy.types.Operator) -> Iterator[None]:
+    """Turn our errors, which end the block, and our warnings into an operator's reports."""
+    with warnings.catch_warnings(record=True, action="always", category=RsibrWarning) as caught:
+        try:
+            yield
+        except (RsibrError, OSError) as error:
+            operator.report({"ERROR"}, str(error))
+    for warning in caught:
+        operator.report({"WARNING"}, str(warning.message))

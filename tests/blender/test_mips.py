@@ -1,0 +1,147 @@
+"""`rsibr mips` and its operator: right files, and one sentence for everything else."""
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+import rsibr
+from rsibr.rsibr_addon.command_line.main import run
+from rsibr.rsibr_addon.core.irradiance import irradiance_from_harmonics
+from rsibr.rsibr_addon.core.maps.representation import representation
+from rsibr.rsibr_addon.core.mip_chain import MipChain
+from rsibr.rsibr_addon.core.prefilter import prefilter_exact
+from rsibr.rsibr_addon.core.radial_lobes import ggx_n_dot_l_lobe
+from rsibr.rsibr_addon.files.kinds.mip_chain import from_map_set
+from rsibr.rsibr_addon.files.map_set import read_map_set
+from rsibr.rsibr_addon.files.pictures import read_exr
+from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
+from rsibr.tests.open_file import open_file_state
+
+CUBE = representation("cube_map")
+
+
+@pytest.fixture
+def light(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> np.ndarray:
+    """An environment, light.exr, in the folder to work in."""
+    monkeypatch.chdir(tmp_path)
+    radiance = np.random.default_rng(51).random((64, 128, 3), dtype=np.float32) ** 4
+    write_radiance(tmp_path / "light.exr", radiance)
+    return radiance
+
+
+def bake(*options: str) -> MipChain:
+    path = Path("out.rsibr.exr")
+    assert run(["mips", "--environment", "light.exr", "-o", str(path), *options]) == 0
+    return from_map_set(path, read_map_set(path, "mip_chain"))
+
+
+def test_ggx_mips_are_the_exact_sum_within_what_the_file_promises(
+    light: np.ndarray, capfd: pytest.CaptureFixture[str]
+) -> None:
+    chain = bake("--size", "16", "--roughness", "0,0.4,0.9", "--json")
+    assert json.loads(capfd.readouterr().out.splitlines()[-1])["map_set"] == "out.rsibr.exr"
+    assert chain.roughness == (0.0, 0.4, 0.9)
+    promised = read_map_set("out.rsibr.exr").header["error_bound"]["relative_to_peak"]
+    assert 0.0 < promised < 0.01
+    for mip in (1, 2):
+        lobe = ggx_n_dot_l_lobe(chain.roughness[mip] ** 2)
+        exact = prefilter_exact(light, [lobe], CUBE.texel_directions(16 >> mip))[0]
+        assert np.abs(chain.mips[mip] - exact).max() <= promised * exact.max()
+
+
+@pytest.mark.parametrize("name", ["box", "bordered"])
+def test_texture_space_mips_keep_the_light(light: np.ndarray, name: str) -> None:
+    chain = bake("--size", "16", "--filter", name)
+    assert (len(chain.mips), chain.roughness) == (5, None)
+    whole = np.einsum("fji,fjic->c", CUBE.texel_solid_angle(16), chain.mips[0])
+    # The first harmonic's coefficient is the light of all directions times 0.282.
+    np.testing.assert_allclose(whole * np.sqrt(0.25 / np.pi), chain.harmonics[0], rtol=1e-3)
+    assert irradiance_from_harmonics(chain.harmonics, (0.0, 0.0, 1.0)).min() > 0.0
+    assert read_map_set("out.rsibr.exr").header["error_bound"] is None
+
+
+@pytest.mark.needs("gl")
+def test_a_chain_is_previewed_as_it_is_asked_for(light: np.ndarray) -> None:
+    chain = bake("--size", "16", "--filter", "bordered")
+    look = ["--f-lambda", "1", "--bias", "9.4", "--size", "32"]
+    assert run(["preview", "out.rsibr.exr", *look, "-o", "ball.exr"]) == 0
+    picture = read_exr(Path("ball.exr"))
+    shown = picture[picture[..., 3] == 1.0, :3]
+    smallest = chain.mips[-1].reshape(-1, 3)
+    assert np.all(shown > smallest.min(axis=0) - 1e-4)
+    assert np.all(shown < smallest.max(axis=0) + 1e-4)
+    assert run(["preview", "out.rsibr.exr", "--k-d", "0.5,0,0", "--f-lambda", "0", "-o", "red.exr"]) == 0
+    red = read_exr(Path("red.exr"))
+    middle = red[200:300, 200:300]
+    assert middle[..., 0].min() > 10.0 * middle[..., 1].max()
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (["--size", "48"], "A mip chain cannot be 48 texels wide: choose a power of 2 up to 2048."),
+        (["--size", "4096"], "A mip chain cannot be 4096 texels wide: choose a power of 2 up to 2048."),
+        (["--size", "16", "--roughness", "0,0.7,0.5"], "Roughnesses 0, 0.7, 0.5 do not ascend"),
+        (["--size", "2", "--roughness", "0,0.5,1"], "A chain from 2 texels has 1 to 2 mips, not 3"),
+        (["--roughness", "cubic"], "There is no roughness rule cubic: choose linear, quadratic, or numbers."),
+        (["--filter", "box", "--roughness", "0,1"], "The filter box knows no roughness: leave it out"),
+        (
+            ["--size", "16", "--roughness", "0,0.01"],
+            "Mip 1 cannot have roughness 0.01, choose a larger one: A lobe",
+        ),
+        (
+            ["--size", "16", "--roughness", "0,0.1"],
+            "Mip 1 cannot have roughness 0.1, choose a larger one: Lobe 1",
+        ),
+        (["--environment", "missing.exr"], "There is no environment missing.exr: give a file"),
+    ],
+)
+def test_errors_are_one_sentence_and_leave_nothing(
+    light: np.ndarray, capfd: pytest.CaptureFixture[str], options: list[str], told: str
+) -> None:
+    assert run(["mips", "--environment", "light.exr", "-o", "out.rsibr.exr", *options]) == 1
+    out, err = capfd.readouterr()
+    assert out == ""
+    (line,) = (line for line in err.splitlines() if line.startswith("rsibr: error: "))
+    assert line.removeprefix("rsibr: error: ").startswith(told)
+    assert [path.name for path in Path.cwd().iterdir()] == ["light.exr"]
+
+
+def test_existing_files_are_kept(light: np.ndarray, capfd: pytest.CaptureFixture[str]) -> None:
+    Path("out.rsibr.exr").write_text("precious")
+    assert run(["mips", "--environment", "light.exr", "-o", "out.rsibr.exr"]) == 1
+    assert "out.rsibr.exr exists" in capfd.readouterr().err
+    assert Path("out.rsibr.exr").read_text() == "precious"
+
+
+@pytest.fixture
+def _registered() -> Iterator[None]:
+    rsibr.register()
+    yield
+    rsibr.unregister()
+
+
+@pytest.mark.usefixtures("_registered")
+def test_the_operator_writes_what_the_command_writes(light: np.ndarray) -> None:
+    before = open_file_state()
+    options = {"filter": "bordered", "size": "64", "environment": "light.exr"}
+    assert bpy.ops.rsibr.bake_mips(filepath="operator.exr", **options) == {"FINISHED"}
+    assert open_file_state() == before
+    bake("--filter", "bordered", "--size", "64")
+    assert Path("operator.exr").read_bytes() == Path("out.rsibr.exr").read_bytes()
+    with pytest.raises(RuntimeError, match=r"operator\.exr exists: .*"):
+        bpy.ops.rsibr.bake_mips(filepath="operator.exr", **options)
+
+
+@pytest.mark.needs("cycles")
+@pytest.mark.usefixtures("_registered")
+def test_the_operator_takes_the_world(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.environments.WORLD_HEIGHT", 16)
+    path = tmp_path / "world.rsibr.exr"
+    bpy.context.scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.1, 0.2, 0.3, 1.0)
+    assert bpy.ops.rsibr.bake_mips(filepath=str(path), filter="box", size="64") == {"FINISHED"}
+    chain = from_map_set(path, read_map_set(path))
+    np.testing.assert_allclose(chain.mips[-1], np.broadcast_to((0.1, 0.2, 0.3), (6, 1, 1, 3)), rtol=1e-4)

@@ -1,0 +1,70 @@
+"""The footprint of a pixel on the sphere of directions: from a picture's grid, and its box on a table."""
+
+import numpy as np
+
+from ..conventions import Array, ArrayLike
+from ..maps import equirect
+
+
+def pixel_footprints(directions: ArrayLike) -> Array:
+    """The footprints of a picture's pixels.
+
+    Parameters
+    ----------
+    directions : array_like, shape (height + 1, width + 1, 3)
+        Unit directions reflected at the corners of the pixels, row 0 at the bottom.
+
+    Returns
+    -------
+    ndarray, shape (height, width, 4, 3)
+        Each pixel's corners counterclockwise from the left one at the bottom.
+    """
+    grid = np.asarray(directions, dtype=np.float64)
+    return np.stack([grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]], axis=-2)
+
+
+def footprint_box(corners: ArrayLike, width: int, height: int) -> Array:
+    """The smallest rectangle of a table that holds a footprint's corners, at least a texel wide and high.
+
+    Parameters
+    ----------
+    corners : array_like, shape (..., 4, 3)
+        Directions of any positive length, in order around the pixel.
+    width, height : int
+        Size of the table in texels.
+
+    Returns
+    -------
+    ndarray, shape (..., 4), float64
+        u and v of the box's lower left corner, u in [0, 1); u and v of its upper right one, u beyond 1
+        where the box crosses the seam, by one turn at most.
+
+    Notes
+    -----
+    [Miller1984] section 8.3. A footprint that a pole lies in has a box all around that pole. The mean over a
+    box of one texel is bilinear interpolation of the texels around its middle, which is what a footprint
+    smaller than that should get. GLSL twin: gpu_shaders/lib/summed_area_lib.glsl `footprint_box`.
+    """
+    uv = equirect.uv_from_direction(corners)
+    u, v = uv[..., 0], uv[..., 1]
+    # From corner to corner around the pixel, the short way; that makes a turn only around a pole.
+    steps = np.roll(u, -1, axis=-1) - u
+    steps -= np.round(steps)
+    around = np.abs(np.sum(steps, axis=-1)) > 0.5
+    ahead = np.cumsum(steps[..., :3], axis=-1)
+    low_u = u[..., 0] + np.minimum(np.min(ahead, axis=-1), 0.0)
+    high_u = u[..., 0] + np.maximum(np.max(ahead, axis=-1), 0.0)
+    low_v, high_v = np.min(v, axis=-1), np.max(v, axis=-1)
+    north = np.sum(v, axis=-1) > 2.0
+    low_u, high_u = np.where(around, 0.0, low_u), np.where(around, 1.0, high_u)
+    low_v, high_v = np.where(around & ~north, 0.0, low_v), np.where(around & north, 1.0, high_v)
+    low_u, high_u = _grown(low_u, high_u, 1.0 / width)
+    low_v, high_v = _grown(low_v, high_v, 1.0 / height)
+    turn = np.floor(low_u)
+    return np.stack([low_u - turn, np.maximum(low_v, 0.0), high_u - turn, np.minimum(high_v, 1.0)], axis=-1)
+
+
+def _grown(low: Array, high: Array, least: float) -> tuple[Array, Array]:
+    """An interval made at least so long, about its middle."""
+    missing = 0.5 * np.maximum(least - (high - low), 0.0)
+    return low - missing, high + missing

@@ -1,0 +1,38 @@
+"""A summed table on the GPU, in whole numbers that single precision holds."""
+
+import gpu
+import numpy as np
+
+from ..core.antialiased.summed_area import SummedAreaTable
+from ..core.errors import ShapeError
+from . import buffers
+
+DIGITS = 3
+DIGIT_BITS = 21
+"""Sums have 62 bits; of four such digits, one of them in a second turn, every sum fits 24."""
+
+
+def summed_area_texture(table: SummedAreaTable) -> gpu.types.GPUTexture:
+    """Upload a table as gpu_shaders/lib/summed_area_lib.glsl reads it.
+
+    Parameters
+    ----------
+    table : SummedAreaTable
+        Of three channels.
+
+    Returns
+    -------
+    GPUTexture
+        RGBA32F, a layer for each digit from the lowest up; one texel wider and higher than the table was.
+
+    Raises
+    ------
+    ShapeError
+        The table has not three channels.
+    """
+    if table.sums.shape[-1] != 3:
+        raise ShapeError(f"A table for the GPU has red, green and blue, not {table.sums.shape[-1]} channels.")
+    layers = np.zeros((DIGITS, *table.sums.shape[:2], 4), dtype=np.float32)
+    for digit, layer in enumerate(layers):
+        layer[..., :3] = (table.sums >> (DIGIT_BITS * digit)) & (2**DIGIT_BITS - 1)
+    return buffers.texture_array(layers)

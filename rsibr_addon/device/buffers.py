@@ -42,6 +42,24 @@ def texture_array(images: Array) -> gpu.types.GPUTexture:
     return uploaded
 
 
+def table_texture(table: Array) -> gpu.types.GPUTexture:
+    """Upload a table of colours, to be fetched node by node.
+
+    Parameters
+    ----------
+    table : ndarray, shape (depth, height, width, 3)
+
+    Returns
+    -------
+    GPUTexture, RGBA16F
+        11 significant bits are an eighth of a step of a display of 8 bits.
+    """
+    depth, height, width = table.shape[:3]
+    texels: Array = np.ones((depth, height, width, 4), dtype=np.float32)
+    texels[..., :3] = table
+    return gpu.types.GPUTexture((width, height, depth), format="RGBA16F", data=_buffer(texels))
+
+
 def render_target(size: int) -> gpu.types.GPUTexture:
     """An empty square map to be drawn to and looked up, RGBA32F."""
     target = gpu.types.GPUTexture((size, size), format="RGBA32F")

@@ -30,17 +30,37 @@ def read_photograph(path: Path) -> Array:
         The file is missing, or no picture.
     """
     with temporary_scene():
-        try:
-            image = bpy.data.images.load(str(path.resolve()))
-        except RuntimeError as error:
-            raise InputFileError(f"{path} cannot be read as a picture: check the file.") from error
-        # Numbers as they are stored: otherwise Blender decodes 16 bits, but not 8.
-        image.colorspace_settings.name = "Non-Color"
-        image.alpha_mode = "CHANNEL_PACKED"
-        width, height = image.size
-        pixels = np.empty(width * height * image.channels, dtype=np.float32)
-        if not pixels.size:
-            raise InputFileError(f"{path} cannot be read as a picture: check the file.")
-        image.pixels.foreach_get(pixels)
-    encoded = pixels.reshape(height, width, -1)[..., :3]
-    return linear_from_srgb(np.broadcast_to(encoded, (height, width, 3))).astype(np.float32)
+        encoded = stored_numbers(path)[..., :3]
+    return linear_from_srgb(np.broadcast_to(encoded, (*encoded.shape[:2], 3))).astype(np.float32)
+
+
+def stored_numbers(path: Path) -> Array:
+    """Read a picture of 8 or 16 bits as it is; within `scenes.temporary_scene` no trace of it stays.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    ndarray, shape (height, width, channels), float32
+        In [0, 1], row 0 at the bottom.
+
+    Raises
+    ------
+    InputFileError
+        The file is missing, or no picture.
+    """
+    try:
+        image = bpy.data.images.load(str(path.resolve()))
+    except RuntimeError as error:
+        raise InputFileError(f"{path} cannot be read as a picture: check the file.") from error
+    # Numbers as they are stored: otherwise Blender decodes 16 bits, but not 8.
+    image.colorspace_settings.name = "Non-Color"
+    image.alpha_mode = "CHANNEL_PACKED"
+    width, height = image.size
+    pixels: Array = np.empty(width * height * image.channels, dtype=np.float32)
+    if not pixels.size:
+        raise InputFileError(f"{path} cannot be read as a picture: check the file.")
+    image.pixels.foreach_get(pixels)
+    return pixels.reshape(height, width, -1)

@@ -1,0 +1,103 @@
+"""How a scene's radiance is shown: its view transform, look, exposure, gamma and curves."""
+
+import tempfile
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+from ..core.conventions import Array
+from .photographs import stored_numbers
+from .scenes import temporary_copy
+from .working_space import working_from_rec709
+
+WIDTH = 1024
+"""Of the picture that colours are sent through, in pixels."""
+
+type Display = tuple[object, ...]
+"""What decides on how radiance is shown; equal for scenes that show it equally."""
+
+
+def display_of(scene: bpy.types.Scene) -> Display:
+    """What `displayed_colours` depends on.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+
+    Returns
+    -------
+    Display
+        To be compared. Exposure is not among it, but see `baked_exposure`.
+    """
+    view = scene.view_settings
+    balance = (view.white_balance_temperature, view.white_balance_tint) if view.use_white_balance else ()
+    return (
+        scene.display_settings.display_device,
+        view.view_transform,
+        view.look,
+        view.gamma,
+        balance,
+        baked_exposure(scene),
+        _curves(view.curve_mapping) if view.use_curve_mapping else (),
+    )
+
+
+def baked_exposure(scene: bpy.types.Scene) -> float:
+    """The stops of exposure that `displayed_colours` contains.
+
+    Those that it does not contain double radiance before it is shown, which a shader does at once
+    while the artist moves the slider. With curves, exposure comes after them and has to be contained.
+    """
+    view = scene.view_settings
+    return view.exposure if view.use_curve_mapping else 0.0
+
+
+def scale_before_display(scene: bpy.types.Scene) -> float:
+    """What radiance is to be multiplied by before it is looked up in `displayed_colours`."""
+    return 2.0 ** (scene.view_settings.exposure - baked_exposure(scene))
+
+
+def displayed_colours(scene: bpy.types.Scene, radiance: Array) -> Array:
+    """What radiance looks like in a scene.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+    radiance : ndarray, shape (..., 3)
+        Scene-linear Rec. 709.
+
+    Returns
+    -------
+    ndarray, shape (..., 3), float32
+        In [0, 1], as sent to the scene's display device; exact to 16 bits.
+
+    Notes
+    -----
+    Blender's module has no interface to its colour management. But a picture that is saved as a render
+    goes through the scene's.
+    """
+    colours = radiance.reshape(-1, 3)
+    height = -(-len(colours) // WIDTH)
+    pixels: Array = np.ones((height * WIDTH, 4), dtype=np.float32)
+    pixels[: len(colours), :3] = working_from_rec709(colours)
+    with tempfile.TemporaryDirectory() as folder, temporary_copy(scene) as copy:
+        path = Path(folder) / "displayed.png"
+        copy.view_settings.exposure = baked_exposure(scene)
+        copy.render.dither_intensity = 0.0
+        settings = copy.render.image_settings
+        settings.media_type = "IMAGE"
+        settings.file_format, settings.color_mode, settings.color_depth = "PNG", "RGB", "16"
+        settings.color_management = "FOLLOW_SCENE"
+        settings.compression = 0
+        image = bpy.data.images.new("displayed", WIDTH, height, float_buffer=True)
+        image.pixels.foreach_set(pixels.ravel())
+        image.save_render(str(path), scene=copy)
+        shown = stored_numbers(path)[..., :3]
+    return shown.reshape(-1, 3)[: len(colours)].reshape(radiance.shape)
+
+
+def _curves(mapping: bpy.types.CurveMapping) -> tuple[object, ...]:
+    points = tuple((*point.location, point.handle_type) for curve in mapping.curves for point in curve.points)
+    levels = (*mapping.black_level, *mapping.white_level, mapping.tone, mapping.use_clip, mapping.extend)
+    return points + levels

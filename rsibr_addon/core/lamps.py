@@ -83,12 +83,12 @@ def angular_width(directions: ArrayLike) -> float:
         [rad]; twice the largest angle to their mean, up to 2 pi, which is also given for directions all
         around, which have none.
     """
-    directions = np.asarray(directions, dtype=np.float64)
-    total = directions.sum(axis=0)
-    if np.linalg.norm(total) < 1e-6 * len(directions):
+    parts: Array = np.asarray(directions, dtype=np.float64)
+    total = parts.sum(axis=0)
+    if np.linalg.norm(total) < 1e-6 * len(parts):
         return 2.0 * np.pi
     # By the chord, as the arc cosine of almost 1 has no digits.
-    chord = np.linalg.norm(directions - normalize(total), axis=-1).max()
+    chord = np.linalg.norm(parts - normalize(total), axis=-1).max()
     return float(4.0 * np.arcsin(min(0.5 * chord, 1.0)))
 
 

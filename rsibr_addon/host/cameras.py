@@ -1,9 +1,15 @@
-"""Our camera as Blender's."""
+"""Our cameras as Blender's."""
 
 import bpy
+import numpy as np
 from mathutils import Matrix
 
 from ..core.camera import Camera
+from ..core.conventions import Array, ArrayLike
+from ..core.maps.cube_map import FACES
+
+CLOSE = 1e-4
+"""What stands about a camera, and is not to meet anything, measures so much of what is around it."""
 
 
 def add_camera(scene: bpy.types.Scene, camera: Camera) -> bpy.types.Object:
@@ -26,8 +32,80 @@ def add_camera(scene: bpy.types.Scene, camera: Camera) -> bpy.types.Object:
     else:
         data.type, data.angle = "PERSP", camera.field_of_view
     data.clip_start, data.clip_end = 1e-3, 2.0 * camera.distance
-    item = bpy.data.objects.new("RSIBR camera", data)
-    item.matrix_world = Matrix(camera.world_from_camera)
+    return _add(scene, data, camera.world_from_camera)
+
+
+def add_panoramic_camera(scene: bpy.types.Scene, point: ArrayLike = (0.0, 0.0, 0.0)) -> bpy.types.Object:
+    """Look at a scene from within, all around.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        Its active camera becomes the new one; its resolution should be twice as wide as high.
+    point : array_like, shape (3,)
+        Where it stands, in world coordinates.
+
+    Returns
+    -------
+    bpy.types.Object
+        Its pictures are equirectangular: the middle shows +X, the top +Z.
+    """
+    data = bpy.data.cameras.new("RSIBR panorama")
+    data.type, data.panorama_type = "PANO", "EQUIRECTANGULAR"
+    return _add_within(scene, data, ((0.0, 0.0, -1.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0)), point)
+
+
+def add_face_camera(scene: bpy.types.Scene, face: int, point: ArrayLike) -> bpy.types.Object:
+    """Look at a scene from within through one face of a cube.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        Its active camera becomes the new one; its resolution should be square.
+    face : int
+        In the order of `core.maps.cube_map`, 0 to 5.
+    point : array_like, shape (3,)
+        The cube's centre, in world coordinates.
+
+    Returns
+    -------
+    bpy.types.Object
+        Its pictures are that face, in the world's axes: row 0 is OpenGL's first.
+    """
+    data = bpy.data.cameras.new("RSIBR face")
+    data.type, data.angle = "PERSP", np.pi / 2.0
+    right, up, ahead = FACES[face]
+    return _add_within(scene, data, np.stack([right, up, -ahead], axis=1), point)
+
+
+def closeness(point: ArrayLike) -> float:
+    """A length that is short for a scene, but not for float32 coordinates about a point.
+
+    Parameters
+    ----------
+    point : array_like, shape (3,)
+        In world coordinates.
+
+    Returns
+    -------
+    float
+        `CLOSE` of a metre and of the distance from the origin.
+    """
+    return CLOSE * (1.0 + float(np.linalg.norm(point)))
+
+
+def _add_within(
+    scene: bpy.types.Scene, data: bpy.types.Camera, frame: ArrayLike, point: ArrayLike
+) -> bpy.types.Object:
+    data.clip_start = 0.1 * closeness(point)
+    pose = np.eye(4)
+    pose[:3, :3], pose[:3, 3] = frame, point
+    return _add(scene, data, pose)
+
+
+def _add(scene: bpy.types.Scene, data: bpy.types.Camera, pose: Array) -> bpy.types.Object:
+    item = bpy.data.objects.new(data.name, data)
+    item.matrix_world = Matrix(pose)
     scene.collection.objects.link(item)
     scene.camera = item
     return item

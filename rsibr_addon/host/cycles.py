@@ -1,19 +1,16 @@
 """Pictures by Cycles, diffuse and glossy radiance apart."""
 
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from pathlib import Path
 
 import bpy
 import numpy as np
 
 from ..core.conventions import Array
 from ..core.errors import RangeError
-from ..files.exr import read_parts
 from .denoising import denoise
-from .rendering import configure_cycles, render_to
+from .rendering import configure_cycles, render_passes
 from .working_space import rec709_from_working
 
 LARGEST_SAMPLES = 1 << 24
@@ -122,10 +119,9 @@ def render_view(scene: bpy.types.Scene, settings: RenderSettings) -> RenderedVie
     _configure(scene, settings)
     half = settings.samples // 2
     counts = (half, settings.samples - half)
-    with tempfile.TemporaryDirectory() as folder, _data_kept_between_renders(scene):
-        path = Path(folder) / "passes.exr"
-        first = _render_passes(scene, path, 0, counts[0])
-        second = _render_passes(scene, path, counts[0], counts[1])
+    with _data_kept_between_renders(scene):
+        first = _render_subset(scene, 0, counts[0])
+        second = _render_subset(scene, counts[0], counts[1])
     inside = np.minimum(first["coverage"], second["coverage"]) > WHOLLY
     noise = _relative_noise(first["whole"][inside], second["whole"][inside], *counts)
     mean = {name: np.average([first[name], second[name]], axis=0, weights=counts) for name in first}
@@ -163,30 +159,21 @@ def _configure(scene: bpy.types.Scene, settings: RenderSettings) -> None:
     for name in PASSES:
         setattr(layer, name, True)
     layer.cycles.denoising_store_passes = settings.denoise
-    image = scene.render.image_settings
-    image.media_type, image.file_format, image.color_depth = "MULTI_LAYER_IMAGE", "OPEN_EXR_MULTILAYER", "32"
 
 
-def _render_passes(scene: bpy.types.Scene, path: Path, start: int, count: int) -> dict[str, Array]:
+def _render_subset(scene: bpy.types.Scene, start: int, count: int) -> dict[str, Array]:
     """What `count` of the samples, from `start` on, show; with guides for the denoiser where they are."""
     scene.cycles.sample_offset, scene.cycles.sample_subset_length = start, count
-    render_to(scene, path)
-    channels = {
-        name.partition(".")[2]: pixels.astype(np.float64)
-        for part in read_parts(path)
-        for name, pixels in part.channels.items()
+    passes = {name: pixels.astype(np.float64) for name, pixels in render_passes(scene).items()}
+    seen = {
+        "whole": passes["Combined"][..., :3],
+        # Cycles has divided light by colour pixel by pixel, so only within one render is this the light.
+        "glossy": passes["Glossy Direct"] * passes["Glossy Color"],
+        "coverage": passes["Combined"][..., 3],
     }
-    path.unlink()
-
-    def stack(name: str, axes: str = "RGB") -> Array:
-        return np.stack([channels[f"{name}.{axis}"] for axis in axes], axis=-1)
-
-    # Cycles has divided light by colour pixel by pixel, so only within one render is this the light.
-    glossy = stack("Glossy Direct") * stack("Glossy Color")
-    passes = {"whole": stack("Combined"), "glossy": glossy, "coverage": channels["Combined.A"]}
-    if "Denoising Albedo.R" in channels:
-        passes |= {"albedo": stack("Denoising Albedo"), "normal": stack("Denoising Normal", "XYZ")}
-    return passes
+    if "Denoising Albedo" in passes:
+        seen |= {"albedo": passes["Denoising Albedo"], "normal": passes["Denoising Normal"]}
+    return seen
 
 
 def _relative_noise(a: Array, b: Array, count_a: int, count_b: int) -> float:

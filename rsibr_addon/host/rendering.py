@@ -1,10 +1,17 @@
 """What all our renders have in common."""
 
+import tempfile
 from pathlib import Path
 
 import bpy
+import numpy as np
 
+from ..core.conventions import Array
 from ..core.errors import RenderError
+from ..files.exr import read_parts
+
+AXES = "RGBAXYZ"
+"""Order of the channels of a pass."""
 
 
 def configure_cycles(scene: bpy.types.Scene, width: int, height: int, samples: int) -> None:
@@ -52,3 +59,37 @@ def render_to(scene: bpy.types.Scene, path: Path) -> None:
         raise RenderError(f"Blender cannot render: {str(error).strip()}.") from error
     if not path.exists():
         raise RenderError("Blender's render was cancelled, or another one is going on: try again.")
+
+
+def render_passes(scene: bpy.types.Scene) -> dict[str, Array]:
+    """Render a scene, and read every pass of it.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        Has one view layer, without a full stop in its name.
+
+    Returns
+    -------
+    dict of str to ndarray, shape (height, width, channels), float32
+        Pass -> pixels in the working colour space, row 0 at the bottom: "Combined" has R, G, B, A.
+
+    Raises
+    ------
+    RenderError
+        See `render_to`.
+    """
+    image = scene.render.image_settings
+    image.media_type, image.file_format, image.color_depth = "MULTI_LAYER_IMAGE", "OPEN_EXR_MULTILAYER", "32"
+    channels: dict[str, dict[str, Array]] = {}
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "passes.exr"
+        render_to(scene, path)
+        for part in read_parts(path):
+            for name, pixels in part.channels.items():
+                of_pass, _, axis = name.partition(".")[2].rpartition(".")
+                channels.setdefault(of_pass, {})[axis] = pixels
+    return {
+        of_pass: np.stack([pixels[axis] for axis in sorted(pixels, key=AXES.index)], axis=-1)
+        for of_pass, pixels in channels.items()
+    }

@@ -22,10 +22,35 @@ def temporary_scene() -> Iterator[bpy.types.Scene]:
     of a task in it. Handlers (``bpy.app.handlers``) rest, so that an artist's own, say at each
     render, do not meet our scene.
     """
+    with _temporary_data():
+        yield bpy.data.scenes.new("RSIBR")
+
+
+@contextlib.contextmanager
+def temporary_copy(scene: bpy.types.Scene) -> Iterator[bpy.types.Scene]:
+    """Work in a copy of a scene; afterwards the file is as it was, as by `temporary_scene`.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+
+    Yields
+    ------
+    bpy.types.Scene
+        With all settings of its own, but the same objects and collections: what is changed of those,
+        is changed for the artist.
+    """
+    with _temporary_data():
+        yield scene.copy()
+
+
+@contextlib.contextmanager
+def _temporary_data() -> Iterator[None]:
+    """Within, the artist's handlers rest; whatever was added to the file is removed afterwards."""
     with _resting_handlers():
         before = {item.session_uid for item in bpy.data.all_ids}
         try:
-            yield bpy.data.scenes.new("RSIBR")
+            yield
         finally:
             bpy.data.batch_remove([item for item in bpy.data.all_ids if item.session_uid not in before])
 

@@ -1,6 +1,8 @@
-"""The sphere that materials are captured on."""
+"""Spheres, such as the one that materials are captured on."""
 
 import bpy
+
+from ..core.conventions import ArrayLike
 
 CORE_RADIUS = 0.99999
 """Of the black core: too close beneath the surface to show at its rim."""
@@ -25,19 +27,39 @@ def add_sphere(scene: bpy.types.Scene, material: bpy.types.Material) -> bpy.type
     core that only the camera sees stands behind what a transparent material lets through, so that
     coverage is the sphere's own. What is refracted leaves without meeting the sphere again.
     """
-    core = _ball(scene, CORE_RADIUS, _black())
+    core = add_ball(scene, CORE_RADIUS, _black())
     core.visible_diffuse = core.visible_glossy = core.visible_transmission = False
     core.visible_volume_scatter = core.visible_shadow = False
-    return _ball(scene, 1.0, material)
+    return add_ball(scene, 1.0, material)
 
 
-def _ball(scene: bpy.types.Scene, radius: float, material: bpy.types.Material) -> bpy.types.Object:
+def add_ball(
+    scene: bpy.types.Scene,
+    radius: float,
+    material: bpy.types.Material,
+    point: ArrayLike = (0.0, 0.0, 0.0),
+) -> bpy.types.Object:
+    """Put a sphere into a scene that Cycles intersects exactly.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+    radius : float
+    material : bpy.types.Material
+    point : array_like, shape (3,)
+        Its centre.
+
+    Returns
+    -------
+    bpy.types.Object
+    """
     cloud = bpy.data.pointclouds.new("RSIBR sphere")
     cloud.resize(1)
     cloud.points[0].co = (0.0, 0.0, 0.0)
     cloud.points[0].radius = radius
     cloud.materials.append(material)
     item = bpy.data.objects.new("RSIBR sphere", cloud)
+    item.location = point
     scene.collection.objects.link(item)
     return item
 

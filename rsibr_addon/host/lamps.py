@@ -1,0 +1,200 @@
+"""Lamps as they are seen from a point, and what light of theirs arrives there."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from ..core.camera import Camera
+from ..core.conventions import Array, ArrayLike, texel_centres
+from ..core.directions import normalize
+from ..core.lamps import angular_width, directions_in_cap
+from .cameras import add_camera, closeness
+from .clear_shell import show_to_camera_only
+from .rendering import configure_cycles, render_passes
+from .spheres import add_ball
+from .surroundings import TWIN_OF
+from .working_space import rec709_from_working
+
+PARTS = 1024
+"""Of a lamp that has an extent: enough for one of a few texels."""
+
+PROBE_SIZE, PROBE_SAMPLES = 64, 64
+"""Pixels across the probe, and samples of each: 2e5 in all, shared among the lamps by their light."""
+
+
+@dataclass(frozen=True)
+class Lamp:
+    """A lamp as it is seen from a point.
+
+    Attributes
+    ----------
+    item : bpy.types.Object
+        In the scene of the surroundings.
+    name : str
+        Full name of the artist's own.
+    directions : ndarray, shape (count, 3)
+        Unit directions to equal parts of it.
+    """
+
+    item: bpy.types.Object
+    name: str
+    directions: Array
+
+    @property
+    def width(self) -> float:
+        """How wide it is seen [rad]."""
+        return angular_width(self.directions)
+
+
+def lamps_around(scene: bpy.types.Scene, point: ArrayLike) -> list[Lamp]:
+    """The lamps of a scene, but for those that must be left to rays.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        As `surroundings_scene` yields it; instances of lamps become objects of it.
+    point : array_like, shape (3,)
+
+    Returns
+    -------
+    list of Lamp
+        Not: portals, which give no light; instances that have a size, as they cannot be hidden from rays.
+    """
+    centre = np.asarray(point, dtype=np.float64)
+    # Read to its end before anything is added, after which the list is another.
+    seen = [
+        (found.object.original, found.is_instance, pose, _directions(found.object.data, pose, centre))
+        for found in scene.view_layers[0].depsgraph.object_instances
+        if found.object.type == "LIGHT" and _can_be_hidden(found)
+        for pose in [np.array(found.matrix_world)]
+    ]
+    return [
+        Lamp(
+            _made_real(scene, item, pose) if is_instance else item,
+            item.get(TWIN_OF, item.name_full),
+            directions,
+        )
+        for item, is_instance, pose, directions in seen
+    ]
+
+
+def measure_lamps(scene: bpy.types.Scene, point: ArrayLike, lamps: Sequence[Lamp]) -> Array:
+    """Measure what light arrives from each of several small lamps.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        As `surroundings_scene` yields it; its render settings are replaced.
+    point : array_like, shape (3,)
+    lamps : sequence of Lamp
+        Of that scene.
+
+    Returns
+    -------
+    ndarray, shape (len(lamps), 3)
+        Irradiance on a surface that faces the lamp, in Rec. 709; 0 where something stands in between.
+
+    Raises
+    ------
+    RenderError
+        Cycles did not deliver.
+
+    Notes
+    -----
+    Energy over distance squared [Miller1984], but as Cycles knows it: with cones, node trees, photometric
+    profiles and transparent shadows. A tiny white ball without a shadow both reflects and transmits
+    diffusely: where its normal is n it shows E |n.w| / pi of a lamp in direction w, on whatever side. E is
+    fitted to all its pixels; light groups tell the lamps apart.
+    """
+    layer = scene.view_layers[0]
+    for index, lamp in enumerate(lamps):
+        lamp.item.lightgroup = layer.lightgroups.add(name=f"lamp{index}").name
+    normals, inside = _add_probe(scene, np.asarray(point))
+    configure_cycles(scene, PROBE_SIZE, PROBE_SIZE, PROBE_SAMPLES)
+    passes = render_passes(scene)
+    irradiance = np.zeros((len(lamps), 3))
+    for index, lamp in enumerate(lamps):
+        cosine = np.abs(normals @ normalize(lamp.directions.sum(axis=0)))
+        shown = passes[f"Combined_lamp{index}"][inside]
+        irradiance[index] = np.pi * (cosine @ shown) / (cosine @ cosine)
+    return rec709_from_working(irradiance)
+
+
+def _add_probe(scene: bpy.types.Scene, point: Array) -> tuple[Array, Array]:
+    """A ball and its camera; normals (count, 3) of pixels that lie inside, and which those are."""
+    radius, camera = closeness(point), Camera((0.0, 0.0, 1.0))
+    show_to_camera_only(add_ball(scene, radius, _white(), point))
+    item = add_camera(scene, camera)
+    item.location, item.scale = point + radius * camera.world_from_camera[:3, 3], (1.0, 1.0, 1.0)
+    item.data.ortho_scale, item.data.clip_start, item.data.clip_end = 2.0 * radius, 0.5 * radius, 2.0 * radius
+    xy = 2.0 * texel_centres(PROBE_SIZE, PROBE_SIZE) - 1.0
+    inside = np.linalg.norm(xy, axis=-1) < 1.0 - 2.0 / PROBE_SIZE
+    z = np.sqrt(1.0 - np.sum(xy[inside] ** 2, axis=-1, keepdims=True))
+    return np.concatenate([xy[inside], z], axis=-1) @ camera.frame.T, inside
+
+
+def _white() -> bpy.types.Material:
+    """Shows the light of both its sides."""
+    material = bpy.data.materials.new("RSIBR white")
+    tree = material.node_tree
+    tree.nodes.clear()
+    both = tree.nodes.new("ShaderNodeAddShader")
+    for socket, kind in zip(both.inputs, ("ShaderNodeBsdfDiffuse", "ShaderNodeBsdfTranslucent"), strict=True):
+        half = tree.nodes.new(kind)
+        half.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+        tree.links.new(half.outputs[0], socket)
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    tree.links.new(both.outputs[0], output.inputs["Surface"])
+    return material
+
+
+def _can_be_hidden(found: bpy.types.DepsgraphObjectInstance) -> bool:
+    """Whether rays can be kept from finding a lamp: a twin, or an instance that none finds anyway."""
+    return not _has_size(found.object.data) if found.is_instance else TWIN_OF in found.object
+
+
+def _made_real(scene: bpy.types.Scene, item: bpy.types.Object, pose: Array) -> bpy.types.Object:
+    real = bpy.data.objects.new("RSIBR lamp", item.data)
+    real.matrix_world = Matrix(pose)
+    real.visible_diffuse = item.visible_diffuse
+    scene.collection.objects.link(real)
+    return real
+
+
+def _has_size(data: bpy.types.Light) -> bool:
+    match data.type:
+        case "AREA":
+            return True
+        case "SUN":
+            return bool(data.angle > 0.0)
+        case _:
+            return bool(data.shadow_soft_size > 0.0)
+
+
+def _directions(data: bpy.types.Light, pose: Array, point: Array) -> Array:
+    """Unit directions to equal parts of a lamp, shape (count, 3); all around when the point is in it."""
+    count = PARTS if _has_size(data) else 1
+    if data.type == "SUN":
+        return directions_in_cap(normalize(pose[:3, 2]), 0.5 * data.angle, count)
+    towards = pose[:3, 3] - point
+    distance = np.linalg.norm(towards)
+    if data.type == "AREA":
+        parts = _points(data) @ pose[:3, :3].T + towards
+        return parts / np.maximum(np.linalg.norm(parts, axis=-1, keepdims=True), closeness(point))
+    if distance <= max(data.shadow_soft_size, closeness(point)):
+        return directions_in_cap((0.0, 0.0, 1.0), np.pi, PARTS)
+    # Its scale does not change the size of a ball.
+    return directions_in_cap(towards / distance, np.arcsin(data.shadow_soft_size / distance), count)
+
+
+def _points(data: bpy.types.AreaLight) -> Array:
+    """Points spread over an area lamp, shape (count, 3), in its own coordinates."""
+    side = int(np.sqrt(PARTS))
+    unit = texel_centres(side, side).reshape(-1, 2) - 0.5
+    if data.shape in ("DISK", "ELLIPSE"):
+        unit = unit[np.linalg.norm(unit, axis=-1) <= 0.5]
+    height = data.size_y if data.shape in ("RECTANGLE", "ELLIPSE") else data.size
+    return np.concatenate([unit * (data.size, height), np.zeros((len(unit), 1))], axis=-1)

@@ -1,0 +1,74 @@
+"""Objects that are lit: what belongs to them, and where they are."""
+
+import bpy
+import numpy as np
+
+from ..core.conventions import Array
+from ..core.errors import SceneError
+
+NAMES_SHOWN = 8
+"""So many objects of a scene are listed when one is asked for that it does not hold."""
+
+SOLID = {"MESH", "CURVE", "SURFACE", "META", "FONT", "CURVES", "POINTCLOUD", "VOLUME", "GREASEPENCIL"}
+"""Types of objects that have an extent."""
+
+
+def find_object(scene: bpy.types.Scene, name: str) -> bpy.types.Object:
+    """The object of that name in a scene.
+
+    Raises
+    ------
+    SceneError
+        There is none.
+    """
+    found = scene.objects.get(name)
+    if found is None:
+        names = [item.name for item in scene.objects]
+        shown = ", ".join(names[:NAMES_SHOWN]) or "another scene, as it is empty"
+        more = f" and {len(names) - NAMES_SHOWN} more" if len(names) > NAMES_SHOWN else ""
+        raise SceneError(f"Scene {scene.name} holds no object {name}: choose one of {shown}{more}.")
+    return found
+
+
+def parts_of(subject: bpy.types.Object) -> set[bpy.types.Object]:
+    """An object, and what is parented to it, directly or not, but for lamps.
+
+    Parameters
+    ----------
+    subject : bpy.types.Object
+
+    Returns
+    -------
+    set of bpy.types.Object
+        What an object instances goes with it without being named here.
+    """
+    return {subject, *(child for child in subject.children_recursive if child.type != "LIGHT")}
+
+
+def centre_of(layer: bpy.types.ViewLayer, subject: bpy.types.Object) -> Array:
+    """The middle of an object and its parts.
+
+    Parameters
+    ----------
+    layer : bpy.types.ViewLayer
+        Of a scene that is evaluated at the frame that counts.
+    subject : bpy.types.Object
+
+    Returns
+    -------
+    ndarray, shape (3,)
+        Of the box along the world's axes that holds their boxes, with all modifiers and instances; the
+        object's origin where nothing has an extent. In world coordinates.
+    """
+    depsgraph = layer.depsgraph
+    parts = parts_of(subject)
+    corners = [
+        np.asarray(instance.matrix_world) @ (*corner, 1.0)
+        for instance in depsgraph.object_instances
+        if (instance.parent if instance.is_instance else instance.object).original in parts
+        and instance.object.type in SOLID
+        for corner in instance.object.bound_box
+    ]
+    if not corners:
+        return np.array(subject.evaluated_get(depsgraph).matrix_world.translation)
+    return 0.5 * (np.min(corners, axis=0) + np.max(corners, axis=0))[:3]

@@ -1,0 +1,270 @@
+"""A scene as it is seen from a point within, without the object that stands there."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ..core.conventions import Array, ArrayLike
+from ..core.errors import SceneError
+from .cameras import add_face_camera, add_panoramic_camera, closeness
+from .clear_shell import add_clear_shell
+from .rendering import configure_cycles, render_passes
+from .scenes import temporary_copy
+from .subjects import centre_of, find_object, parts_of
+from .working_space import rec709_from_working
+
+TWIN_OF = "RSIBR twin of"
+"""Property of a lamp of ours that holds the full name of the artist's own."""
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """What is around a point of a scene of the open file.
+
+    Attributes
+    ----------
+    scene : str
+        Its name.
+    layer : str
+        The view layer whose collections count.
+    frame : int
+    subject : str or None
+        The object that is left out, with its parts: see `host.subjects.parts_of`.
+    point : tuple of 3 floats
+        In world coordinates.
+    unseen : frozenset of str
+        Full names of lamps that light everything, but do not show themselves.
+    """
+
+    scene: str
+    layer: str
+    frame: int
+    subject: str | None
+    point: tuple[float, float, float]
+    unseen: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True)
+class Sampling:
+    """Which samples are taken of a picture.
+
+    Attributes
+    ----------
+    start, count : int
+        From where in the sequence, and how many.
+    total : int
+        Of all pictures that will be averaged.
+    seed : int
+        Of the sequence.
+    guides : bool
+        Whether the picture comes with what a denoiser asks for.
+    """
+
+    start: int
+    count: int
+    total: int
+    seed: int
+    guides: bool = False
+
+
+def surroundings_of(
+    scene: str | None, subject: str | None, point: tuple[float, float, float] | None, frame: int | None
+) -> Surroundings:
+    """What is around an object, or around a point.
+
+    Parameters
+    ----------
+    scene : str or None
+        Its name; None for the one that the artist works in.
+    subject : str or None
+        Name of the object that is left out, if any.
+    point : tuple of 3 floats, or None
+        None for the middle of the object, or without one for the 3D cursor.
+    frame : int or None
+        None for the scene's current one.
+
+    Returns
+    -------
+    Surroundings
+
+    Raises
+    ------
+    SceneError
+        There is no such scene or object; or there is nothing around.
+    """
+    source = bpy.context.scene if scene is None else find_scene(scene)
+    layer = bpy.context.view_layer if source == bpy.context.scene else source.view_layers[0]
+    frame = source.frame_current if frame is None else frame
+    hidden = parts_of(find_object(source, subject)) if subject else set()
+    if source.world is None and not set(_rendered(layer.layer_collection)) - hidden:
+        raise SceneError(
+            f"There is nothing to see in scene {source.name}: add a world, or lamps and objects."
+        )
+    if point is None and subject:
+        with temporary_copy(source) as scene_at_frame:
+            scene_at_frame.frame_set(frame)
+            middle = centre_of(scene_at_frame.view_layers[layer.name], source.objects[subject])
+    elif point is None:
+        middle = np.array(source.cursor.location)
+    else:
+        middle = np.array(point)
+    return Surroundings(source.name, layer.name, frame, subject, tuple(middle.tolist()))
+
+
+@contextmanager
+def surroundings_scene(around: Surroundings) -> Iterator[bpy.types.Scene]:
+    """Work in a scene of the surroundings; afterwards the file is as it was.
+
+    Parameters
+    ----------
+    around : Surroundings
+
+    Yields
+    ------
+    bpy.types.Scene
+        At its frame, evaluated; all rendered objects of the view layer in one collection and one view
+        layer. Lamps are twins of the artist's, which `TWIN_OF` names.
+
+    Raises
+    ------
+    SceneError
+        The scene, the view layer or the object is not there.
+
+    Notes
+    -----
+    Collections and view layers may hold objects out, or show them in reflections only; light does not
+    know of that. Nor does what was set up for pictures count, as borders, compositing or exposure.
+    """
+    source = find_scene(around.scene)
+    layer = source.view_layers.get(around.layer)
+    if layer is None:
+        raise SceneError(f"Scene {source.name} has no view layer {around.layer}: it was removed meanwhile.")
+    hidden = parts_of(find_object(source, around.subject)) if around.subject else set()
+    # In their order, each once
+    shown = [item for item in dict.fromkeys(_rendered(layer.layer_collection)) if item not in hidden]
+    with temporary_copy(source) as scene:
+        _replace_contents(scene, layer)
+        for item in shown:
+            scene.collection.objects.link(_twin(item, around.unseen) if _is_lamp(item) else item)
+        _take_light_as_it_is(scene)
+        scene.frame_set(around.frame)
+        yield scene
+
+
+def find_scene(name: str) -> bpy.types.Scene:
+    """The scene of that name in the open file.
+
+    Raises
+    ------
+    SceneError
+        There is none.
+    """
+    if name not in bpy.data.scenes:
+        names = ", ".join(scene.name for scene in bpy.data.scenes)
+        raise SceneError(f"This file holds no scene {name}: choose one of {names}.")
+    return bpy.data.scenes[name]
+
+
+def render_surroundings(
+    scene: bpy.types.Scene, point: ArrayLike, face: int | None, size: int, sampling: Sampling
+) -> dict[str, Array]:
+    """Render what light arrives at a point.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        As `surroundings_scene` yields it.
+    point : array_like, shape (3,)
+    face : int or None
+        Of a cube: see `add_face_camera`; None for all around, as `add_panoramic_camera` has it.
+    size : int
+        Width of the picture in pixels; a panorama is half as high.
+    sampling : Sampling
+
+    Returns
+    -------
+    dict of str to ndarray, shape (height, width, 3), float32
+        "radiance", in Rec. 709; with guides also "albedo" and "normal".
+
+    Raises
+    ------
+    RenderError
+        Cycles did not deliver.
+
+    Notes
+    -----
+    With one bounce more than the scene asks for, as the shell about the camera takes one: lamps show
+    through it, and what is seen is what lights a surface, not what the camera is shown.
+    """
+    bounces = scene.cycles.max_bounces, scene.cycles.transmission_bounces
+    configure_cycles(scene, size, size // 2 if face is None else size, sampling.total)
+    cycles = scene.cycles
+    cycles.max_bounces, cycles.transmission_bounces = (count + 1 for count in bounces)
+    cycles.seed, cycles.use_sample_subset = sampling.seed, True
+    cycles.sample_offset, cycles.sample_subset_length = sampling.start, sampling.count
+    scene.view_layers[0].cycles.denoising_store_passes = sampling.guides
+    if face is None:
+        add_panoramic_camera(scene, point)
+    else:
+        add_face_camera(scene, face, point)
+    add_clear_shell(scene, point, closeness(point))
+    passes = render_passes(scene)
+    seen = {"radiance": rec709_from_working(passes["Combined"][..., :3])}
+    if sampling.guides:
+        seen |= {"albedo": passes["Denoising Albedo"], "normal": passes["Denoising Normal"]}
+    return seen
+
+
+def _rendered(layer: bpy.types.LayerCollection) -> Iterator[bpy.types.Object]:
+    """Objects in collections that are rendered; their own settings are left to Blender."""
+    if layer.collection.hide_render:
+        return
+    if not layer.exclude:
+        yield from layer.collection.objects
+    for child in layer.children:
+        yield from _rendered(child)
+
+
+def _replace_contents(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> None:
+    """Empty a copied scene, and give it a plain view layer in place of all."""
+    for collection in list(scene.collection.children):
+        scene.collection.children.unlink(collection)
+    for item in list(scene.collection.objects):
+        scene.collection.objects.unlink(item)
+    plain = scene.view_layers.new("RSIBR")
+    plain.material_override, plain.world_override = layer.material_override, layer.world_override
+    for other in list(scene.view_layers):
+        if other != plain:
+            scene.view_layers.remove(other)
+
+
+def _is_lamp(item: bpy.types.Object) -> bool:
+    """Whether an object gives light; a portal only helps Cycles to find the world's."""
+    return item.type == "LIGHT" and not (item.data.type == "AREA" and item.data.cycles.is_portal)
+
+
+def _twin(lamp: bpy.types.Object, unseen: frozenset[str]) -> bpy.types.Object:
+    """A lamp that shows itself to whatever asks what lights a surface, or to nothing."""
+    twin = lamp.copy()
+    twin.data = lamp.data.copy()
+    twin[TWIN_OF] = lamp.name_full
+    twin.data.cycles.use_multiple_importance_sampling = True
+    twin.visible_transmission = lamp.visible_diffuse and lamp.name_full not in unseen
+    return twin
+
+
+def _take_light_as_it_is(scene: bpy.types.Scene) -> None:
+    render, cycles = scene.render, scene.cycles
+    render.use_compositing = render.use_sequencer = render.use_multiview = render.use_freestyle = False
+    render.use_border = render.use_motion_blur = render.film_transparent = render.use_stamp = False
+    render.use_persistent_data = False
+    render.pixel_aspect_x = render.pixel_aspect_y = 1.0
+    cycles.film_exposure = 1.0
+    cycles.use_animated_seed = cycles.use_sample_subset = False
+    cycles.time_limit = 0.0
+    # What a surface sees directly is indirect light to a camera behind the shell.
+    cycles.sample_clamp_indirect = 0.0
+    cycles.use_light_tree = True

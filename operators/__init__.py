@@ -1,7 +1,8 @@
 """Operators, one per file; thin: properties to settings, then a task."""
 
 from .bake_mips import RSIBR_OT_bake_mips
+from .bake_tables import RSIBR_OT_bake_tables
 from .capture_views import RSIBR_OT_capture_views
 
-CLASSES: tuple[type, ...] = (RSIBR_OT_capture_views, RSIBR_OT_bake_mips)
+CLASSES: tuple[type, ...] = (RSIBR_OT_capture_views, RSIBR_OT_bake_mips, RSIBR_OT_bake_tables)
 """Every operator's class, in the order of registration."""

@@ -64,7 +64,11 @@ PRESETS: dict[str, dict[str, str]] = {
         "refraction": "clear:eta=1.5",
         "weights": "fresnel:eta=1.5",
     },
-    "cats-eye": {"diffuse": "lambert:kd=0.2", "retro": "phong:n=200,ks=0.6"},
+    "cats-eye": {
+        "diffuse": "lambert:kd=1",
+        "retro": "phong:n=200,ks=1",
+        "weights": "albedo:brdf=(sum:parts=(lambert:kd=0.2)+(retroreflective:n=200,ks=0.6))",
+    },
     "glowing": {"emission": "1/0.5/0.1", "coat": "fresnel:eta=1.5"},
 }
 """Name -> the parts of a material: those that [Miller1984] speaks of."""

@@ -44,6 +44,7 @@ extension: $(READY)
 bench: $(READY)
 	$(PYTHON) .ci/bench.py
 	$(PYTHON) .ci/bench_prefilter.py
+	$(PYTHON) .ci/bench_antialiased.py
 
 clean:
 	rm -rf $(VENV) build demo dist wheels rsibr.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache

@@ -1,11 +1,20 @@
 """A wrinkled mirror ball under a small lamp: what [Miller1984] section 8 is about, in closed form."""
 
 import numpy as np
+from rsibr.rsibr_addon.core.antialiased.footprint import footprint_box, pixel_footprints
+from rsibr.rsibr_addon.core.antialiased.quadrilateral import quadrilateral_mean
+from rsibr.rsibr_addon.core.antialiased.recursive import recursive_mean, table_entry
+from rsibr.rsibr_addon.core.antialiased.summed_area import box_mean, summed_area_table
 from rsibr.rsibr_addon.core.directions import normalize, reflect
 
 EYE = np.array([0.0, -1.0, 0.0])
 HALF_FRAME = 0.85
-"""Of the picture's width, in radii of the ball: the outline stays outside."""
+"""Half the picture's diagonal in radii of the ball: its outline stays outside."""
+
+SAMPLES = 16
+"""Lookups of the reference along a side of a pixel."""
+
+WAYS = ("recursive", "quadrilateral", "summed_area")
 
 
 def reflected_directions(across: np.ndarray, wrinkles: float, turn: float) -> np.ndarray:
@@ -40,3 +49,54 @@ def lamp_table(height: int, row: int, column: int, size: int, radiance: float) -
     table = np.zeros((height, 2 * height, 1))
     table[row : row + size, np.arange(column, column + size) % (2 * height)] = radiance
     return table
+
+
+def pictures(table: np.ndarray, size: int, wrinkles: float, turn: float) -> dict[str, np.ndarray]:
+    """A picture by each way, by a single lookup a pixel ("point"), and by 16 x 16 of them ("reference").
+
+    Parameters
+    ----------
+    table : ndarray, shape (height, width, channels)
+    size : int
+        Pixels along a side.
+    wrinkles, turn : float
+        As in `reflected_directions`.
+
+    Returns
+    -------
+    dict of str to ndarray, shape (size, size, channels)
+    """
+    height, width, channels = table.shape
+
+    def lookup(lookups: int) -> np.ndarray:
+        across = (np.arange(size * lookups) + 0.5) / (size * lookups)
+        columns, rows = table_entry(table, reflected_directions(across, wrinkles, turn))
+        return table[rows, columns].reshape(size, lookups, size, lookups, channels).mean(axis=(1, 3))
+
+    corners = pixel_footprints(reflected_directions(np.arange(size + 1) / size, wrinkles, turn))
+    return {
+        "reference": lookup(SAMPLES),
+        "point": lookup(1),
+        "recursive": recursive_mean(table, corners),
+        "quadrilateral": quadrilateral_mean(table, corners),
+        "summed_area": box_mean(summed_area_table(table), footprint_box(corners, width, height)),
+    }
+
+
+def energy(frames: list[dict[str, np.ndarray]], way: str) -> np.ndarray:
+    """The highlights' energy over the reference's, frame by frame."""
+    return np.array([frame[way].sum() / frame["reference"].sum() for frame in frames])
+
+
+def flicker(frames: list[dict[str, np.ndarray]], way: str) -> float:
+    """Relative variation of that energy from frame to frame."""
+    found = energy(frames, way)
+    return float(np.std(found) / np.mean(found))
+
+
+def missing(frames: list[dict[str, np.ndarray]], way: str) -> float:
+    """Part of the highlights' pixels, a tenth as bright as the brightest or more, that a way leaves black."""
+    lit = [frame["reference"] > 0.1 * frame["reference"].max() for frame in frames]
+    return float(
+        np.mean(np.concatenate([frame[way][on] == 0.0 for frame, on in zip(frames, lit, strict=True)]))
+    )

@@ -88,7 +88,7 @@ def reflect_tables(
 
     Notes
     -----
-    Tables are interpolated (section 7.1) between texel centres across their seam and poles, weights
+    Tables are interpolated (section 7.1) between texel centres, across seam and poles too, weights
     between their columns. GLSL twin: gpu_shaders/reflection_tables_frag.glsl.
     """
     normal, view_dir = np.broadcast_arrays(np.asarray(normal, np.float64), np.asarray(view_dir, np.float64))

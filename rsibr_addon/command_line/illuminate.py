@@ -1,6 +1,6 @@
 """Make an illumination map: the light of an environment, as a latitude-longitude map."""
 
-from . import illuminate_faces
+from . import illuminate_faces, illuminate_scene, illuminate_world
 
-KINDS = {"faces": illuminate_faces}
+KINDS = {"scene": illuminate_scene, "world": illuminate_world, "faces": illuminate_faces}
 """What it is made from -> the module with its arguments and its run."""

@@ -103,8 +103,8 @@ def _with_joined_directions(argv: Sequence[str]) -> list[str]:
     """Make `--view -1,0,0` one argument: argparse would take -1,0,0 for an option."""
     joined: list[str] = []
     for argument in argv:
-        if joined and joined[-1] == "--view":
-            joined[-1] = f"--view={argument}"
+        if joined and joined[-1] in ("--view", "--point"):
+            joined[-1] = f"{joined[-1]}={argument}"
         else:
             joined.append(argument)
     return joined

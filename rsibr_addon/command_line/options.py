@@ -20,15 +20,28 @@ def whole(text: str) -> int:
     return int(text)
 
 
-def direction(text: str) -> tuple[float, float, float]:
-    """Three numbers, X,Y,Z, not all 0."""
+def position(text: str) -> tuple[float, float, float]:
+    """Three finite numbers, X,Y,Z."""
     try:
         x, y, z = (float(number) for number in text.split(","))
     except ValueError:
         raise argparse.ArgumentTypeError(f"'{text}' is not X,Y,Z, three numbers") from None
-    if not 0.0 < math.hypot(x, y, z) < math.inf:
+    if not math.isfinite(math.hypot(x, y, z)):
         raise argparse.ArgumentTypeError(f"'{text}' points nowhere")
     return x, y, z
+
+
+def whole_numbers(text: str) -> tuple[int, ...]:
+    """Whole numbers from 0, between commas."""
+    return tuple(whole(number) for number in text.split(","))
+
+
+def direction(text: str) -> tuple[float, float, float]:
+    """Three numbers, X,Y,Z, not all 0."""
+    vector = position(text)
+    if not any(vector):
+        raise argparse.ArgumentTypeError(f"'{text}' points nowhere")
+    return vector
 
 
 def colour(text: str) -> tuple[float, float, float]:

@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 
 from ..core.errors import InputFileError, SceneError
+from .blend_files import check_there, unreadable
 from .presets import PRESETS, build_preset
 
 NAMES_SHOWN = 8
@@ -104,17 +105,13 @@ def _is_open(path: Path) -> bool:
 
 
 def _appended(path: Path, name: str) -> bpy.types.Material:
-    if not path.is_file():
-        raise InputFileError(f"There is no file {path}: check the path before the colon.")
+    check_there(path)
     try:
         with bpy.data.libraries.load(str(path)) as (found, wanted):
             _named(str(path), name, found.materials)
             wanted.materials = [name]
     except OSError as error:
-        version = ".".join(map(str, bpy.app.version[:2]))
-        raise InputFileError(
-            f"{path} is no file that Blender {version} can read: save it with Blender {version}."
-        ) from error
+        raise unreadable(path) from error
     return wanted.materials[0]
 
 

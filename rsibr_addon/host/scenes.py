@@ -1,9 +1,36 @@
-"""A scene of our own, for as long as it is needed."""
+"""Scenes: the artist's, and ones of our own for as long as they are needed."""
 
 import contextlib
 from collections.abc import Iterator
 
 import bpy
+
+from ..core.errors import SceneError
+
+
+def find_scene(name: str | None) -> bpy.types.Scene:
+    """A scene of the open file.
+
+    Parameters
+    ----------
+    name : str or None
+        None for the one that the artist works in.
+
+    Returns
+    -------
+    bpy.types.Scene
+
+    Raises
+    ------
+    SceneError
+        There is none of that name.
+    """
+    if name is None:
+        return bpy.context.scene
+    if name not in bpy.data.scenes:
+        names = ", ".join(scene.name for scene in bpy.data.scenes)
+        raise SceneError(f"This file holds no scene {name}: choose one of {names}.")
+    return bpy.data.scenes[name]
 
 
 @contextlib.contextmanager

@@ -12,7 +12,7 @@ from ..core.errors import SceneError
 from .cameras import add_face_camera, add_panoramic_camera, closeness
 from .clear_shell import add_clear_shell
 from .rendering import configure_cycles, render_passes
-from .scenes import temporary_copy
+from .scenes import find_scene, temporary_copy
 from .subjects import centre_of, find_object, parts_of
 from .working_space import rec709_from_working
 
@@ -95,7 +95,7 @@ def surroundings_of(
     SceneError
         There is no such scene or object; or there is nothing around.
     """
-    source = bpy.context.scene if scene is None else find_scene(scene)
+    source = find_scene(scene)
     layer = bpy.context.view_layer if source == bpy.context.scene else source.view_layers[0]
     frame = source.frame_current if frame is None else frame
     hidden = parts_of(find_object(source, subject)) if subject else set()
@@ -152,20 +152,6 @@ def surroundings_scene(around: Surroundings) -> Iterator[bpy.types.Scene]:
         _take_light_as_it_is(scene)
         scene.frame_set(around.frame)
         yield scene
-
-
-def find_scene(name: str) -> bpy.types.Scene:
-    """The scene of that name in the open file.
-
-    Raises
-    ------
-    SceneError
-        There is none.
-    """
-    if name not in bpy.data.scenes:
-        names = ", ".join(scene.name for scene in bpy.data.scenes)
-        raise SceneError(f"This file holds no scene {name}: choose one of {names}.")
-    return bpy.data.scenes[name]
 
 
 def render_surroundings(

@@ -28,18 +28,17 @@ def studio_environments() -> dict[str, Path]:
     return {path.stem: path for path in sorted(folder.glob("*.exr"))}
 
 
-def current_world() -> bpy.types.World:
-    """The world of the scene that the artist works in.
+def world_of(scene: bpy.types.Scene) -> bpy.types.World:
+    """The world of a scene.
 
     Raises
     ------
     SceneError
         It has none.
     """
-    world = bpy.context.scene.world
-    if world is None:
-        raise SceneError(f"Scene {bpy.context.scene.name} has no world: add one in its World properties.")
-    return world
+    if scene.world is None:
+        raise SceneError(f"Scene {scene.name} has no world: add one in its World properties.")
+    return scene.world
 
 
 def light_with(scene: bpy.types.Scene, environment: Environment) -> None:

@@ -5,7 +5,8 @@ from pathlib import Path
 from ..core.environment import Environment
 from ..core.errors import InputFileError
 from ..files.environments import read_environment
-from ..host.worlds import current_world, sample_world, studio_environments
+from ..host.scenes import find_scene
+from ..host.worlds import sample_world, studio_environments, world_of
 
 WORLD_HEIGHT = 512
 """Of the environment that a world is sampled into, in texels."""
@@ -37,7 +38,7 @@ def load_environment(spec: str | None) -> Environment:
         Negative values were set to 0; says how many.
     """
     if spec is None:
-        return sample_world(current_world(), WORLD_HEIGHT)
+        return sample_world(world_of(find_scene(None)), WORLD_HEIGHT)
     own = studio_environments()
     if Path(spec).exists():
         return read_environment(spec)

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import RsibrWarning, SceneError
-from rsibr.rsibr_addon.host.worlds import current_world, light_with, sample_world, studio_environments
+from rsibr.rsibr_addon.host.worlds import light_with, sample_world, studio_environments, world_of
 from rsibr.tests.open_file import open_file_state
 
 HEIGHT = 16
@@ -124,10 +124,11 @@ def test_sampling_leaves_the_file_alone(environment: Environment) -> None:
 
 
 def test_a_scene_without_a_world_is_refused() -> None:
-    assert current_world() == bpy.data.worlds["World"]
-    bpy.context.scene.world = None
+    scene = bpy.context.scene
+    assert world_of(scene) == bpy.data.worlds["World"]
+    scene.world = None
     with pytest.raises(SceneError, match="Scene Scene has no world: add one"):
-        current_world()
+        world_of(scene)
 
 
 def test_blenders_own_environments_are_known_by_name() -> None:

@@ -1,0 +1,39 @@
+"""Make it from the world of a scene alone, whatever its nodes."""
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from .illuminate_options import add_environment_output
+from .report import Report
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what `run` reads."""
+    parser.add_argument("source", metavar="FILE.blend", type=Path, help="the file that holds the scene")
+    parser.add_argument("--scene", metavar="NAME", help="which scene (default: the one it was saved with)")
+    add_environment_output(parser)
+
+
+def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
+    """Make the map.
+
+    Returns
+    -------
+    dict
+        "environment", the path of the map.
+
+    Raises
+    ------
+    RsibrError
+        See `tasks.illuminate_world`.
+    """
+    from ..host.blend_files import open_blend
+    from ..tasks.illuminate_world import illuminate_from_world
+
+    open_blend(arguments.source)
+    path = report.steps(
+        illuminate_from_world(arguments.scene, arguments.size, arguments.output, arguments.force)
+    )
+    report.say(f"{path}")
+    return {"environment": str(path)}

@@ -1,0 +1,45 @@
+"""Blender's own files."""
+
+from pathlib import Path
+
+import bpy
+
+from ..core.errors import InputFileError
+
+
+def open_blend(path: Path) -> None:
+    """Open a file in place of the one that is open.
+
+    Parameters
+    ----------
+    path : Path
+
+    Raises
+    ------
+    InputFileError
+        It is missing, or Blender cannot read it.
+    """
+    check_there(path)
+    try:
+        bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False)
+    except RuntimeError as error:
+        raise unreadable(path) from error
+
+
+def check_there(path: Path) -> None:
+    """Refuse a file that is not there.
+
+    Raises
+    ------
+    InputFileError
+    """
+    if not path.is_file():
+        raise InputFileError(f"There is no file {path}: check the path.")
+
+
+def unreadable(path: Path) -> InputFileError:
+    """What to raise when Blender cannot read a file."""
+    version = ".".join(map(str, bpy.app.version[:2]))
+    return InputFileError(
+        f"{path} is no file that Blender {version} can read: save it with Blender {version}."
+    )

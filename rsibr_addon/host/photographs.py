@@ -29,9 +29,30 @@ def read_photograph(path: Path) -> Array:
     InputFileError
         The file is missing, or no picture.
     """
+    return linear_from_srgb(read_encoded(path)).astype(np.float32)
+
+
+def read_encoded(path: Path) -> Array:
+    """Read a picture of 8 or 16 bits with the curve that it is stored with.
+
+    Parameters
+    ----------
+    path : Path
+        Of any kind that Blender reads. Alpha is left out.
+
+    Returns
+    -------
+    ndarray, shape (height, width, 3), float32
+        In [0, 1], row 0 at the bottom.
+
+    Raises
+    ------
+    InputFileError
+        The file is missing, or no picture.
+    """
     with temporary_scene():
         encoded = stored_numbers(path)[..., :3]
-    return linear_from_srgb(np.broadcast_to(encoded, (*encoded.shape[:2], 3))).astype(np.float32)
+    return np.broadcast_to(encoded, (*encoded.shape[:2], 3))
 
 
 def stored_numbers(path: Path) -> Array:

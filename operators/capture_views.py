@@ -5,13 +5,13 @@ from pathlib import Path
 import bpy
 
 from ..rsibr_addon.core.errors import SceneError
-from ..rsibr_addon.core.progress import Steps, drain
+from ..rsibr_addon.core.progress import Steps
 from ..rsibr_addon.job import CaptureJob
 from ..rsibr_addon.tasks.capture import capture
-from .reporting import reporting
+from .stepwise import Stepwise
 
 
-class RSIBR_OT_capture_views(bpy.types.Operator):
+class RSIBR_OT_capture_views(Stepwise, bpy.types.Operator):
     """Render a material in the scene's world from all around, into a map set"""  # noqa: D400  (a tooltip)
 
     bl_idname = "rsibr.capture_views"
@@ -39,57 +39,15 @@ class RSIBR_OT_capture_views(bpy.types.Operator):
     seed: bpy.props.IntProperty(name="Seed", description="Seed of Cycles' noise", min=0)
     force: bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Capture at a stretch."""
-        with reporting(self):
-            path = drain(capture(self._job(context)))
-            self.report({"INFO"}, f"Captured {path}")
-            return {"FINISHED"}
-        return {"CANCELLED"}
+    interrupted = "Capture interrupted; started again, it goes on"
 
-    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Ask for a file, or capture one view per tick of a timer when it is given."""
-        if not self.filepath:
-            context.window_manager.fileselect_add(self)
-            return {"RUNNING_MODAL"}
-        with reporting(self):
-            self._steps: Steps[Path] = capture(self._job(context))
-            self._timer = context.window_manager.event_timer_add(0.01, window=context.window)
-            context.window_manager.modal_handler_add(self)
-            return {"RUNNING_MODAL"}
-        return {"CANCELLED"}
+    def work(self, context: bpy.types.Context) -> Steps[Path]:
+        """Capture, one view per step."""
+        return capture(self._job(context))
 
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Take a step; Escape ends the capture, which keeps its finished views."""
-        if event.type == "ESC":
-            self.report({"WARNING"}, "Capture interrupted; started again, it goes on")
-            self.cancel(context)
-            return {"CANCELLED"}
-        if event.type != "TIMER":
-            return {"PASS_THROUGH"}
-        result = {"CANCELLED"}
-        try:
-            with reporting(self):
-                result = self._step(context)
-        finally:
-            if result != {"RUNNING_MODAL"}:
-                self.cancel(context)
-        return result
-
-    def cancel(self, context: bpy.types.Context) -> None:
-        """Stop; Blender calls this too, when it closes the window or the file."""
-        self._steps.close()
-        context.window_manager.event_timer_remove(self._timer)
-        context.workspace.status_text_set(None)
-
-    def _step(self, context: bpy.types.Context) -> set[str]:
-        try:
-            progress = next(self._steps)
-        except StopIteration as end:
-            self.report({"INFO"}, f"Captured {end.value}")
-            return {"FINISHED"}
-        context.workspace.status_text_set(f"{progress.what} (Esc: interrupt)")
-        return {"RUNNING_MODAL"}
+    def finish(self, result: Path) -> None:
+        """Say where it is."""
+        self.report({"INFO"}, f"Captured {result}")
 
     def _job(self, context: bpy.types.Context) -> CaptureJob:
         item = context.active_object

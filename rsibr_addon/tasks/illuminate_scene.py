@@ -72,7 +72,7 @@ class SceneLight:
     """
 
     size: int = 1024
-    samples: int = 256
+    samples: int = 128
     scene: str | None = None
     subject: str | None = None
     point: tuple[float, float, float] | None = None

@@ -1,0 +1,82 @@
+"""How operators do long work: at a stretch, or step by step while Blender goes on."""
+
+from typing import Any
+
+import bpy
+
+from ..rsibr_addon.core.progress import Steps, drain
+from .reporting import reporting
+
+
+class Stepwise:
+    """To be derived from together with `bpy.types.Operator`, which then has a property `filepath`.
+
+    Called from a script it works at a stretch; from the interface it asks for the file and takes one step per
+    tick of a timer, until Escape.
+
+    Attributes
+    ----------
+    interrupted : str
+        What to say after Escape.
+    """
+
+    interrupted: str
+
+    def work(self, context: bpy.types.Context) -> Steps[Any]:
+        """The work, from the operator's properties; may raise our errors at once."""
+        raise NotImplementedError
+
+    def finish(self, result: Any) -> None:
+        """Take the result, and say that it is there."""
+        raise NotImplementedError
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Work at a stretch."""
+        with reporting(self):
+            self.finish(drain(self.work(context)))
+            return {"FINISHED"}
+        return {"CANCELLED"}
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Ask for a file, or take one step per tick of a timer when it is given."""
+        if not self.filepath:
+            context.window_manager.fileselect_add(self)
+            return {"RUNNING_MODAL"}
+        with reporting(self):
+            self._steps = self.work(context)
+            self._timer = context.window_manager.event_timer_add(0.01, window=context.window)
+            context.window_manager.modal_handler_add(self)
+            return {"RUNNING_MODAL"}
+        return {"CANCELLED"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Take a step; Escape ends the work."""
+        if event.type == "ESC":
+            self.report({"WARNING"}, self.interrupted)
+            self.cancel(context)
+            return {"CANCELLED"}
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"}
+        result = {"CANCELLED"}
+        try:
+            with reporting(self):
+                result = self._step(context)
+        finally:
+            if result != {"RUNNING_MODAL"}:
+                self.cancel(context)
+        return result
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Stop; Blender calls this too, when it closes the window or the file."""
+        self._steps.close()
+        context.window_manager.event_timer_remove(self._timer)
+        context.workspace.status_text_set(None)
+
+    def _step(self, context: bpy.types.Context) -> set[str]:
+        try:
+            progress = next(self._steps)
+        except StopIteration as end:
+            self.finish(end.value)
+            return {"FINISHED"}
+        context.workspace.status_text_set(f"{progress.what} (Esc: interrupt)")
+        return {"RUNNING_MODAL"}

@@ -45,6 +45,7 @@ bench: $(READY)
 	$(PYTHON) .ci/bench.py
 	$(PYTHON) .ci/bench_prefilter.py
 	$(PYTHON) .ci/bench_antialiased.py
+	$(PYTHON) .ci/bench_mips.py
 
 clean:
 	rm -rf $(VENV) build demo dist wheels rsibr.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache

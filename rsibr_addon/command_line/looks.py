@@ -3,11 +3,12 @@
 import argparse
 from typing import Any
 
-from .options import colour
+from .options import colour, whole_numbers
 
 KIND_OF: dict[str, tuple[str, ...]] = {
     "mode": ("radiance_views",),
     "warping": ("radiance_views",),
+    "lobes": ("lobe_stack",),
     "shown": ("reflection_tables",),
     "f_lambda": ("mip_chain",),
     "k_d": ("mip_chain",),
@@ -33,6 +34,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         choices=["single", "split", "albedo"],
         help="mirror warp for the whole radiance; normal warp for diffuse and mirror warp for glossy; "
         "or these with the material's directional albedo taken out and put back (default: albedo)",
+    )
+    stacks = parser.add_argument_group("lobe stacks", argument_default=argparse.SUPPRESS)
+    stacks.add_argument(
+        "--lobes",
+        metavar="NUMBERS",
+        type=whole_numbers,
+        help="those that count, from 0, as 0,2 (default: all)",
     )
     tables = parser.add_argument_group("reflection tables", argument_default=argparse.SUPPRESS)
     tables.add_argument(

@@ -60,6 +60,25 @@ def table_texture(table: Array) -> gpu.types.GPUTexture:
     return gpu.types.GPUTexture((width, height, depth), format="RGBA16F", data=_buffer(texels))
 
 
+def texture_3d(images: Array, texel_format: str) -> gpu.types.GPUTexture:
+    """Upload maps of one size as slices of one texture, to be looked up linearly between them as well.
+
+    Parameters
+    ----------
+    images : ndarray, shape (slices, height, width, 4)
+    texel_format : str
+        "RGBA16F" or "RGBA32F".
+
+    Returns
+    -------
+    GPUTexture
+    """
+    slices, height, width = images.shape[:3]
+    uploaded = gpu.types.GPUTexture((width, height, slices), format=texel_format, data=_buffer(images))
+    _look_up_within_edges(uploaded)
+    return uploaded
+
+
 def render_target(size: int) -> gpu.types.GPUTexture:
     """An empty square map to be drawn to and looked up, RGBA32F."""
     target = gpu.types.GPUTexture((size, size), format="RGBA32F")

@@ -82,7 +82,7 @@ PART_FIELDS: dict[str, Rule] = {"name": TEXT, "role": TEXT, "size": SIZE, "sha25
 
 MATERIAL_FIELDS: dict[str, dict[str, Rule]] = {
     "radiance_views": {"spec": TEXT, "name": TEXT, "fingerprint": TEXT},
-    "lobe_stack": {},
+    "lobe_stack": {"brdf": TEXT, "method": TEXT},
     "reflection_tables": {},
     "mip_chain": {},
 }
@@ -93,13 +93,17 @@ ROLE_FIELDS: dict[tuple[str, str], dict[str, Rule]] = {
     ("radiance_views", "diffuse"): _VIEW,
     ("radiance_views", "glossy"): _VIEW,
     ("radiance_views", "albedo"): {},
-    ("lobe_stack", "prefiltered"): {"lobe": INDEX, "mu": NUMBER, "axis_offset": NUMBER, "albedo": COLOUR},
+    ("lobe_stack", "prefiltered"): {"lobe": INDEX, "elevations": OBJECTS},
     ("reflection_tables", "weights"): {"rows": TEXTS},
     ("reflection_tables", "refraction"): {"eta": NUMBER},
     ("mip_chain", "prefiltered"): {"mip": INDEX, "roughness": NUMBER_OR_NULL},
     ("mip_chain", "harmonics"): {},
 }
 """Kind and role -> what a part says beyond `PART_FIELDS`; parts of other roles say no more."""
+
+ELEVATION_FIELDS: dict[str, Rule] = {"mu": NUMBER, "taps": OBJECTS, "scale": COLOUR, "albedo": COLOUR}
+TAP_FIELDS: dict[str, Rule] = {"tilt": NUMBER, "turn": NUMBER, "weight": NUMBER}
+"""Of a lobe stack's maps, and of their lookups at each elevation."""
 
 
 def make_header(
@@ -193,6 +197,8 @@ def _problems(header: dict[str, Any], kind: str) -> Iterator[str]:
     yield from _environment_problems(header["environment"], parts)
     if kind == "radiance_views":
         yield from _view_problems(header)
+    elif kind == "lobe_stack":
+        yield from _elevation_problems(header)
 
 
 def _broken_rules(fields: dict[str, Any], rules: dict[str, Rule], where: str) -> Iterator[str]:
@@ -228,3 +234,15 @@ def _view_problems(header: dict[str, Any]) -> Iterator[str]:
         yield "its views are not each there with a diffuse and a glossy part"
     elif diffuse != glossy:
         yield "a view's diffuse and glossy parts state different directions"
+
+
+def _elevation_problems(header: dict[str, Any]) -> Iterator[str]:
+    """Every elevation that a map is for says how the map is looked up there."""
+    for i, part in enumerate(header["parts"]):
+        if part["role"] != "prefiltered":
+            continue
+        for j, elevation in enumerate(part["elevations"]):
+            where = f"parts[{i}].elevations[{j}]."
+            yield from _broken_rules(elevation, ELEVATION_FIELDS, where)
+            for k, tap in enumerate(elevation["taps"]):
+                yield from _broken_rules(tap, TAP_FIELDS, f"{where}taps[{k}].")

@@ -6,15 +6,17 @@ from pathlib import Path
 from typing import Any
 
 from ..core.environment import Environment
+from ..core.shading.lobe_stack import StackLook
 from ..core.shading.mip_chain import MipLook
 from ..core.shading.radiance_views import ViewsLook
 from ..core.shading.reflection_tables import TablesLook
 from ..device.context import ensure_context
 from ..device.drawing import OnDevice
+from ..device.lobe_stack import LobeStackOnDevice
 from ..device.mip_chain import MipChainOnDevice
 from ..device.radiance_views import RadianceViewsOnDevice
 from ..device.reflection_tables import ReflectionTablesOnDevice
-from ..files.kinds import mip_chain, radiance_views, reflection_tables
+from ..files.kinds import lobe_stack, mip_chain, radiance_views, reflection_tables
 from ..files.map_set import MapSet, read_map_set
 
 
@@ -39,6 +41,7 @@ class Kind:
 
 KINDS = {
     "radiance_views": Kind(radiance_views.from_map_set, RadianceViewsOnDevice, ViewsLook),
+    "lobe_stack": Kind(lobe_stack.from_map_set, LobeStackOnDevice, StackLook),
     "reflection_tables": Kind(reflection_tables.from_map_set, ReflectionTablesOnDevice, TablesLook),
     "mip_chain": Kind(mip_chain.from_map_set, MipChainOnDevice, MipLook),
 }

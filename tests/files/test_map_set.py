@@ -19,6 +19,13 @@ from rsibr.rsibr_addon.files.pictures import write_exr
 
 type MakeViews = Callable[..., MapSet]
 
+ELEVATION = {
+    "mu": 0.5,
+    "taps": [{"tilt": -0.1, "turn": 0.0, "weight": 1.0}],
+    "scale": [1.0, 1.0, 1.0],
+    "albedo": [0.9, 0.5, 0.2],
+}
+
 
 def test_float_maps_come_back_bit_by_bit(tmp_path: Path, make_views: MakeViews) -> None:
     path = tmp_path / "a.rsibr.exr"
@@ -84,7 +91,7 @@ def test_a_set_of_one_map_comes_back(tmp_path: Path, make_views: MakeViews) -> N
 @pytest.mark.parametrize(
     ("kind", "fields"),
     [
-        ("lobe_stack", {"lobe": 0, "mu": 0.5, "axis_offset": -0.1, "albedo": [0.9, 0.5, 0.2]}),
+        ("lobe_stack", {"lobe": 0, "elevations": [ELEVATION]}),
         ("mip_chain", {"mip": 0, "roughness": 0.0}),
     ],
 )
@@ -92,7 +99,7 @@ def test_the_kinds_state_what_their_maps_are(
     tmp_path: Path, make_views: MakeViews, kind: str, fields: dict[str, Any]
 ) -> None:
     part = {"name": "first", "role": "prefiltered", **fields}
-    header = make_views().header | {"parts": [part], "material": {"brdf": "ggx"}}
+    header = make_views().header | {"parts": [part], "material": {"brdf": "ggx", "method": "joint"}}
     header["environment"] = header["environment"] | {"part": None}
     prefiltered = MapSet(kind, {"first": np.ones((4, 4, 3), np.float32)}, header)
     write_map_set(tmp_path / "a", prefiltered)

@@ -1,0 +1,97 @@
+// Twin of rsibr_addon/core/shading/lobe_stack.py: [Kautz2000] section 5.3.
+// The texture `elevations` (see device/lobe_stack.py) has a column for each sampled elevation. Row 0 holds
+// their cosines; then come, for each lobe, a row of scales and one of each tap's tilt, turn and weight.
+// The 3D texture `maps` holds, for each lobe, and for each sheet of its maps, a slice for each elevation, or
+// one for all. Around every sheet lies a border of one texel: what continues it on the sphere.
+#include "lib/directions_lib.glsl"
+#include "lib/dual_paraboloid_lib.glsl"
+#include "lib/octahedral_lib.glsl"
+
+#define LAYOUT_DUAL_PARABOLOID 0
+#define LAYOUT_OCTAHEDRAL 1
+
+// Where a view lies among the elevations: number of the one below, and share of the next.
+vec2 elevation_at(sampler2D elevations, float mu)
+{
+  int last = textureSize(elevations, 0).x - 1;
+  int below = 0;
+  while (below < last - 1 && mu >= texelFetch(elevations, ivec2(below + 1, 0), 0).r) {
+    below++;
+  }
+  if (last == 0) {
+    return vec2(0.0);
+  }
+  float low = texelFetch(elevations, ivec2(below, 0), 0).r;
+  float high = texelFetch(elevations, ivec2(below + 1, 0), 0).r;
+  return vec2(float(below), clamp((mu - low) / (high - low), 0.0, 1.0));
+}
+
+// A row of the table, linear between two elevations.
+vec3 elevation_value(sampler2D elevations, int row, vec2 elevation)
+{
+  int below = int(elevation.x);
+  int above = min(below + 1, textureSize(elevations, 0).x - 1);
+  return mix(texelFetch(elevations, ivec2(below, row), 0).rgb,
+             texelFetch(elevations, ivec2(above, row), 0).rgb,
+             elevation.y);
+}
+
+// Twin of core/lobes/fit.py `lobe_axes`; offset is (tilt, turn).
+vec3 lobe_axis(vec3 normal, vec3 mirror_dir, vec2 offset)
+{
+  vec3 up = normal - dot(normal, mirror_dir) * mirror_dir;
+  vec3 tangent = offset.x * up + offset.y * cross(normal, mirror_dir);
+  float angle = length(tangent);
+  // sin(angle) / angle by its series, where the quotient would be 0 / 0
+  float slope = (angle > 1e-3) ? sin(angle) / angle : 1.0 - angle * angle / 6.0;
+  return cos(angle) * mirror_dir + slope * tangent;
+}
+
+// u and v on a sheet, and the sheet's number.
+vec3 stack_place(int layout_number, float size, vec3 direction)
+{
+  if (layout_number == LAYOUT_OCTAHEDRAL) {
+    return vec3(octahedral_uv(direction), 0.0);
+  }
+  // The centres of the outermost texels lie on the hemisphere's rim.
+  return dual_paraboloid_place(direction, (size - 1.0) / size);
+}
+
+// A lobe's map along an axis, linear between texels and between elevations.
+vec3 map_radiance(sampler3D maps, int layout_number, int slices, int lobe, vec3 axis, float elevation)
+{
+  vec3 texture_size = vec3(textureSize(maps, 0));
+  float size = texture_size.x - 2.0;
+  vec3 place = stack_place(layout_number, size, axis);
+  float sheets = (layout_number == LAYOUT_OCTAHEDRAL) ? 1.0 : 2.0;
+  float slice = min(elevation, float(slices) - 1.0);
+  float first = (float(lobe) * sheets + place.z) * float(slices);
+  vec3 texel = vec3(place.xy * size + 1.0, first + slice + 0.5);
+  return textureLod(maps, texel / texture_size, 0.0).rgb;
+}
+
+vec3 stack_radiance(sampler3D maps,
+                    sampler2D elevations,
+                    int layout_number,
+                    int lobes,
+                    int taps,
+                    int slices,
+                    vec3 normal,
+                    vec3 view_dir)
+{
+  vec3 mirror_dir = reflect_dir(view_dir, normal);
+  vec2 elevation = elevation_at(elevations, dot(normal, view_dir));
+  vec3 radiance = vec3(0.0);
+  for (int lobe = 0; lobe < lobes; lobe++) {
+    int row = 1 + lobe * (taps + 1);
+    vec3 scale = elevation_value(elevations, row, elevation);
+    for (int tap = 1; tap <= taps; tap++) {
+      vec3 lookup = elevation_value(elevations, row + tap, elevation);
+      vec3 axis = lobe_axis(normal, mirror_dir, lookup.xy);
+      radiance += lookup.z * scale *
+                  map_radiance(maps, layout_number, slices, lobe, axis, elevation.x + elevation.y);
+    }
+  }
+  // Signed lobes may sum to less than nothing.
+  return max(radiance, 0.0);
+}

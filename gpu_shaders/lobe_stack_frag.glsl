@@ -1,0 +1,18 @@
+// Twin of core/shading/lobe_stack.py `stack_radiance`.
+#include "lib/draw_lib.glsl"
+#include "lib/lobe_stack_lib.glsl"
+
+void main()
+{
+  vec3 unit_normal = normalize(world_normal);
+  vec3 view_dir = view_direction(draw.eye, world_position);
+  radiance.rgb = stack_radiance(maps,
+                                elevations,
+                                int(stack.layout_number),
+                                int(stack.lobes),
+                                int(stack.taps),
+                                int(stack.slices),
+                                unit_normal,
+                                view_dir);
+  radiance.a = 1.0;
+}

@@ -1,0 +1,154 @@
+"""Map sets of kind `lobe_stack`."""
+
+from collections import defaultdict
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...core.conventions import Array
+from ...core.environment import Environment
+from ...core.errors import MapSetError, RangeError, ShapeError
+from ...core.lobes.stack import LobeStack, stack_representation
+from ..map_set import MapSet
+from ..map_set_header import ENVIRONMENT, TAP_FIELDS, make_header
+
+KIND = "lobe_stack"
+
+
+def to_map_set(
+    stack: LobeStack,
+    environment: Environment,
+    material: dict[str, Any],
+    error_bound: dict[str, Any] | None,
+    settings: dict[str, Any],
+    software: str,
+) -> MapSet:
+    """A lobe stack as a map set holds it.
+
+    Parameters
+    ----------
+    stack : LobeStack
+    environment : Environment
+        What it was made of; embedded.
+    material, error_bound, settings, software
+        See docs/map-set-format.md.
+
+    Returns
+    -------
+    MapSet
+    """
+    maps = {ENVIRONMENT: environment.radiance}
+    parts: list[dict[str, Any]] = [{"name": ENVIRONMENT, "role": ENVIRONMENT}]
+    for lobe, lobe_maps in enumerate(stack.maps):
+        elevations = [_elevation(stack, lobe, number) for number in range(len(stack.mu))]
+        shared = len(lobe_maps) == 1
+        for number, sheets in enumerate(lobe_maps):
+            name = f"lobe{lobe:02d}.slice{number:03d}"
+            maps[name] = _strip(sheets)
+            served = elevations if shared else [elevations[number]]
+            parts.append({"name": name, "role": "prefiltered", "lobe": lobe, "elevations": served})
+    header = make_header(
+        layout=stack.layout,
+        size=(stack.size, stack.size * stack.maps.shape[2]),
+        environment=environment,
+        embedded=True,
+        material=material,
+        parts=parts,
+        error_bound=error_bound,
+        settings=settings,
+        software=software,
+    )
+    return MapSet(KIND, maps, header)
+
+
+def from_map_set(path: Path, map_set: MapSet) -> LobeStack:
+    """A lobe stack as a map set holds it.
+
+    Parameters
+    ----------
+    path : Path
+        The map set's file, for messages.
+    map_set : MapSet
+        Of this kind.
+
+    Returns
+    -------
+    LobeStack
+
+    Raises
+    ------
+    MapSetError
+        Its layout is none of a lobe stack's, its lobes are not numbered from 0 or have not the same
+        elevations and numbers of maps and taps, or a map is not as large as the header says.
+    """
+    lobes = _parts_by_lobe(path, map_set)
+    tables = [[elevation for part in lobe for elevation in part["elevations"]] for lobe in lobes]
+    used_at = [[(elevation["mu"], len(elevation["taps"])) for elevation in table] for table in tables]
+    counts = {(len(lobe), taps) for lobe, used in zip(lobes, used_at, strict=True) for _, taps in used}
+    if any(used != used_at[0] for used in used_at) or len(counts) > 1:
+        raise MapSetError(f"{path} holds lobes of different elevations, maps or taps: bake it again.")
+    layout, (size, _) = map_set.header["layout"], map_set.header["size"]
+    taps = _array(
+        tables, lambda elevation: [[tap[field] for field in TAP_FIELDS] for tap in elevation["taps"]]
+    )
+    try:
+        sheets = stack_representation(layout, size).shape(size)
+        maps = [[_sheets(map_set.maps[part["name"]], sheets) for part in lobe] for lobe in lobes]
+        return LobeStack(
+            layout=layout,
+            mu=np.array([mu for mu, _ in used_at[0]]),
+            maps=np.array(maps),
+            scale=_array(tables, lambda elevation: elevation["scale"]),
+            offsets=taps[..., :2],
+            taps=taps[..., 2],
+            albedo=_array(tables, lambda elevation: elevation["albedo"]),
+        )
+    except (RangeError, ShapeError) as error:
+        raise MapSetError(f"{path} holds no lobe stack. {error}") from error
+
+
+def _parts_by_lobe(path: Path, map_set: MapSet) -> list[list[dict[str, Any]]]:
+    """The parts of every lobe by their elevations."""
+    width, height = map_set.header["size"]
+    parts: dict[int, list[dict[str, Any]]] = defaultdict(list)
+    for part in map_set.header["parts"]:
+        if part["role"] == "prefiltered":
+            parts[part["lobe"]].append(part)
+            if map_set.maps[part["name"]].shape[:2] != (height, width):
+                raise MapSetError(f"{path} holds maps of another size than it says: bake it again.")
+    if not parts or set(parts) != set(range(len(parts))):
+        raise MapSetError(f"{path} lacks one of its lobes: bake it again.")
+    return [sorted(parts[lobe], key=lambda part: part["elevations"][0]["mu"]) for lobe in range(len(parts))]
+
+
+def _elevation(stack: LobeStack, lobe: int, number: int) -> dict[str, Any]:
+    offsets, weights = stack.offsets[lobe, number], stack.taps[lobe, number]
+    return {
+        "mu": float(stack.mu[number]),
+        "taps": [
+            dict(zip(TAP_FIELDS, (*offset, weight), strict=True))
+            for offset, weight in zip(offsets.tolist(), weights.tolist(), strict=True)
+        ],
+        "scale": stack.scale[lobe, number].tolist(),
+        "albedo": stack.albedo[lobe, number].tolist(),
+    }
+
+
+def _array(tables: list[list[dict[str, Any]]], value: Callable[[dict[str, Any]], Any]) -> Array:
+    """One value of every elevation of every lobe."""
+    return np.array([[value(elevation) for elevation in table] for table in tables], dtype=np.float64)
+
+
+def _strip(sheets: Array) -> Array:
+    """Sheets below each other, the first at the top, each with its row 0 at the bottom."""
+    return sheets[::-1].reshape(-1, *sheets.shape[2:])
+
+
+def _sheets(strip: Array, shape: tuple[int, int, int]) -> Array:
+    """The inverse of `_strip`."""
+    count, height, width = shape
+    if strip.shape[:2] != (count * height, width):
+        raise ShapeError(f"A map of {width}x{strip.shape[0]} has not {count} sheets: bake it again.")
+    return strip.reshape(*shape, -1)[::-1]

@@ -1,0 +1,130 @@
+"""Lobe stacks as files: what is written comes back, and everything else is named."""
+
+import copy
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.core.environment import Environment
+from rsibr.rsibr_addon.core.errors import MapSetError
+from rsibr.rsibr_addon.core.lobes.stack import LAYOUTS, LobeStack
+from rsibr.rsibr_addon.core.maps.representation import FRONT
+from rsibr.rsibr_addon.files.kinds.lobe_stack import from_map_set, to_map_set
+from rsibr.rsibr_addon.files.map_set import MapSet, read_map_set, write_map_set
+from rsibr.tests.lobe_stacks import random_stack
+
+LIGHT = Environment(np.random.default_rng(1).random((8, 16, 3), dtype=np.float32), "light")
+MATERIAL = {"brdf": "ward:alpha=0.04,ks=0.8", "method": "joint"}
+
+
+def map_set_of(stack: LobeStack) -> MapSet:
+    return to_map_set(stack, LIGHT, MATERIAL, {"filter": [1e-5] * 3}, {}, "test")
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+@pytest.mark.parametrize("shared", [False, True])
+def test_a_stack_comes_back(tmp_path: Path, layout: str, shared: bool) -> None:
+    stack, path = random_stack(layout, shared=shared), tmp_path / "a.rsibr.exr"
+    write_map_set(path, map_set_of(stack))
+    back = from_map_set(path, read_map_set(path, "lobe_stack"))
+    assert back.layout == layout
+    for name, expected in vars(stack).items():
+        if name != "layout":
+            # JSON holds the shortest decimals of a double, so nothing is lost.
+            np.testing.assert_array_equal(getattr(back, name), expected)
+
+
+def test_half_maps_keep_eleven_bits(tmp_path: Path) -> None:
+    stack, path = random_stack("octahedral"), tmp_path / "a.rsibr.exr"
+    write_map_set(path, map_set_of(stack), half=True)
+    back = from_map_set(path, read_map_set(path))
+    np.testing.assert_allclose(back.maps, stack.maps, rtol=2.0**-11, atol=2.0**-25)
+    np.testing.assert_array_equal(back.offsets, stack.offsets)
+
+
+def test_the_front_is_above_the_back() -> None:
+    """By the words of docs/map-set-format.md, and nothing of core/maps."""
+    stack = random_stack("dual_paraboloid", 16)
+    picture = map_set_of(stack).maps["lobe01.slice002"]
+    assert picture.shape == (32, 16, 3)
+    # The texel at the row 5 from the bottom and the column 12 of the front.
+    u, v = (12.5 / 16.0, 5.5 / 16.0)
+    s, t = (2.0 * u - 1.0) * 16.0 / 15.0, (2.0 * v - 1.0) * 16.0 / 15.0
+    x, y, z = np.array([2.0 * s, -2.0 * t, 1.0 - s**2 - t**2]) / (1.0 + s**2 + t**2)
+    direction = np.array([x, -z, y])
+    np.testing.assert_allclose(direction, FRONT @ (x, y, z))
+    uv, sheet = stack.representation.uv_from_direction(direction)
+    assert sheet == 0
+    np.testing.assert_allclose(uv, (u, v))
+    np.testing.assert_array_equal(picture[16 + 5, 12], stack.maps[1, 2, 0, 5, 12])
+    np.testing.assert_array_equal(picture[5, 12], stack.maps[1, 2, 1, 5, 12])
+
+
+def without_a_lobe(header: dict[str, Any]) -> None:
+    header["parts"] = [part for part in header["parts"] if part.get("lobe") != 1]
+
+
+def of_another_layout(header: dict[str, Any]) -> None:
+    header["layout"] = "sphere_map"
+
+
+def without_an_elevation(header: dict[str, Any]) -> None:
+    del header["parts"][3]
+
+
+def at_another_elevation(header: dict[str, Any]) -> None:
+    header["parts"][3]["elevations"][0]["mu"] = 0.55
+
+
+def with_one_map_of_a_lobe(header: dict[str, Any]) -> None:
+    first, *others = [part for part in header["parts"] if part.get("lobe") == 1]
+    first["elevations"] += [elevation for part in others for elevation in part["elevations"]]
+    header["parts"] = [part for part in header["parts"] if part not in others]
+
+
+def with_another_tap(header: dict[str, Any]) -> None:
+    header["parts"][3]["elevations"][0]["taps"] *= 2
+
+
+def of_another_size(header: dict[str, Any]) -> None:
+    header["size"] = [12, 24]
+
+
+@pytest.mark.parametrize(
+    ("damage", "complaint"),
+    [
+        (without_a_lobe, "lacks one of its lobes: bake it again"),
+        (of_another_layout, "holds no lobe stack. A lobe stack cannot be laid out as sphere_map"),
+        (without_an_elevation, "holds lobes of different elevations, maps or taps: bake it again"),
+        (at_another_elevation, "holds lobes of different elevations, maps or taps: bake it again"),
+        (with_one_map_of_a_lobe, "holds lobes of different elevations, maps or taps: bake it again"),
+        (with_another_tap, "holds lobes of different elevations, maps or taps: bake it again"),
+        (of_another_size, "holds maps of another size than it says: bake it again"),
+    ],
+)
+def test_what_is_no_stack_is_refused(damage: Callable[[dict[str, Any]], None], complaint: str) -> None:
+    map_set = map_set_of(random_stack("dual_paraboloid"))
+    damaged = MapSet(map_set.kind, map_set.maps, copy.deepcopy(map_set.header))
+    damage(damaged.header)
+    with pytest.raises(MapSetError, match=complaint) as caught:
+        from_map_set(Path("a.rsibr.exr"), damaged)
+    assert str(caught.value).startswith("a.rsibr.exr")
+
+
+@pytest.mark.parametrize("field", ["mu", "taps", "scale", "albedo"])
+def test_elevations_are_whole(tmp_path: Path, field: str) -> None:
+    map_set = map_set_of(random_stack("octahedral"))
+    del map_set.header["parts"][2]["elevations"][0][field]
+    with pytest.raises(MapSetError, match=rf"parts\[2\]\.elevations\[0\]\.{field} is missing"):
+        write_map_set(tmp_path / "a.rsibr.exr", map_set)
+
+
+def test_taps_are_whole(tmp_path: Path) -> None:
+    map_set = map_set_of(random_stack("octahedral"))
+    map_set.header["parts"][2]["elevations"][0]["taps"][1]["tilt"] = "much"
+    with pytest.raises(
+        MapSetError, match=r"parts\[2\]\.elevations\[0\]\.taps\[1\]\.tilt is not a finite number"
+    ):
+        write_map_set(tmp_path / "a.rsibr.exr", map_set)

@@ -1,0 +1,83 @@
+"""Pictures drawn from lobe stacks against core/shading/lobe_stack.py at every sample."""
+
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.core.camera import Camera
+from rsibr.rsibr_addon.core.conventions import texel_centres
+from rsibr.rsibr_addon.core.errors import DeviceError, RangeError
+from rsibr.rsibr_addon.core.lobes.bake import bake_stack
+from rsibr.rsibr_addon.core.lobes.bank import KernelBank
+from rsibr.rsibr_addon.core.lobes.stack import LAYOUTS, LobeStack
+from rsibr.rsibr_addon.core.maps import equirect
+from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.core.shading.lobe_stack import StackLook, stack_radiance
+from rsibr.rsibr_addon.device.context import ensure_context
+from rsibr.rsibr_addon.device.lobe_stack import LobeStackOnDevice
+from rsibr.rsibr_addon.device.preview import SAMPLES_PER_AXIS, PreviewRenderer
+from rsibr.tests.glsl.test_preview_renderer import BY_CAMERA, SIZE, SPHERE, samples
+from rsibr.tests.lobe_stacks import random_fit, random_stack
+
+
+def smooth_stack(layout: str, brightness: float = 1.0) -> LobeStack:
+    direction = equirect.direction_from_uv(texel_centres(64, 32))
+    radiance = brightness * np.exp(
+        direction @ np.array([[0.5, -0.3, 0.9], [0.2, 0.8, -0.1], [-0.4, 0.3, 0.6]])
+    )
+    fit = random_fit(KernelBank((0.5, 4.0, 16.0)))
+    return drain(bake_stack(radiance, fit, layout, 32)).stack
+
+
+@pytest.fixture(scope="module", params=LAYOUTS)
+def smooth(request: pytest.FixtureRequest) -> tuple[LobeStack, PreviewRenderer]:
+    ensure_context()
+    stack = smooth_stack(request.param)
+    return stack, PreviewRenderer(LobeStackOnDevice(stack))
+
+
+def reference(stack: LobeStack, camera: Camera, look: StackLook) -> tuple[np.ndarray, np.ndarray]:
+    """Radiance of every pixel, and those all of whose samples see the sphere at n.v > 0.2."""
+    normal, view_dir, cosine = samples(camera)
+    radiance = stack_radiance(stack, normal, view_dir, look)
+    blocks = (SIZE, SAMPLES_PER_AXIS, SIZE, SAMPLES_PER_AXIS)
+    inside = (cosine > 0.2).reshape(blocks).all(axis=(1, 3))
+    return radiance.reshape(*blocks, 3).mean(axis=(1, 3)), inside
+
+
+@pytest.mark.parametrize("lobes", [(), (1,)])
+@BY_CAMERA
+def test_a_picture_is_what_the_reference_says(smooth, lobes: tuple[int, ...], camera: Camera) -> None:
+    stack, renderer = smooth
+    expected, inside = reference(stack, camera, StackLook(lobes))
+    picture = renderer.draw(*SPHERE, camera, SIZE, StackLook(lobes))
+    assert np.all(picture[inside, 3] == 1.0)
+    assert np.count_nonzero(inside) > 0.6 * SIZE**2
+    # Half floats keep 11 bits; facets turn mirror directions by 4e-4; weights of texels and slices may be
+    # rounded to 8 bits, 3 / 512 of what neighbours differ by, a tenth of the peak.
+    assert np.abs(picture[..., :3] - expected)[inside].max() < 2e-3 * expected.max()
+
+
+def test_light_beyond_half_floats_is_kept() -> None:
+    ensure_context()
+    stack = smooth_stack("octahedral", 1e6)
+    assert stack.maps.max() > 65504.0
+    camera = Camera((0.0, -1.0, 0.2))
+    expected, inside = reference(stack, camera, StackLook())
+    picture = PreviewRenderer(LobeStackOnDevice(stack)).draw(*SPHERE, camera, SIZE, StackLook())
+    assert np.abs(picture[..., :3] - expected)[inside].max() < 2e-3 * expected.max()
+
+
+def test_a_lobe_that_is_not_there_is_refused(smooth) -> None:
+    _, renderer = smooth
+    with pytest.raises(RangeError, match="no lobe 2: choose from 0 to 1"):
+        renderer.draw(*SPHERE, Camera((0.0, -1.0, 0.0)), SIZE, StackLook((2,)))
+
+
+def test_too_many_maps_are_refused() -> None:
+    ensure_context()
+    small = random_stack("dual_paraboloid", 2)
+    many = {
+        name: np.repeat(getattr(small, name), 100, axis=0)
+        for name in ("maps", "scale", "offsets", "taps", "albedo")
+    }
+    with pytest.raises(DeviceError, match="3000 maps do not fit into a texture of 2048: fit fewer"):
+        LobeStackOnDevice(LobeStack(layout=small.layout, mu=small.mu, **many))

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 from rsibr.rsibr_addon.core.errors import DeviceError
+from rsibr.rsibr_addon.device import mip_chain_shaders, shaders, viewport_shaders
 from rsibr.rsibr_addon.device import shader_source as sources
-from rsibr.rsibr_addon.device import shaders
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.shader_source import SHADER_FOLDER, shader_source
 
@@ -19,6 +19,9 @@ PROGRAMS = [
     shaders.views_destination_shader,
     shaders.views_texel_shader,
     shaders.views_disk_shader,
+    mip_chain_shaders.mip_chain_shader,
+    viewport_shaders.composite_shader,
+    viewport_shaders.occluder_shader,
 ]
 
 
@@ -97,11 +100,10 @@ def test_a_program_is_built_once(program) -> None:
 
 
 def test_the_compiler_has_nothing_to_say(tmp_path: Path) -> None:
-    calls = "; ".join(f"shaders.{program.__name__}()" for program in PROGRAMS)
+    imports = "".join(f"from {program.__module__} import {program.__name__}\n" for program in PROGRAMS)
+    calls = "; ".join(f"{program.__name__}()" for program in PROGRAMS)
     script = (
-        "from rsibr.rsibr_addon.device.context import ensure_context\n"
-        "from rsibr.rsibr_addon.device import shaders\n"
-        f"ensure_context(); {calls}\n"
+        f"from rsibr.rsibr_addon.device.context import ensure_context\n{imports}ensure_context(); {calls}\n"
     )
     # Mesa writes each shader with what its compiler says about it to a file in the working folder.
     environment = os.environ | {"MESA_GLSL": "log", "MESA_SHADER_CACHE_DISABLE": "true"}

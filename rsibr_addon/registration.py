@@ -8,15 +8,21 @@ _registered = ExitStack()
 
 
 def register() -> None:
-    """Register the operators and the command `rsibr`; when one is refused, none stays."""
+    """Register properties, operators, panels, previews and the command `rsibr`; refused one, none stays."""
     import bpy
 
-    from ..operators import CLASSES
+    from .. import operators
+    from . import properties, ui
+    from .ui import viewport
 
     with ExitStack() as undo:
-        for cls in CLASSES:
+        for cls in (*properties.CLASSES, *operators.CLASSES, *ui.CLASSES):
             bpy.utils.register_class(cls)
             undo.callback(bpy.utils.unregister_class, cls)
+        for name, (owner, group) in properties.POINTERS.items():
+            setattr(owner, name, bpy.props.PointerProperty(type=group))
+            undo.callback(delattr, owner, name)
+        viewport.start(undo)
         command = bpy.utils.register_cli_command("rsibr", _run_command)
         undo.callback(bpy.utils.unregister_cli_command, command)
         _registered.push(undo.pop_all())

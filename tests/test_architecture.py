@@ -21,7 +21,9 @@ LAYERS: dict[str, set[str]] = {
     "tasks": {"core", "job", "files", "host", "device"},
     "command_line": {"core", "job", "files", "host", "device", "tasks"},
     "operators": {"core", "job", "files", "host", "device", "tasks"},
-    "registration": {"command_line", "operators"},
+    "properties": set(),
+    "ui": {"core", "job", "files", "host", "device", "tasks", "properties", "operators"},
+    "registration": {"command_line", "operators", "properties", "ui"},
     "__init__": {"registration"},
 }
 """Layer -> the other layers of ours that it may import."""
@@ -35,6 +37,8 @@ THIRD_PARTY: dict[str, set[str]] = {
     "tasks": {"numpy"},
     "command_line": {"numpy"},
     "operators": {"bpy"},
+    "properties": {"bpy"},
+    "ui": {"bpy"},
     "registration": {"bpy"},
     "__init__": set(),
 }

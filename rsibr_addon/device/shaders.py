@@ -21,8 +21,18 @@ def kept_until_exit(build: Callable[[], gpu.types.GPUShader]) -> Callable[[], gp
     A program that is freed later than them ends the process with a segmentation fault.
     """
     cached = cache(build)
-    atexit.register(cached.cache_clear)
+    _kept.append(cached.cache_clear)
     return cached
+
+
+_kept: list[Callable[[], None]] = []
+
+
+@atexit.register
+def release_programs() -> None:
+    """Let go of every program; those that are wanted again are built again."""
+    for release in _kept:
+        release()
 
 
 @kept_until_exit

@@ -1,0 +1,120 @@
+"""Previews in Blender's own viewport, among what it has drawn already.
+
+Previews are drawn into a picture of radiance and depth first. One pass over the screen then brings
+them to the display and tests each pixel's depth against what Blender has drawn: any kind of map
+set is shaded by the programs it has, and only what is seen is brought to the display.
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import gpu
+import numpy as np
+
+from ..core.conventions import Array
+from . import buffers
+from .drawing import Draw
+from .viewport_shaders import composite_shader, occluder_shader
+
+_SCREEN_TRIANGLE = np.array([[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]])
+
+
+def draw_of(model: Array) -> Draw:
+    """A mesh in the view that Blender is drawing.
+
+    Parameters
+    ----------
+    model : ndarray, shape (4, 4)
+        World from object coordinates.
+
+    Returns
+    -------
+    Draw
+    """
+    view = np.array(gpu.matrix.get_model_view_matrix())
+    projection = np.array(gpu.matrix.get_projection_matrix())
+    # The camera's origin, or where a parallel projection's rays come from: what the view maps there.
+    eye = np.linalg.inv(view) @ ([0.0, 0.0, 0.0, 1.0] if projection[3, 3] == 0.0 else [0.0, 0.0, 1.0, 0.0])
+    to_eye = eye[:3] - eye[3] * model[:3, 3]
+    return Draw(model, view, projection, eye, to_eye / np.linalg.norm(to_eye))
+
+
+def draw_occluder(mesh: gpu.types.GPUBatch, draw: Draw) -> None:
+    """Draw a surface that may hide previews.
+
+    Parameters
+    ----------
+    mesh : GPUBatch
+        See `drawing.mesh_batch`.
+    draw : Draw
+    """
+    placed = draw.uniforms()
+    shader = occluder_shader()
+    shader.bind()
+    shader.uniform_block("draw", placed)
+    mesh.draw(shader)
+
+
+class Stage:
+    """Where previews are drawn before they are shown; kept from frame to frame, for all viewports."""
+
+    def __init__(self) -> None:
+        self._size = (0, 0)
+
+    @contextmanager
+    def drawing(self) -> Iterator[None]:
+        """Within, meshes are drawn into the stage, where the view has its pixels; it is empty at first."""
+        x, y, width, height = gpu.state.active_framebuffer_get().viewport_get()
+        self._fit(x + width, y + height)
+        with self._target.bind():
+            self._target.viewport_set(x, y, width, height)
+            self._target.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
+            with _depth_test("LESS_EQUAL"):
+                yield
+
+    def show(self, display: gpu.types.GPUTexture, scale: float, among_others: bool) -> None:
+        """Bring what was drawn to the active frame buffer.
+
+        Parameters
+        ----------
+        display : GPUTexture
+            A display's colours, see `core.display`, from `buffers.table_texture`.
+        scale : float
+            What radiance is multiplied by.
+        among_others : bool
+            Whether the frame buffer holds the depths of what else is to be seen.
+        """
+        shader = composite_shader()
+        shader.bind()
+        shader.uniform_float("scale", scale)
+        shader.uniform_sampler("previews", self._radiance)
+        shader.uniform_sampler("depths", self._depth)
+        shader.uniform_sampler("display", display)
+        with _depth_test("LESS_EQUAL" if among_others else "ALWAYS"):
+            self._screen.draw(shader)
+
+    def _fit(self, width: int, height: int) -> None:
+        """Grow where a viewport is larger than those before."""
+        if width <= self._size[0] and height <= self._size[1]:
+            return
+        self._size = (max(width, self._size[0]), max(height, self._size[1]))
+        self._radiance = gpu.types.GPUTexture(self._size, format="RGBA16F")
+        self._depth = gpu.types.GPUTexture(self._size, format="DEPTH_COMPONENT32F")
+        self._target = gpu.types.GPUFrameBuffer(depth_slot=self._depth, color_slots=(self._radiance,))
+        self._screen = buffers.triangles(
+            composite_shader(), {"position": _SCREEN_TRIANGLE}, np.array([[0, 1, 2]])
+        )
+
+
+@contextmanager
+def _depth_test(test: str) -> Iterator[None]:
+    before, mask, blend = gpu.state.depth_test_get(), gpu.state.depth_mask_get(), gpu.state.blend_get()
+    gpu.state.depth_test_set(test)
+    gpu.state.depth_mask_set(True)
+    gpu.state.blend_set("NONE")
+    try:
+        yield
+    finally:
+        gpu.state.depth_test_set(before)
+        gpu.state.depth_mask_set(mask)
+        gpu.state.blend_set(blend)

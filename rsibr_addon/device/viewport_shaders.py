@@ -1,0 +1,34 @@
+"""The GPU programs of viewports: their interfaces; their sources stand in `gpu_shaders`."""
+
+import gpu
+
+from .shaders import build, kept_until_exit, mesh_interface
+
+
+@kept_until_exit
+def occluder_shader() -> gpu.types.GPUShader:
+    """Draws a mesh that covers nothing, but hides what is behind it.
+
+    Raises
+    ------
+    DeviceError
+        The driver refuses the program; so for every function here.
+    """
+    return build("viewport_occluder", mesh_interface(""), "mesh_vert.glsl", "viewport_occluder_frag.glsl")
+
+
+@kept_until_exit
+def composite_shader() -> gpu.types.GPUShader:
+    """Brings a frame's previews to the display."""
+    info = gpu.types.GPUShaderCreateInfo()
+    info.push_constant("FLOAT", "scale")
+    info.sampler(0, "FLOAT_2D", "previews")
+    info.sampler(1, "DEPTH_2D", "depths")
+    info.sampler(2, "FLOAT_3D", "display")
+    info.vertex_in(0, "VEC2", "position")
+    varyings = gpu.types.GPUStageInterfaceInfo("rsibr_screen")
+    varyings.smooth("VEC2", "map_uv")
+    info.vertex_out(varyings)
+    info.fragment_out(0, "VEC4", "colour")
+    info.depth_write("ANY")
+    return build("viewport_composite", info, "screen_vert.glsl", "viewport_composite_frag.glsl")

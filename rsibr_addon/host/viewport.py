@@ -1,0 +1,121 @@
+"""What a 3D viewport shows: the surfaces of a scene, instances and all, and the view on them."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ..core.conventions import Array
+
+UNSHADED = ("WIRE", "BOUNDS")
+"""Ways to display an object without its surface."""
+
+type Layer = tuple[int, str]
+"""A view layer: its scene, and its name."""
+
+
+@dataclass(frozen=True)
+class Surface:
+    """A mesh as it stands in a scene.
+
+    Attributes
+    ----------
+    item : bpy.types.Object
+        Whose surface it is: the artist's own object, not its evaluated copy.
+    shown_by : bpy.types.Object
+        That whose visibility counts: `item`, or what makes instances of it.
+    mesh : int
+        Equal for equal meshes; another number whenever Blender evaluates a mesh again.
+    matrix : ndarray, shape (4, 4)
+        World from object coordinates.
+    """
+
+    item: bpy.types.Object
+    shown_by: bpy.types.Object
+    mesh: int
+    matrix: Array
+
+
+@dataclass(frozen=True)
+class View:
+    """What is looked at, and through which area.
+
+    Attributes
+    ----------
+    scene : bpy.types.Scene
+    layer : Layer
+        The view layer that is shown.
+    depsgraph : bpy.types.Depsgraph
+        Of that layer, evaluated.
+    space : bpy.types.SpaceView3D
+    """
+
+    scene: bpy.types.Scene
+    layer: Layer
+    depsgraph: bpy.types.Depsgraph
+    space: bpy.types.SpaceView3D
+
+    @property
+    def shaded(self) -> bool:
+        """Whether surfaces are drawn, and not wires alone."""
+        return self.space.shading.type != "WIREFRAME"
+
+    @property
+    def has_depth(self) -> bool:
+        """Whether Blender leaves its surfaces' depths to those who draw later."""
+        return self.space.shading.type == "SOLID" or self.space.overlay.show_overlays
+
+
+def current_view() -> View:
+    """The view that is being drawn."""
+    context = bpy.context
+    scene, layer = context.scene, context.view_layer
+    return View(scene, (scene.session_uid, layer.name), layer.depsgraph, context.space_data)
+
+
+def shown_layers() -> set[Layer]:
+    """The view layers that any window shows."""
+    windows = bpy.context.window_manager.windows
+    return {(window.scene.session_uid, window.view_layer.name) for window in windows}
+
+
+def map_set_of(item: bpy.types.Object) -> str:
+    """Path of the file that is to shade an object; empty for none, also when it is not to be shown."""
+    settings = item.rsibr
+    if not (settings.map_set and settings.show):
+        return ""
+    return bpy.path.abspath(settings.map_set, library=item.library)
+
+
+def is_wanted() -> bool:
+    """Whether any object of the file is to be shaded from a map set."""
+    return any(map(map_set_of, bpy.data.objects))
+
+
+def surfaces(depsgraph: bpy.types.Depsgraph) -> Iterator[tuple[Surface, bpy.types.Object]]:
+    """Every surface that the view layer shows.
+
+    Parameters
+    ----------
+    depsgraph : bpy.types.Depsgraph
+        Evaluated.
+
+    Yields
+    ------
+    surface : Surface
+    evaluated : bpy.types.Object
+        What `meshes.mesh_from_object` makes its mesh from; only until the next one is asked for.
+
+    Notes
+    -----
+    Curves, texts, metaballs and what geometry nodes make are there too: Blender lists an instance of
+    type mesh for each.
+    """
+    for instance in depsgraph.object_instances:
+        evaluated = instance.object
+        if evaluated.type != "MESH" or not instance.show_self or evaluated.display_type in UNSHADED:
+            continue
+        item = evaluated.original
+        shown_by = instance.parent.original if instance.is_instance else item
+        yield Surface(item, shown_by, evaluated.data.session_uid, np.array(instance.matrix_world)), evaluated

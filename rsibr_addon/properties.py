@@ -1,0 +1,120 @@
+"""What a Blender file keeps of ours: each object's map set, and how it is to be shaded."""
+
+import bpy
+
+
+def _notice(group: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    """Have viewports drawn again, also when it is a script that sets a property."""
+    group.id_data.update_tag(refresh={"OBJECT"})
+
+
+class RSIBR_PG_radiance_views(bpy.types.PropertyGroup):
+    """The fields of `core.shading.radiance_views.ViewsLook`; so with every kind of map set."""
+
+    mode: bpy.props.EnumProperty(
+        name="Mode",
+        description="Where views are warped and blended",
+        update=_notice,
+        items=[
+            ("fragment", "Fragment", "For each fragment with its own view: right in perspective"),
+            ("texel", "Texel", "Once a frame, for each texel of a sphere map"),
+            ("paper", "Paper", "Once a frame, on a tessellated disk, as in the paper of 1999"),
+        ],
+    )
+    warping: bpy.props.EnumProperty(
+        name="Warp",
+        description="What is warped how",
+        update=_notice,
+        items=[
+            ("albedo", "Albedo", "Diffuse and glossy apart, over the material's directional albedo"),
+            ("split", "Split", "Diffuse light by the normal, glossy light by the mirror direction"),
+            ("single", "Single", "All light by the mirror direction, as in the paper of 1999"),
+        ],
+    )
+
+
+class RSIBR_PG_reflection_tables(bpy.types.PropertyGroup):
+    """The fields of `core.shading.reflection_tables.TablesLook`."""
+
+    shown: bpy.props.EnumProperty(
+        name="Tables",
+        description="Those that count",
+        update=_notice,
+        options={"ENUM_FLAG"},
+        items=[
+            ("diffuse", "Diffuse", "Looked up by the normal"),
+            ("specular", "Specular", "Looked up by the mirror direction"),
+            ("coat", "Coat", "A clear varnish, looked up by the mirror direction"),
+            ("retro", "Retro", "Light sent back, looked up by the view direction"),
+            ("refraction", "Refraction", "Light let through, looked up by the refracted direction"),
+        ],
+        default={"diffuse", "specular", "coat", "retro", "refraction"},
+    )
+
+
+class RSIBR_PG_mip_chain(bpy.types.PropertyGroup):
+    """The fields of `core.shading.mip_chain.MipLook`."""
+
+    f_lambda: bpy.props.FloatVectorProperty(
+        name="Reflectance",
+        description="Of the glossy part, at normal incidence",
+        update=_notice,
+        subtype="COLOR",
+        default=(0.04, 0.04, 0.04),
+        min=0.0,
+        max=1.0,
+    )
+    k_d: bpy.props.FloatVectorProperty(
+        name="Diffuse",
+        description="Albedo of the diffuse part",
+        update=_notice,
+        subtype="COLOR",
+        default=(0.8, 0.8, 0.8),
+        min=0.0,
+        max=1.0,
+    )
+    bias: bpy.props.FloatProperty(
+        name="Mip",
+        description="That glossy light comes from; linear between two",
+        update=_notice,
+        min=0.0,
+        soft_max=10.0,
+    )
+    borders: bpy.props.EnumProperty(
+        name="Borders",
+        description="What a lookup near a face's border interpolates with",
+        update=_notice,
+        items=[
+            ("seamless", "Seamless", "The neighbouring face's texels"),
+            ("clamped", "Clamped", "The face's own texels, as the hardware of 2004"),
+        ],
+    )
+
+
+class RSIBR_PG_preview(bpy.types.PropertyGroup):
+    """What shades an object in the viewport."""
+
+    map_set: bpy.props.StringProperty(
+        name="Map Set",
+        description="File that shades the object in the viewport",
+        update=_notice,
+        subtype="FILE_PATH",
+    )
+    show: bpy.props.BoolProperty(
+        name="Show", description="Shade the object from its map set", update=_notice, default=True
+    )
+    radiance_views: bpy.props.PointerProperty(type=RSIBR_PG_radiance_views)
+    reflection_tables: bpy.props.PointerProperty(type=RSIBR_PG_reflection_tables)
+    mip_chain: bpy.props.PointerProperty(type=RSIBR_PG_mip_chain)
+
+
+CLASSES = (
+    RSIBR_PG_radiance_views,
+    RSIBR_PG_reflection_tables,
+    RSIBR_PG_mip_chain,
+    RSIBR_PG_preview,
+)
+"""In the order of registration."""
+
+POINTERS = {"rsibr": (bpy.types.Object, RSIBR_PG_preview)}
+"""Name of a property -> what has it, and the group it points to."""

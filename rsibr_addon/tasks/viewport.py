@@ -1,0 +1,256 @@
+"""The previews of a running Blender: what shades which object, uploaded once and drawn every frame."""
+
+import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+from ..core.conventions import Array
+from ..core.display import table_radiance
+from ..core.errors import RsibrError
+from ..device import buffers
+from ..device.drawing import OnDevice, mesh_batch
+from ..device.viewport import Stage, draw_occluder, draw_of
+from ..host.display import Display, display_of, displayed_colours, scale_before_display
+from ..host.meshes import mesh_from_object
+from ..host.viewport import Layer, Surface, View, is_wanted, map_set_of, shown_layers, surfaces
+from .kinds import KINDS, open_map_set
+
+DISPLAYS_KEPT = 4
+"""Tables of 7 MB each, so that one can switch between view transforms."""
+
+
+@dataclass(frozen=True)
+class _Preview:
+    """A surface, and the file that it is shaded from."""
+
+    surface: Surface
+    path: str
+
+
+@dataclass
+class _Contents:
+    """What a view layer shows: surfaces with a preview, and, where they were asked for, without."""
+
+    previews: list[_Preview]
+    others: list[Surface] | None
+    changed: bool = False
+
+
+@dataclass(frozen=True)
+class _MapSet:
+    kind: str
+    on_device: OnDevice
+
+
+@dataclass(frozen=True)
+class _Fault:
+    """What went wrong with an object, and the settings that it went wrong with."""
+
+    settings: object
+    message: str
+
+
+class Previews:
+    """All that viewports need between frames. Nothing is on the GPU before the first preview is drawn.
+
+    Objects say what shades them in `properties.RSIBR_PG_preview`. One whose preview fails is left to
+    Blender until its settings change.
+    """
+
+    def __init__(self) -> None:
+        self.release()
+
+    def release(self) -> None:
+        """Let go of everything: the file is closed, or the extension leaves."""
+        self._stage = Stage()
+        self._contents: dict[Layer, _Contents] = {}
+        self._meshes: dict[int, Any] = {}
+        self._map_sets: dict[str, _MapSet] = {}
+        self._displays: dict[Display, Any] = {}
+        self._learnt: dict[Display, Array] = {}
+        self._faults: dict[int, _Fault] = {}
+        self.trouble: str | None = None
+
+    def scene_changed(self) -> None:
+        """Look at each scene anew when it is drawn next; what is the same stays uploaded."""
+        for contents in self._contents.values():
+            contents.changed = True
+
+    def data_replaced(self) -> None:
+        """Forget Blender's data: after an undo, they are others."""
+        self._contents.clear()
+
+    def reload(self) -> None:
+        """Read the map sets' files anew, and try again what failed."""
+        self._map_sets.clear()
+        self._faults.clear()
+        self.trouble = None
+
+    def kind(self, item: Any) -> str | None:
+        """The kind of map set that shades an object; None before it is drawn."""
+        map_set = self._map_sets.get(map_set_of(item))
+        return map_set and map_set.kind
+
+    def fault(self, item: Any) -> str | None:
+        """Why an object is not shaded from its map set, in a sentence."""
+        fault = self._faults.get(item.session_uid)
+        return fault and fault.message
+
+    def draw(self, view: View) -> bool:
+        """Draw the previews of a view into the active frame buffer.
+
+        Parameters
+        ----------
+        view : View
+            That which Blender is drawing.
+
+        Returns
+        -------
+        bool
+            False where there is something to draw, and `add_display` has to be called for it.
+        """
+        if self.trouble or not view.shaded:
+            return True
+        try:
+            return self._draw(view)
+        except Exception as error:
+            self.trouble = _told(error)
+            return True
+
+    def add_display(self, scene: Any) -> None:
+        """Learn how a scene shows radiance; not while a view is being drawn, as data come and go for it.
+
+        Parameters
+        ----------
+        scene : bpy.types.Scene
+        """
+        try:
+            self._learnt[display_of(scene)] = displayed_colours(scene, table_radiance())
+        except Exception as error:
+            self.trouble = _told(error)
+
+    def _draw(self, view: View) -> bool:
+        contents = self._contents_of(view)
+        seen = [each for each in contents.previews if _is_seen(each.surface, view) and self._is_ready(each)]
+        if not seen:
+            return True
+        display = self._display(view)
+        if display is None:
+            return False
+        with self._stage.drawing():
+            if contents.others is not None:
+                for other in contents.others:
+                    if _is_seen(other, view):
+                        draw_occluder(self._meshes[other.mesh], draw_of(other.matrix))
+            for each in seen:
+                self._draw_one(each)
+        self._stage.show(display, scale_before_display(view.scene), among_others=view.has_depth)
+        return True
+
+    def _contents_of(self, view: View) -> _Contents:
+        contents = self._contents.get(view.layer)
+        if contents is None or contents.changed or (contents.others is not None) == view.has_depth:
+            contents = self._contents[view.layer] = self._collect(view)
+            self._let_go_of_unused()
+        return contents
+
+    def _collect(self, view: View) -> _Contents:
+        """Find what a view layer shows, and upload the meshes that are new."""
+        contents = _Contents([], None if view.has_depth else [])
+        if not is_wanted():
+            return contents
+        for surface, evaluated in surfaces(view.depsgraph):
+            path = map_set_of(surface.item)
+            if not path:
+                self._faults.pop(surface.item.session_uid, None)
+            if not path and contents.others is None:
+                continue
+            if surface.mesh not in self._meshes:
+                mesh = mesh_from_object(evaluated, view.depsgraph)
+                self._meshes[surface.mesh] = mesh_batch(mesh.positions, mesh.normals, mesh.triangles)
+            if path:
+                contents.previews.append(_Preview(surface, path))
+            else:
+                contents.others.append(surface)
+        return contents
+
+    def _let_go_of_unused(self) -> None:
+        for layer in self._contents.keys() - shown_layers():
+            del self._contents[layer]
+        previews = [each for contents in self._contents.values() for each in contents.previews]
+        others = [each for contents in self._contents.values() for each in contents.others or ()]
+        meshes = {each.surface.mesh for each in previews} | {each.mesh for each in others}
+        paths = {each.path for each in previews}
+        self._meshes = {key: mesh for key, mesh in self._meshes.items() if key in meshes}
+        self._map_sets = {path: map_set for path, map_set in self._map_sets.items() if path in paths}
+
+    def _is_ready(self, preview: _Preview) -> bool:
+        """Whether an object can be drawn: its map set is uploaded, and nothing has gone wrong."""
+        item = preview.surface.item
+        fault = self._faults.get(item.session_uid)
+        if fault and fault.settings == _settings(item):
+            return False
+        self._faults.pop(item.session_uid, None)
+        if preview.path not in self._map_sets:
+            with self._faults_noted(item):
+                opened = open_map_set(Path(preview.path))
+                self._map_sets[preview.path] = _MapSet(opened.kind, opened.upload())
+        return preview.path in self._map_sets
+
+    def _draw_one(self, preview: _Preview) -> None:
+        map_set, item = self._map_sets[preview.path], preview.surface.item
+        with self._faults_noted(item):
+            look = KINDS[map_set.kind].look(**_look_settings(item, map_set.kind))
+            map_set.on_device.draw(self._meshes[preview.surface.mesh], draw_of(preview.surface.matrix), look)
+
+    def _display(self, view: View) -> Any:
+        """The texture of how a view's scene shows radiance; None if that is not known yet."""
+        display = display_of(view.scene)
+        if display in self._learnt:
+            while len(self._displays) >= DISPLAYS_KEPT:
+                del self._displays[next(iter(self._displays))]
+            self._displays[display] = buffers.table_texture(self._learnt.pop(display))
+        return self._displays.get(display)
+
+    @contextmanager
+    def _faults_noted(self, item: Any) -> Iterator[None]:
+        try:
+            yield
+        except Exception as error:
+            self._faults[item.session_uid] = _Fault(_settings(item), _told(error))
+
+
+def _is_seen(surface: Surface, view: View) -> bool:
+    return surface.shown_by.visible_in_viewport_get(view.space)
+
+
+def _settings(item: Any) -> object:
+    """All that an object says of its preview."""
+    return map_set_of(item), {kind: _look_settings(item, kind) for kind in KINDS}
+
+
+def _look_settings(item: Any, kind: str) -> dict[str, Any]:
+    """What an object says of how a kind of map set is shaded: fields of the kind's look."""
+    group = getattr(item.rsibr, kind, None)
+    names = [field.name for field in fields(KINDS[kind].look) if hasattr(group, field.name)]
+    return {name: _plain(getattr(group, name)) for name in names}
+
+
+def _plain(value: Any) -> Any:
+    """Colours as tuples, whose numbers stay when the property's change."""
+    return value if isinstance(value, str | float | int | set) else tuple(value)
+
+
+def _told(error: Exception) -> str:
+    """An error in a sentence; where it is a mistake of ours, its traceback goes to the console."""
+    if isinstance(error, RsibrError | OSError):
+        return str(error)
+    traceback.print_exception(error)
+    return f"The preview failed ({type(error).__name__}: {error}): see the console, and report it."
+
+
+previews = Previews()
+"""Those of this Blender."""

@@ -1,0 +1,53 @@
+"""The tab in the viewport's sidebar."""
+
+import bpy
+
+from ..tasks.viewport import previews
+
+
+class RSIBR_PT_preview(bpy.types.Panel):
+    """Shade the active object from a map set"""  # noqa: D400  (a tooltip)
+
+    bl_label = "Preview"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "RSIBR"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Whether there is an object to be shaded."""
+        return context.object is not None
+
+    def draw_header(self, context: bpy.types.Context) -> None:
+        """Show the switch."""
+        self.layout.prop(context.object.rsibr, "show", text="")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Show the file, what it holds, how it is shaded, and what went wrong."""
+        item, layout = context.object, self.layout
+        layout.use_property_split = True
+        layout.prop(item.rsibr, "map_set")
+        for message in filter(None, (previews.fault(item), previews.trouble)):
+            _tell(layout, message, context.region.width)
+        kind = previews.kind(item)
+        if kind is None:
+            return
+        layout.label(text=kind.replace("_", " ").capitalize())
+        settings = getattr(item.rsibr, kind, None)
+        for name in getattr(settings, "__annotations__", ()):
+            layout.prop(settings, name)
+
+
+def _tell(layout: bpy.types.UILayout, message: str, width: int) -> None:
+    """A sentence, broken into lines; Blender would cut it off."""
+    column = layout.column(align=True)
+    letters = max(20, width // 8)
+    words, line = message.split(), ""
+    lines = []
+    for word in words:
+        if line and len(line) + len(word) >= letters:
+            lines.append(line)
+            line = ""
+        line = f"{line} {word}".strip()
+    for number, text in enumerate([*lines, line]):
+        column.label(text=text, icon="ERROR" if number == 0 else "BLANK1")

@@ -1,0 +1,84 @@
+"""Previews come into viewports, and leave them without a trace."""
+
+from collections.abc import Callable
+from contextlib import ExitStack
+
+import bpy
+from bpy.app.handlers import persistent
+
+from ..device.shaders import release_programs
+from ..host.viewport import current_view
+from ..tasks.viewport import previews
+
+RETRY_SECONDS = 0.5
+"""While a render goes on, no data may come and go for the display's table."""
+
+
+def start(undo: ExitStack) -> None:
+    """Draw previews in every viewport from now on; a Blender without windows has none.
+
+    Parameters
+    ----------
+    undo : ExitStack
+        Takes what ends it.
+    """
+    if bpy.app.background:
+        return
+    undo.callback(release_programs)
+    undo.callback(previews.release)
+    handle = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW")
+    undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handle, "WINDOW")
+    undo.callback(_stop_timer)
+    for name, function in _HANDLERS.items():
+        handlers = getattr(bpy.app.handlers, name)
+        handlers.append(function)
+        undo.callback(handlers.remove, function)
+
+
+def _draw() -> None:
+    if not previews.draw(current_view()) and not bpy.app.timers.is_registered(_add_displays):
+        bpy.app.timers.register(_add_displays, first_interval=0.0)
+
+
+def _add_displays() -> float | None:
+    """Learn how the scenes in the windows show radiance, and have them drawn again."""
+    if bpy.app.is_job_running("RENDER"):
+        return RETRY_SECONDS
+    windows = bpy.context.window_manager.windows
+    for scene in {window.scene for window in windows}:
+        previews.add_display(scene)
+    for window in windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
+    return None
+
+
+def _stop_timer() -> None:
+    if bpy.app.timers.is_registered(_add_displays):
+        bpy.app.timers.unregister(_add_displays)
+
+
+@persistent
+def _scene_changed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    if depsgraph.mode == "VIEWPORT":  # A render evaluates scenes too, in a thread of its own.
+        previews.scene_changed()
+
+
+@persistent
+def _data_replaced(*_: object) -> None:
+    previews.data_replaced()
+
+
+@persistent
+def _file_closed(*_: object) -> None:
+    previews.release()
+
+
+_HANDLERS: dict[str, Callable[..., None]] = {
+    "depsgraph_update_post": _scene_changed,
+    "frame_change_post": _scene_changed,
+    "undo_post": _data_replaced,
+    "redo_post": _data_replaced,
+    "load_pre": _file_closed,
+}

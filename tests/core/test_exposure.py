@@ -35,10 +35,10 @@ def test_the_cameras_curve_is_recovered() -> None:
 
 def test_known_curves() -> None:
     encoded = np.array([[0.25, 0.5, 1.0]])
-    np.testing.assert_allclose(np.exp(linear_response().logarithm(encoded)), encoded, rtol=1e-4)
-    # Between levels the logarithm is interpolated: (1/255 / 0.25)^2 / 8 is 3e-5
+    np.testing.assert_allclose(np.exp(linear_response().logarithm(encoded)), encoded, rtol=1e-12)
+    # Between levels exposure is interpolated: its curvature, 1.4 x^-0.8 / x^2, times (1/255)^2 / 8
     expected = linear_from_srgb(encoded)
-    np.testing.assert_allclose(np.exp(srgb_response().logarithm(encoded)), expected, rtol=1e-3)
+    np.testing.assert_allclose(np.exp(srgb_response().logarithm(encoded)), expected, rtol=1e-4)
     assert np.all(np.isfinite(srgb_response().log_exposure))
 
 
@@ -112,15 +112,16 @@ def test_a_merged_bracket_is_the_scene(hand_held: bool) -> None:
     # The recovered curve is right to 1 or 2 %. A tenth of a pixel's movement costs a tenth of the slope of
     # ln L, whose root mean square is 0.3 a pixel
     assert np.median(error) < 0.02
-    assert np.quantile(error, 0.99) < (0.1 if hand_held else 0.05)
+    # Noise is 4 % of the darkest exposure that counts, of 0.07
+    assert np.quantile(error, 0.99) < (0.12 if hand_held else 0.08)
 
 
 def test_a_known_curve_gives_radiance_itself() -> None:
     radiance = np.geomspace(0.01, 10.0, 300).reshape(20, 15)[..., None] * np.ones(3)
     photographs = [np.clip(radiance * time, 0.0, 1.0) for time in (0.05, 0.4, 3.2)]
     merged = merge_bracket(photographs, (0.05, 0.4, 3.2), linear_response(), align=False)
-    # Interpolation between levels, at the darkest ones that count
-    np.testing.assert_allclose(merged.radiance, radiance, rtol=0.02)
+    # Below level 1, which weighs under 0.008, the curve ends at half of it: up to twice the exposure
+    np.testing.assert_allclose(merged.radiance, radiance, rtol=0.01)
     assert merged.saturated == merged.black == 0.0
 
 
@@ -148,6 +149,8 @@ def test_bad_brackets_are_refused() -> None:
     for times in ((2.0, 1.0), (0.0, 1.0), (1.0, np.inf), (-1.0, 1.0)):
         with pytest.raises(RangeError, match="must be positive, and the photographs in their order"):
             merge_bracket([grey, grey], times)
-    for pair in ((white, white), (0.0 * white, 0.0 * white), (grey, white)):
-        with pytest.raises(RangeError, match="No part of the photographs is between black and white in two"):
-            merge_bracket(pair, [1.0, 2.0], align=False)
+    for pair in ((white, white), (0.0 * white, 0.0 * white), (0.0 * white, white)):
+        with pytest.raises(RangeError, match="nothing but black and white: take exposures neither too long"):
+            merge_bracket(pair, [1.0, 2.0], linear_response())
+    with pytest.raises(RangeError, match="No part of the photographs is between black and white in two"):
+        merge_bracket([grey, white], [1.0, 2.0], align=False)

@@ -99,8 +99,8 @@ def merge_bracket(
     Raises
     ------
     RangeError
-        There is one photograph only, exposures are not positive, not in order or all the same; or nothing
-        in the photographs is between black and white in two.
+        There is one photograph only; exposures are not positive, not in order or all the same; nothing in the
+        photographs is between black and white or, where the curve is to be recovered, in two.
 
     Notes
     -----
@@ -111,6 +111,10 @@ def merge_bracket(
     """
     _check(photographs, times)
     weights = [certainty(photograph) for photograph in photographs]
+    if not any(np.any(weight) for weight in weights):
+        raise RangeError(
+            "The photographs are nothing but black and white: take exposures neither too long nor too short."
+        )
     motions = _motions(photographs, weights) if align else [Motion()] * len(photographs)
     curve = response or _recovered(photographs, weights, times, motions)
     mean, amount = _mean(photographs, weights, times, motions, curve)

@@ -159,14 +159,13 @@ def _tile_steps(
 def _fitted(pairs: ComplexArray) -> Motion:
     """The similarity that takes points, shape (n, 2), nearest to their partners, but for outliers."""
     here, there = pairs.T
-    weight = np.ones(len(pairs))
     motion = Motion()
     for _ in range(10):
+        weight = 1.0 / (1.0 + np.abs((there - motion.of(here)) / OUTLIER) ** 2)
         mean_here, mean_there = np.average(here, weights=weight), np.average(there, weights=weight)
         arm = here - mean_here
         turn = np.sum(weight * np.conj(arm) * (there - mean_there)) / np.sum(weight * np.abs(arm) ** 2)
         motion = Motion(complex(turn), complex(mean_there - turn * mean_here))
-        weight = 1.0 / (1.0 + np.abs((there - motion.of(here)) / OUTLIER) ** 2)
     return motion
 
 

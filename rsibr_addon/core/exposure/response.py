@@ -46,9 +46,9 @@ class Response:
         -------
         ndarray, shape (..., 3), float64
         """
-        levels = np.arange(LEVELS) / (LEVELS - 1.0)
-        return np.stack(
-            [np.interp(encoded[..., i], levels, self.log_exposure[:, i]) for i in range(3)], axis=-1
+        levels, exposure = np.arange(LEVELS) / (LEVELS - 1.0), np.exp(self.log_exposure)
+        return np.log(
+            np.stack([np.interp(encoded[..., i], levels, exposure[:, i]) for i in range(3)], axis=-1)
         )
 
 

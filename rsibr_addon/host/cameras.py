@@ -41,7 +41,7 @@ def add_panoramic_camera(scene: bpy.types.Scene, point: ArrayLike = (0.0, 0.0, 0
     Parameters
     ----------
     scene : bpy.types.Scene
-        Its active camera becomes the new one; its resolution should be twice as wide as high.
+        Its active camera becomes the new one, and its picture shows all directions whatever its resolution.
     point : array_like, shape (3,)
         Where it stands, in world coordinates.
 

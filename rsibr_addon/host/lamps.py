@@ -175,7 +175,7 @@ def _has_size(data: bpy.types.Light) -> bool:
 
 
 def _directions(data: bpy.types.Light, pose: Array, point: Array) -> Array:
-    """Unit directions to equal parts of a lamp, shape (count, 3); all around when the point is in it."""
+    """Unit directions to equal parts of a lamp, shape (count, 3); all around when the point is at it."""
     count = PARTS if _has_size(data) else 1
     if data.type == "SUN":
         return directions_in_cap(normalize(pose[:3, 2]), 0.5 * data.angle, count)
@@ -184,10 +184,11 @@ def _directions(data: bpy.types.Light, pose: Array, point: Array) -> Array:
     if data.type == "AREA":
         parts = _points(data) @ pose[:3, :3].T + towards
         return parts / np.maximum(np.linalg.norm(parts, axis=-1, keepdims=True), closeness(point))
-    if distance <= max(data.shadow_soft_size, closeness(point)):
+    if distance <= closeness(point):
         return directions_in_cap((0.0, 0.0, 1.0), np.pi, PARTS)
-    # Its scale does not change the size of a ball.
-    return directions_in_cap(towards / distance, np.arcsin(data.shadow_soft_size / distance), count)
+    # Cycles shows the disk that faces the point; without "Soft Falloff" a ball, which looks hardly larger.
+    # Neither grows with the object's scale.
+    return directions_in_cap(towards / distance, np.arctan(data.shadow_soft_size / distance), count)
 
 
 def _points(data: bpy.types.AreaLight) -> Array:

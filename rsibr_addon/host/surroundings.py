@@ -155,7 +155,11 @@ def surroundings_scene(around: Surroundings) -> Iterator[bpy.types.Scene]:
 
 
 def render_surroundings(
-    scene: bpy.types.Scene, point: ArrayLike, face: int | None, size: int, sampling: Sampling
+    scene: bpy.types.Scene,
+    point: ArrayLike,
+    face: int | None,
+    size: tuple[int, int],
+    sampling: Sampling,
 ) -> dict[str, Array]:
     """Render what light arrives at a point.
 
@@ -166,8 +170,8 @@ def render_surroundings(
     point : array_like, shape (3,)
     face : int or None
         Of a cube: see `add_face_camera`; None for all around, as `add_panoramic_camera` has it.
-    size : int
-        Width of the picture in pixels; a panorama is half as high.
+    size : tuple of 2 int
+        Width and height of the picture in pixels.
     sampling : Sampling
 
     Returns
@@ -186,7 +190,7 @@ def render_surroundings(
     through it, and what is seen is what lights a surface, not what the camera is shown.
     """
     bounces = scene.cycles.max_bounces, scene.cycles.transmission_bounces
-    configure_cycles(scene, size, size // 2 if face is None else size, sampling.total)
+    configure_cycles(scene, *size, sampling.total)
     cycles = scene.cycles
     cycles.max_bounces, cycles.transmission_bounces = (count + 1 for count in bounces)
     cycles.seed, cycles.use_sample_subset = sampling.seed, True

@@ -11,6 +11,7 @@ from ..core.conventions import Array
 from ..core.environment import usable_radiance
 from ..core.errors import RangeError, RsibrWarning
 from ..core.lamps import LampLight, add_lamps
+from ..core.maps import equirect
 from ..core.maps.representation import representation
 from ..core.progress import Progress, Steps
 from ..core.resample import resample
@@ -28,6 +29,10 @@ from ..host.surroundings import (
 
 SEEN_WIDTH = 4.0
 """Texels that a lamp must be wide for rays to sample it well: a narrower one is measured."""
+
+PANORAMA_ROWS = 4
+"""Of pixels for each row of a panorama's texels: within a pixel Cycles counts latitudes alike, however small
+their circles, so that beside a pole what covers a part of it would count by height and not by area."""
 
 PANORAMA_STEPS = 8
 """A panorama is rendered in so many parts of its samples, so that it can be interrupted."""
@@ -48,7 +53,7 @@ class SceneLight:
     size : int
         Width of the map in texels, even.
     samples : int
-        Of Cycles for a pixel.
+        Of Cycles for a texel; of six faces for a pixel, of which a texel takes some three.
     scene : str or None
         Name of a scene of the open file; None for the one that the artist works in.
     subject : str or None
@@ -143,9 +148,8 @@ def illuminate_from_scene(light: SceneLight, output: Path, force: bool = False) 
     for done, (face, sampling) in enumerate(parts, start=1):
         yield Progress(done, total, f"rendering part {done} of {len(parts)}")
         with surroundings_scene(around) as scene:
-            size = light.size if face is None else light.size // 2
-            picture = render_surroundings(scene, around.point, face, size, sampling)
-        share = sampling.count / light.samples
+            picture = render_surroundings(scene, around.point, face, _resolution(light), sampling)
+        share = sampling.count / sampling.total
         mean = seen.setdefault(face, {})
         for name, pixels in picture.items():
             mean[name] = mean.get(name, 0.0) + share * pixels.astype(np.float64)
@@ -156,15 +160,21 @@ def illuminate_from_scene(light: SceneLight, output: Path, force: bool = False) 
     return output
 
 
+def _resolution(light: SceneLight) -> tuple[int, int]:
+    """Of a picture in pixels."""
+    half = light.size // 2
+    return (half, half) if light.faces else (light.size, half * PANORAMA_ROWS)
+
+
 def _parts(light: SceneLight) -> list[tuple[int | None, Sampling]]:
     """Pictures that are rendered one by one: which face, and which of its samples."""
-    views: list[int | None] = list(range(6)) if light.faces else [None]
-    edges = [0, light.samples]
-    if not light.faces:
-        edges = sorted({light.samples * step // PANORAMA_STEPS for step in range(PANORAMA_STEPS + 1)})
+    if light.faces:
+        whole = Sampling(0, light.samples, light.samples, light.seed, light.denoise)
+        return [(face, whole) for face in range(6)]
+    samples = -(-light.samples // PANORAMA_ROWS)
+    edges = sorted({samples * step // PANORAMA_STEPS for step in range(PANORAMA_STEPS + 1)})
     return [
-        (view, Sampling(start, end - start, light.samples, light.seed, light.denoise))
-        for view in views
+        (None, Sampling(start, end - start, samples, light.seed, light.denoise))
         for start, end in pairwise(edges)
     ]
 
@@ -184,18 +194,24 @@ def _small_lamps(around: Surroundings, size: int) -> tuple[list[LampLight], froz
 
 def _assembled(light: SceneLight, seen: dict[int | None, dict[str, Array]]) -> Array:
     """The map of what was rendered, shape (size / 2, size, 3)."""
-    if light.denoise:
-        pictures = {face: _denoised(passes, 0 if light.faces else OVERLAP) for face, passes in seen.items()}
-    else:
-        pictures = {face: passes["radiance"] for face, passes in seen.items()}
     if light.faces:
-        cube = np.stack([pictures[face] for face in range(6)])
+        cube = np.stack([_radiance(light, seen[face], 0) for face in range(6)])
         return resample(cube, representation("cube_map"), representation("equirect"), light.size)[0]
-    return pictures[None]
+    return _radiance(light, {name: _merged_rows(pixels) for name, pixels in seen[None].items()}, OVERLAP)
 
 
-def _denoised(passes: dict[str, Array], overlap: int) -> Array:
-    """A picture's radiance without noise; beyond its left and right edges it goes on as far as `overlap`."""
+def _merged_rows(pixels: Array) -> Array:
+    """Means over the texels of a panorama that was rendered with more rows."""
+    rows, width, channels = pixels.shape
+    weight = equirect.texel_solid_angle(1, rows).reshape(-1, PANORAMA_ROWS, 1, 1)
+    weight /= weight.sum(axis=1, keepdims=True)
+    return np.sum(weight * pixels.reshape(-1, PANORAMA_ROWS, width, channels), axis=1)
+
+
+def _radiance(light: SceneLight, passes: dict[str, Array], overlap: int) -> Array:
+    """A picture's radiance, without noise if so wished; it goes on beyond its sides as far as `overlap`."""
+    if not light.denoise:
+        return passes["radiance"]
     around = ((0, 0), (overlap, overlap), (0, 0))
     wide = [np.pad(passes[name], around, mode="wrap") for name in ("radiance", "albedo", "normal")]
     clean = denoise(*wide)

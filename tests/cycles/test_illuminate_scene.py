@@ -146,6 +146,24 @@ def test_a_lamp_brings_as_much_light_as_in_cycles(name: str, add_lamp: AddLamp, 
     assert_equal_light(captured(tmp_path), 0.01)
 
 
+@pytest.mark.parametrize("faces", [False, True])
+@pytest.mark.parametrize("radius", [0.12, 0.135])
+def test_a_large_lamp_overhead_is_not_larger(
+    radius: float, faces: bool, add_lamp: AddLamp, tmp_path: Path
+) -> None:
+    add_lamp("POINT", 0, 0, 0.0, energy=1.0, shadow_soft_size=radius).location = (
+        POINT[0],
+        POINT[1],
+        POINT[2] + 1.0,
+    )
+    radiance = captured(tmp_path, faces=faces, samples=64)[..., 0]
+    fluence = np.sum(equirect.texel_solid_angle(SIZE, SIZE // 2) * radiance)
+    # The solid angle of a disk at distance 1 times the radiance of a ball of 1 W, as Cycles has it. Of four
+    # rows for each texel the one that the rim lies in counts for up to a quarter of its width wrongly.
+    expected = 2.0 * np.pi * (1.0 - 1.0 / np.sqrt(1.0 + radius**2)) / (4.0 * np.pi**2 * radius**2)
+    assert fluence == pytest.approx(expected, rel=0.01)
+
+
 def test_all_the_light_of_a_room_arrives(add_lamp: AddLamp, tmp_path: Path) -> None:
     add_world(0.3)
     add_box((3.0, -2.0, -1.0), 2.0)

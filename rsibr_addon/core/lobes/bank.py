@@ -5,6 +5,7 @@ environment that was filtered once with every kernel of a bank therefore holds t
 uses it: they are its kernels' maps times a small matrix.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -73,6 +74,29 @@ class KernelBank:
         """
         values: Array = self.peaks * np.exp(-2.0 * half_chord_squared[..., None] * self.kappa)
         return values
+
+    def falls(self, half_chord_squared: Array) -> Iterator[Array]:
+        """Kernels over their peaks, one after the other, for less than `values` costs.
+
+        Parameters
+        ----------
+        half_chord_squared : ndarray, any shape
+            As in `values`.
+
+        Yields
+        ------
+        ndarray, shape of `half_chord_squared`
+            exp(kappa (cos - 1)), valid until the next is asked for.
+        """
+        held: dict[float, Array] = {}
+        for kappa in self.concentrations:
+            fall = held.pop(0.5 * kappa, None)
+            if fall is None:
+                fall = np.exp(-2.0 * kappa * half_chord_squared)
+            else:
+                fall *= fall  # twice as sharp
+            held[kappa] = fall
+            yield fall
 
     def products(self, angle: Array) -> tuple[Array, Array, Array]:
         """Scalar products over the sphere of kernels about two axes, and how they change.

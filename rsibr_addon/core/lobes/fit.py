@@ -77,9 +77,7 @@ class Fit:
         for name, shape in expected.items():
             array = getattr(self, name)
             if array.shape != shape or 0 in shape or self.weights.shape[1] not in (1, slices):
-                raise ShapeError(
-                    f"{name} of a fit has shape {array.shape}, which does not fit: make it anew."
-                )
+                raise ShapeError(f"{name} of a fit has shape {array.shape}, unlike the rest: make it anew.")
             if not np.all(np.isfinite(array)):
                 raise RangeError(f"{name} of a fit holds values that are not finite: make it anew.")
         if np.any(np.diff(self.mu, prepend=0.0) <= 0.0) or self.mu[-1] > 1.0:
@@ -152,7 +150,9 @@ class Fit:
         total = np.zeros(light_dir.shape)
         for axis, weights in zip(*self.at(mu), strict=True):
             chord = light_dir - axis
-            total += self.bank.values(0.25 * dot(chord, chord)) @ weights
+            falls = self.bank.falls(0.25 * dot(chord, chord))
+            for fall, weight in zip(falls, self.bank.peaks[:, None] * weights, strict=True):
+                total += fall[..., None] * weight
         return total
 
     def _neighbours(self, mu: float) -> tuple[int, float]:

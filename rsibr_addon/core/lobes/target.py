@@ -10,7 +10,7 @@ from ..brdf.model import BrdfFunction
 from ..conventions import Array
 from ..errors import RangeError
 
-RADIAL_NODES, ARC_NODES = 12, 24
+RADIAL_NODES, ARC_NODES = 20, 24
 _FINENESS = 10.0
 _NEGLIGIBLE = 1e-8
 

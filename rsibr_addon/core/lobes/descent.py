@@ -1,0 +1,59 @@
+"""Down to the best axes of one elevation: Levenberg-Marquardt over variable projection."""
+
+import numpy as np
+
+from ..conventions import Array
+from .projection import Lookups, Projection, Projector
+
+_ITERATIONS, _TRIALS = 40, 7
+_CONVERGED = 1e-6
+_DAMPING = 1e-3
+_LARGEST_TURN = 0.3
+_FLATTEST = 1e-9
+
+
+def descend(projector: Projector, lookups: Lookups, with_taps: bool) -> tuple[Lookups, Projection]:
+    """Move axes, and the weights of taps, to where the error is least nearby.
+
+    Parameters
+    ----------
+    projector : Projector
+    lookups : Lookups
+        Where to start.
+    with_taps : bool
+        Whether the taps' weights move too.
+
+    Returns
+    -------
+    lookups : Lookups
+    projection : Projection
+        Of these.
+    """
+    count = lookups.angles.size
+    free = slice(None) if with_taps else slice(count)
+    here, damping = projector.project(lookups), _DAMPING
+    for _ in range(_ITERATIONS):
+        gradient, hessian = here.gradient[free], here.hessian[free, free]
+        diagonal = np.maximum(hessian.diagonal(), _FLATTEST)
+        for _ in range(_TRIALS):
+            step = np.zeros(2 * count)
+            step[free] = -np.linalg.solve(hessian + damping * np.diag(diagonal), gradient)
+            moved = _moved(lookups, step, projector.non_negative)
+            there = projector.project(moved)
+            if there.objective < here.objective:
+                break
+            damping *= 10.0
+        else:
+            break
+        gain = here.objective - there.objective
+        lookups, here, damping = moved, there, damping / 10.0
+        if gain < _CONVERGED * here.objective:
+            break
+    return lookups, here
+
+
+def _moved(lookups: Lookups, step: Array, non_negative: bool) -> Lookups:
+    turn, change = np.split(step, 2)
+    turn = np.clip(turn, -_LARGEST_TURN, _LARGEST_TURN).reshape(lookups.angles.shape)
+    taps = lookups.taps + change.reshape(lookups.taps.shape)
+    return Lookups(lookups.angles + turn, np.maximum(taps, 0.0) if non_negative else taps)

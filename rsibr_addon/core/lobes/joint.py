@@ -1,0 +1,184 @@
+"""All profiles of a fit together, with axes by variable projection, tracked over the elevations.
+
+Fits grow lobe by lobe. A new lobe is tried at every angle, and by spreading those that are there; the better
+start is followed to its optimum at one elevation, and from there to grazing and to normal incidence, each
+elevation starting from its neighbour's tilts.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..conventions import Array
+from .bank import KernelBank, octaves
+from .descent import descend
+from .fit import Fit
+from .projection import Lookups, Projector
+from .target import TargetSlice
+
+MOST_AMPLIFICATION, MOST_OF_ONE = 8.0, 2.0
+"""Ridges grow until several lobes, or the taps of one, keep these: see `amplification`."""
+
+_SHARPNESS = 20.0
+_START = 0.25
+_ANGLES = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 33)
+_STIFFER, _STIFFEST = 3.0, 1e4
+
+
+@dataclass(frozen=True)
+class State:
+    """The fit at one elevation.
+
+    Attributes
+    ----------
+    lookups : Lookups
+    weights : ndarray, shape (J, K, 3)
+        Of the kernels.
+    """
+
+    lookups: Lookups
+    weights: Array
+
+
+def bank_for(slices: Sequence[TargetSlice]) -> KernelBank:
+    """Kernels for targets in ascending order of elevation: down to a 20th of the last one's width."""
+    return octaves((_SHARPNESS / slices[-1].radius) ** 2)
+
+
+def joint_fits(
+    slices: Sequence[TargetSlice], brdf: str, taps: int = 1, non_negative: bool = False
+) -> Iterator[Fit]:
+    """Fit with one lobe, then two, then three, and so on without end.
+
+    Parameters
+    ----------
+    slices : sequence of TargetSlice
+        In ascending order of elevation.
+    brdf : str
+        The text of the model.
+    taps : int
+        Directions in which each lobe's map is looked up.
+    non_negative : bool
+        Whether no kernel may have a negative weight.
+
+    Yields
+    ------
+    Fit
+    """
+    bank = bank_for(slices)
+    first = int(_START * len(slices))
+    projector = Projector(slices[first], bank, non_negative=non_negative)
+    lobes: Array = np.zeros((0, 1))
+    while True:
+        start = _added_lobe(projector, lobes)
+        lobes = start.angles
+        for _ in range(taps - 1):
+            start, _ = descend(projector, _added_tap(start, projector.target.radius), with_taps=True)
+        states = _tracked(slices, bank, start, first, non_negative)
+        yield _fit(slices, bank, states, brdf)
+
+
+def amplification(bank: KernelBank, state: State, target: TargetSlice) -> float:
+    """How loud lobes and taps are together, over their sum.
+
+    Parameters
+    ----------
+    bank : KernelBank
+    state : State
+    target : TargetSlice
+
+    Returns
+    -------
+    float
+        Sum over lobes of sqrt(integral of lobe^2) * sum of |taps|, over sqrt(integral of target^2). Where
+        each map has a relative error of its own, in half floats 2^-11 say, the sum has up to so many times
+        it.
+    """
+    own = bank.products(np.zeros(()))[0]
+    loudness = np.sqrt(np.einsum("jkc,kl,jlc->j", state.weights, own, state.weights))
+    total = np.sum(loudness * np.abs(state.lookups.taps).sum(axis=1))
+    return float(total / np.sqrt(target.power))
+
+
+def _added_lobe(projector: Projector, angles: Array) -> Lookups:
+    """The best lookups with one lobe more, shapes (J + 1, 1)."""
+    candidates = [np.append(angles, [[angle]], axis=0) for angle in _ANGLES]
+    starts = [min((Lookups(start, np.ones_like(start)) for start in candidates), key=projector.objective)]
+    if len(angles):
+        spread = _spread(angles.T, projector.target.radius).T
+        starts.append(Lookups(spread, np.ones_like(spread)))
+    settled = [descend(projector, start, with_taps=False) for start in starts]
+    return min(settled, key=lambda pair: pair[1].objective)[0]
+
+
+def _added_tap(lookups: Lookups, width: float) -> Lookups:
+    """One tap more for every lobe, between those that are there."""
+    angles = _spread(lookups.angles, width)
+    return Lookups(angles, np.full(angles.shape, 1.0 / angles.shape[1]))
+
+
+def _spread(angles: Array, width: float) -> Array:
+    """Angles in rows, each row with one more of the same distribution; single ones part by `width`."""
+    count = angles.shape[1]
+    if count == 1:
+        return angles + width * np.array([-0.5, 0.5])
+    ordered = np.sort(angles, axis=1)
+    position = (np.arange(count + 1) + 0.5) / (count + 1) * count - 0.5
+    below = np.clip(np.floor(position).astype(np.intp), 0, count - 2)
+    share = position - below
+    spread: Array = (1.0 - share) * ordered[:, below] + share * ordered[:, below + 1]
+    return spread
+
+
+def _tracked(
+    slices: Sequence[TargetSlice], bank: KernelBank, start: Lookups, first: int, non_negative: bool
+) -> list[State]:
+    """The fit at every elevation, each from its neighbour's tilts, beginning with `first`."""
+    states: dict[int, State] = {}
+    for order in (range(first, len(slices)), range(first - 1, -1, -1)):
+        neighbour = first
+        for index in order:
+            lookups = states[neighbour].lookups if states else start
+            tilts = _tilts(slices[neighbour], lookups.angles)
+            angles = slices[index].theta - tilts * np.sin(slices[index].theta)
+            states[index] = _settled(slices[index], bank, Lookups(angles, lookups.taps), non_negative)
+            neighbour = index
+    return [states[index] for index in range(len(slices))]
+
+
+def _settled(target: TargetSlice, bank: KernelBank, lookups: Lookups, non_negative: bool) -> State:
+    """The optimum nearby that is not too loud."""
+    most = MOST_AMPLIFICATION if len(lookups.taps) > 1 else MOST_OF_ONE
+    stiffness = 1.0
+    while True:
+        projector = Projector(target, bank, stiffness, non_negative)
+        lookups, projection = descend(projector, lookups, with_taps=lookups.taps.shape[1] > 1)
+        state = State(lookups, projection.weights)
+        if amplification(bank, state, target) <= most or stiffness > _STIFFEST:
+            return state
+        stiffness *= _STIFFER
+
+
+def _tilts(target: TargetSlice, angles: Array) -> Array:
+    """Offsets of axes from the mirror direction, as `fit.lobe_axes` counts them."""
+    tilts: Array = (target.theta - angles) / np.sin(target.theta)
+    return tilts
+
+
+def _fit(slices: Sequence[TargetSlice], bank: KernelBank, states: Sequence[State], brdf: str) -> Fit:
+    weights = np.stack([state.weights for state in states], axis=1)
+    taps = np.stack([state.lookups.taps for state in states], axis=1)
+    tilts = [_tilts(target, state.lookups.angles) for target, state in zip(slices, states, strict=True)]
+    offsets = np.stack([np.stack(tilts, axis=1), np.zeros_like(taps)], axis=-1)
+    total = np.abs(taps).sum(axis=2, keepdims=True)
+    return Fit(
+        brdf=brdf,
+        method="joint",
+        mu=np.array([target.mu for target in slices]),
+        bank=bank,
+        weights=weights * total[..., None],
+        scale=np.ones((*taps.shape[:2], 3)),
+        offsets=offsets,
+        taps=taps / total,
+    )

@@ -17,6 +17,9 @@ SAMPLES = 40_000
 GREEN = 1
 """The colour in which movement is looked for: it has the least noise, and in most cameras the most pixels."""
 
+BLACK = 2.0 / 255.0
+"""Encoded values up to this are black: rounding alone makes a quarter of them."""
+
 STILL = 0.1
 """Movements of less than this [pixels] are left alone: making up for them would blur."""
 
@@ -68,7 +71,7 @@ def certainty(encoded: Array) -> Array:
         padded = np.concatenate([brightest.take([0], axis), brightest, brightest.take([-1], axis)], axis)
         size = encoded.shape[axis]
         brightest = np.max([padded.take(range(i, i + size), axis) for i in range(3)], axis=0)
-    hat: Array = 2.0 * np.minimum(encoded, 1.0 - brightest, dtype=np.float64)
+    hat: Array = 2.0 * np.minimum(encoded - BLACK, 1.0 - brightest, dtype=np.float64)
     return np.clip(hat, 0.0, 1.0)
 
 
@@ -128,7 +131,7 @@ def merge_bracket(
     return Merged(
         np.exp(np.where(unsure, rest, mean)).astype(np.float32),
         float(np.mean(np.any(unsure & (shortest >= 1.0), axis=-1))),
-        float(np.mean(np.any(unsure & (longest <= 0.0), axis=-1))),
+        float(np.mean(np.any(unsure & (longest <= BLACK), axis=-1))),
         curve,
         tuple(motions),
     )

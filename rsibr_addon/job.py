@@ -1,12 +1,16 @@
-"""What is to be captured: one description for panels, the command line and farms, and its JSON."""
+"""What is to be made: one description for panels, the command line and farms."""
 
-import dataclasses
 import json
 from dataclasses import dataclass
-from typing import Any
 
 from .core.errors import InputFileError, RangeError
 from .core.geodesic import VERTEX_COUNTS
+
+FORMAT = 1
+"""Of a job's JSON."""
+
+COMMANDS = ("capture", "bake", "tables", "mips", "illuminate")
+"""What a job may be of."""
 
 
 @dataclass(frozen=True)
@@ -56,52 +60,70 @@ class CaptureJob:
             counts = ", ".join(map(str, VERTEX_COUNTS))
             raise RangeError(f"A capture cannot have {self.views} views: choose one of {counts}.")
 
+
+@dataclass(frozen=True)
+class BakeJob:
+    """One piece of work: what `rsibr` is to do, whoever has it done.
+
+    A panel writes it for a background Blender, a farm for its nodes, a person by hand; and
+    `rsibr bake JOB.json` does it.
+
+    Attributes
+    ----------
+    arguments : tuple of str
+        Of the command line, the command first: ("capture", "--material", "copper", ...).
+
+    Raises
+    ------
+    RangeError
+        There is no command, or it is one that makes no file.
+    """
+
+    arguments: tuple[str, ...]
+
+    def __post_init__(self) -> None:
+        if self.arguments[:1] and self.arguments[0] in COMMANDS:
+            return
+        raise RangeError(f"A job begins with what is to be made: one of {', '.join(COMMANDS)}.")
+
     def to_json(self) -> str:
         """The job as a JSON object, which `from_json` takes back."""
-        return json.dumps(dataclasses.asdict(self))
+        return json.dumps({"format": FORMAT, "arguments": self.arguments}, indent=1)
 
     @classmethod
-    def from_json(cls, text: str, name: str) -> "CaptureJob":
+    def from_json(cls, text: str, name: str) -> "BakeJob":
         """Read a job.
 
         Parameters
         ----------
         text : str
-            A JSON object of the attributes; those that have defaults may be left out.
+            A JSON object with the fields "format", 1, and "arguments", a list of text.
         name : str
             Where the text is from, for messages.
 
         Returns
         -------
-        CaptureJob
+        BakeJob
 
         Raises
         ------
         InputFileError
-            The text is no JSON object, or a field is unknown, missing or of another type.
-        RangeError
-            A number is out of range.
+            The text is no such object, or of a newer format.
         """
         try:
             given = json.loads(text)
         except (ValueError, RecursionError) as error:
             raise InputFileError(f"{name} is not JSON ({error}): write it anew.") from error
-        if not isinstance(given, dict):
-            raise InputFileError(f"{name} is no JSON object: give one with the fields of a job.")
-        fields = {field.name: field for field in dataclasses.fields(cls)}
-        for key, value in given.items():
-            if key not in fields:
-                raise InputFileError(f"{name} has an unknown field {key}: choose from {', '.join(fields)}.")
-            wanted = fields[key].type
-            if not _is_of_type(value, wanted):
-                words = getattr(wanted, "__name__", wanted)
-                raise InputFileError(f"{name} has {json.dumps(value)} for {key}: give a value of {words}.")
-        for key, field in fields.items():
-            if field.default is dataclasses.MISSING and key not in given:
-                raise InputFileError(f"{name} lacks the field {key}: add it.")
-        return cls(**given)
-
-
-def _is_of_type(value: Any, wanted: Any) -> bool:
-    # To Python, but not to JSON, true is a number.
-    return isinstance(value, wanted) and (not isinstance(value, bool) or wanted is bool)
+        if not isinstance(given, dict) or given.keys() != {"format", "arguments"}:
+            raise InputFileError(f"{name} is no job: give an object with the fields format and arguments.")
+        if given["format"] != FORMAT:
+            raise InputFileError(
+                f"{name} is a job of format {given['format']}, not {FORMAT}: update RSIBR, or write it anew."
+            )
+        arguments = given["arguments"]
+        if not isinstance(arguments, list) or not all(isinstance(each, str) for each in arguments):
+            raise InputFileError(f"{name} has arguments that are no list of text: write it anew.")
+        try:
+            return cls(tuple(arguments))
+        except RangeError as error:
+            raise InputFileError(f"{name} cannot be done. {error}") from error

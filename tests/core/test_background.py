@@ -1,0 +1,115 @@
+"""Bakes in processes of their own: what they say is heard, and whatever becomes of them is told."""
+
+import json
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from rsibr.rsibr_addon.core.progress import Progress
+from rsibr.rsibr_addon.tasks.background import Bake, BakeQueue, State, blender_command
+
+
+def bake(script: str, title: str = "bake") -> Bake:
+    return Bake(title, Path("out.rsibr.exr"), [sys.executable, "-c", script])
+
+
+def told(**fields: object) -> str:
+    """A line of Python that tells of progress."""
+    line = json.dumps({"progress": fields})
+    return f"import sys; print({line!r}, file=sys.stderr, flush=True)\n"
+
+
+def result(**fields: object) -> str:
+    return f"print({json.dumps(fields)!r})\n"
+
+
+def wait(queue: BakeQueue, until: Callable[[], bool]) -> list[Bake]:
+    ended = []
+    deadline = time.monotonic() + 30.0
+    while not until():
+        assert time.monotonic() < deadline
+        ended += queue.update()
+        time.sleep(0.01)
+    return ended
+
+
+def test_one_after_another() -> None:
+    queue = BakeQueue()
+    script = (
+        told(done=1, total=4, what="view 2") + result(ok=True, warnings=["dark"]) + "print('Blender quit')"
+    )
+    first, second = bake(script, "first"), bake(script, "second")
+    queue.add(first)
+    queue.add(second)
+    assert (first.state, second.state) == (State.RUNNING, State.WAITING)
+    assert wait(queue, lambda: not queue.busy) == [first, second]
+    assert first.state is second.state is State.DONE
+    assert first.fraction == 0.25
+    assert first.progress == Progress(1, 4, "view 2")
+    assert first.warnings == ["dark"]
+    queue.forget_ended()
+    assert queue.bakes == []
+
+
+def test_failures_are_told_in_words() -> None:
+    queue = BakeQueue()
+    said = bake(result(ok=False, error="The disk is full: free some.", warnings=[]) + "raise SystemExit(1)")
+    died = bake("import os, sys; print('GPU on fire', file=sys.stderr, flush=True); os._exit(11)")
+    missing = Bake("none", Path("x"), ["/nowhere/blender"])
+    for each in (said, died, missing):
+        queue.add(each)
+    wait(queue, lambda: not queue.busy)
+    assert [each.state for each in queue.bakes] == [State.FAILED] * 3
+    assert said.message == "The disk is full: free some."
+    assert died.message == "The background Blender ended with code 11 and no result: GPU on fire"
+    assert missing.message.startswith("/nowhere/blender cannot be started")
+
+
+def test_a_cancelled_bake_ends_and_the_next_begins() -> None:
+    queue = BakeQueue()
+    endless = bake(told(done=0, total=2, what="waiting") + "import time; time.sleep(600)")
+    after = bake(result(ok=True))
+    queue.add(endless)
+    queue.add(after)
+    wait(queue, lambda: endless.progress is not None)
+    assert endless.seconds_left is None
+    endless.cancel()
+    assert endless.state is State.CANCELLED
+    wait(queue, lambda: not queue.busy)
+    assert after.state is State.DONE
+
+
+def test_a_waiting_bake_can_be_cancelled_and_a_closed_queue_leaves_nothing() -> None:
+    queue = BakeQueue()
+    endless, waiting = (bake("import time; time.sleep(600)") for _ in range(2))
+    queue.add(endless)
+    queue.add(waiting)
+    waiting.cancel()
+    assert waiting.state is State.CANCELLED
+    process = endless._process
+    queue.close()
+    assert process is not None
+    assert process.poll() is not None
+    assert queue.bakes == []
+
+
+def test_time_left_is_judged_by_the_steps_so_far() -> None:
+    queue = BakeQueue()
+    steps = (
+        told(done=2, total=6, what="a") + "import time; time.sleep(0.5)\n" + told(done=4, total=6, what="b")
+    )
+    steady = bake(steps + "time.sleep(600)")
+    queue.add(steady)
+    wait(queue, lambda: steady.progress is not None and steady.progress.done == 4)
+    left = steady.seconds_left
+    # Two steps took half a second or more, however slow the machine; two more are to come.
+    assert left is not None
+    assert 0.45 < left < 30.0
+    queue.close()
+
+
+def test_the_command_is_blenders() -> None:
+    command = blender_command("/opt/blender", Path("a.blend"), Path("job.json"))
+    assert command[:5] == ["/opt/blender", "--background", "a.blend", "--command", "rsibr"]
+    assert command[5:] == ["bake", "job.json", "--json", "--progress", "json"]

@@ -21,7 +21,7 @@ from .stack import LobeStack, stack_representation
 SIZES = (16, 32, 64, 128, 256, 512)
 """Widths of maps to choose from."""
 
-ALLOWED_INTERPOLATION = 0.005
+ALLOWED_INTERPOLATION = 0.0025
 """Relative root-mean-square error that bilinear lookups may cost where no size is asked for."""
 
 

@@ -1,0 +1,7 @@
+// Shows at every normal what an exactly lit sphere shows there.
+#include "lib/lit_sphere_lib.glsl"
+
+void main()
+{
+  radiance = vec4(lit_sphere_radiance(rings, mat3(sphere.frame), normalize(world_normal)), 1.0);
+}

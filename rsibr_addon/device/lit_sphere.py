@@ -1,0 +1,55 @@
+"""An exactly lit sphere on the GPU, to show any mesh as it does: the reference of pictures."""
+
+import gpu
+import numpy as np
+
+from ..core.lit_sphere import LitSphere
+from . import buffers
+from .drawing import Draw
+from .shaders import build, kept_until_exit, mesh_interface
+
+_SPHERE_BLOCK = "struct Sphere { mat4 frame; };"
+
+
+class LitSphereOnDevice:
+    """Radiance by normals, uploaded; meshes are to be seen from where the sphere was.
+
+    Parameters
+    ----------
+    sphere : LitSphere
+    """
+
+    def __init__(self, sphere: LitSphere) -> None:
+        rings, width = sphere.radiance.shape[:2]
+        texels = np.ones((rings, width + 2, 4), dtype=np.float32)
+        texels[..., :3] = sphere.radiance[:, np.arange(-1, width + 1) % width]
+        self._rings = buffers.texture(texels)
+        frame = np.eye(4)
+        frame[:3, :3] = sphere.frame
+        self._block = buffers.uniform_block(frame)
+
+    def draw(self, mesh: gpu.types.GPUBatch, draw: Draw, look: None) -> None:
+        """See `OnDevice.draw`; there is one look. Reference: `core.lit_sphere.LitSphere.at`."""
+        # Bound blocks must outlive the draw: Blender keeps no reference to them.
+        placed = draw.uniforms()
+        shader = lit_sphere_shader()
+        shader.bind()
+        shader.uniform_block("draw", placed)
+        shader.uniform_block("sphere", self._block)
+        shader.uniform_sampler("rings", self._rings)
+        mesh.draw(shader)
+
+
+@kept_until_exit
+def lit_sphere_shader() -> gpu.types.GPUShader:
+    """Draws a mesh from a lit sphere.
+
+    Raises
+    ------
+    DeviceError
+        The driver refuses the program.
+    """
+    info = mesh_interface(_SPHERE_BLOCK)
+    info.uniform_buf(1, "Sphere", "sphere")
+    info.sampler(0, "FLOAT_2D", "rings")
+    return build("lit_sphere", info, "mesh_vert.glsl", "lit_sphere_frag.glsl")

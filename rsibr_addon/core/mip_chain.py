@@ -7,8 +7,8 @@ import numpy as np
 from .conventions import Array
 from .errors import RangeError, ShapeError
 
-LARGEST = 2048
-"""Width of the largest faces: four bytes a channel, a chain of them takes 400 MB."""
+LARGEST = 1024
+"""Width of the largest faces: filtering and uploading such a chain takes some 1.5 GB."""
 
 
 @dataclass(frozen=True)

@@ -82,8 +82,8 @@ def test_a_chain_is_previewed_as_it_is_asked_for(light: np.ndarray) -> None:
 @pytest.mark.parametrize(
     ("options", "told"),
     [
-        (["--size", "48"], "A mip chain cannot be 48 texels wide: choose a power of 2 up to 2048."),
-        (["--size", "4096"], "A mip chain cannot be 4096 texels wide: choose a power of 2 up to 2048."),
+        (["--size", "48"], "A mip chain cannot be 48 texels wide: choose a power of 2 up to 1024."),
+        (["--size", "2048"], "A mip chain cannot be 2048 texels wide: choose a power of 2 up to 1024."),
         (["--size", "16", "--roughness", "0,0.7,0.5"], "Roughnesses 0, 0.7, 0.5 do not ascend"),
         (["--size", "2", "--roughness", "0,0.5,1"], "A chain from 2 texels has 1 to 2 mips, not 3"),
         (["--roughness", "cubic"], "There is no roughness rule cubic: choose linear, quadratic, or numbers."),

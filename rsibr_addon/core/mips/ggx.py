@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..conventions import Array
+from ..conventions import Array, texel_centres
 from ..errors import RangeError
 from ..harmonics.analysis import analyse_environment
 from ..maps.representation import representation
@@ -151,6 +151,10 @@ def environment_faces(radiance: Array, size: int) -> Array:
         Looked up between texels where a face has as many as a quarter turn of the map; else the mean over
         each texel.
     """
-    if 4 * size >= radiance.shape[1]:
-        return lookup(radiance[None], CUBE.texel_directions(size), EQUIRECT)
-    return resample(radiance[None], EQUIRECT, CUBE, size)
+    if 4 * size < radiance.shape[1]:
+        return resample(radiance[None], EQUIRECT, CUBE, size)
+    faces = np.empty((6, size, size, radiance.shape[2]))
+    uv = texel_centres(size, size)
+    for face, texels in enumerate(faces):  # one after the other, for the memory that a lookup takes
+        texels[...] = lookup(radiance[None], CUBE.direction_from_uv(uv, np.array(face)), EQUIRECT)
+    return faces

@@ -1,0 +1,43 @@
+"""Show all that a map set holds on one HTML page."""
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from . import options
+from .report import Report
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what `run` reads."""
+    options.add_map_set(parser)
+    parser.add_argument(
+        *("-o", "--output"),
+        metavar="OUT.html",
+        type=Path,
+        help="the page, which needs nothing beside it (default: NAME.html beside the map set)",
+    )
+    parser.add_argument("--force", action="store_true", help="replace what exists")
+
+
+def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
+    """Write the page.
+
+    Returns
+    -------
+    dict
+        "page", its path.
+
+    Raises
+    ------
+    RsibrError
+        See `tasks.map_set_page`.
+    """
+    from ..tasks.map_set_page import map_set_page
+
+    map_set = arguments.map_set
+    stem = map_set.name.removesuffix(".exr").removesuffix(".rsibr")
+    output = arguments.output or map_set.with_name(f"{stem}.html")
+    page = report.steps(map_set_page(map_set, output, arguments.force))
+    report.say(f"{page}")
+    return {"page": str(page)}

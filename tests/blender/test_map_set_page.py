@@ -1,0 +1,48 @@
+"""The page of a map set: whole in itself, with everything that the set holds."""
+
+import re
+from pathlib import Path
+
+import pytest
+from rsibr.rsibr_addon.core.errors import MapSetError, OutputFileError
+from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.files.map_set import read_map_set_header
+from rsibr.rsibr_addon.tasks.bake_mips import MipSettings, bake_mips
+from rsibr.rsibr_addon.tasks.map_set_page import map_set_page
+
+pytestmark = pytest.mark.needs("gl")
+
+
+@pytest.fixture(scope="module")
+def map_set(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("mips") / "<mips>.rsibr.exr"
+    with pytest.warns(match="negative"):
+        return drain(bake_mips("forest", MipSettings("box", 16), path))
+
+
+def test_all_of_a_map_set_is_on_its_page(map_set: Path, tmp_path: Path) -> None:
+    text = drain(map_set_page(map_set, tmp_path / "page.html")).read_text()
+    header = read_map_set_header(map_set)
+    assert "&lt;mips&gt;.rsibr.exr" in text
+    for part in header["parts"]:
+        assert f'alt="{part["name"]}"' in text
+    assert header["software"] in text
+    # Two pictures drawn with it, and one of each map
+    assert text.count("data:image/png;base64,") == 2 + len(header["parts"])
+    assert not re.search(r"<script|<link|https?:|src=\"(?!data:)", text)
+
+
+def test_files_are_not_replaced_unasked(map_set: Path, tmp_path: Path) -> None:
+    page = tmp_path / "page.html"
+    page.write_text("mine")
+    with pytest.raises(OutputFileError, match="exists"):
+        drain(map_set_page(map_set, page))
+    assert page.read_text() == "mine"
+    assert drain(map_set_page(map_set, page, force=True)).read_text().startswith("<!doctype html>")
+
+
+def test_bad_names_are_told(map_set: Path, tmp_path: Path) -> None:
+    with pytest.raises(OutputFileError, match=r"page.txt would not open in a browser"):
+        drain(map_set_page(map_set, tmp_path / "page.txt"))
+    with pytest.raises(MapSetError, match="does not exist"):
+        drain(map_set_page(tmp_path / "none.rsibr.exr", tmp_path / "page.html"))

@@ -37,6 +37,33 @@ def brdf_from_spec(spec: str) -> Brdf:
     RsibrWarning
         The model reflects more light than it gets, or a measured file holds values that had to be replaced.
     """
-    brdf = brdf_spec.brdf_from_spec(spec, lambda name, path: READERS[name](path))
+    brdf = brdf_spec.brdf_from_spec(spec, read_measured)
     warn_of_gain(brdf, spec)
     return brdf
+
+
+def read_measured(name: str, path: str) -> Brdf:
+    """Read a measured model.
+
+    Parameters
+    ----------
+    name : str
+        Its format, one of `READERS`.
+    path : str
+        Its file.
+
+    Returns
+    -------
+    Brdf
+
+    Raises
+    ------
+    InputFileError
+        The file is missing or not what it should be.
+
+    Warns
+    -----
+    RsibrWarning
+        It holds values that had to be replaced.
+    """
+    return READERS[name](path)

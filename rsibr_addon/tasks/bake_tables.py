@@ -9,7 +9,7 @@ from ..core.tables.bake import TableSizes, bake_tables
 from ..core.tables.material import material_from_texts
 from ..core.tables.weights import warn_of_table_gain
 from ..files.atomic import check_target
-from ..files.brdfs import READERS
+from ..files.brdfs import read_measured
 from ..files.kinds.reflection_tables import to_map_set
 from ..files.map_set import write_map_set
 from ..host.version import software
@@ -70,7 +70,7 @@ def bake_table_set(
         Negative values of the environment were set to 0; the material reflects more light than it gets.
     """
     check_target(output, force)
-    material = material_from_texts(settings.material, lambda name, path: READERS[name](path))
+    material = material_from_texts(settings.material, read_measured)
     warn_of_table_gain(material)
     yield Progress(0, 1, "reading the environment")
     light = load_environment(environment)

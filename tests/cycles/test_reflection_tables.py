@@ -12,6 +12,7 @@ from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.core.shading.reflection_tables import TablesLook, reflect_tables
 from rsibr.rsibr_addon.core.tables.bake import TableSizes, bake_tables
 from rsibr.rsibr_addon.core.tables.material import material_from_texts
+from rsibr.rsibr_addon.files.brdfs import read_measured
 from rsibr.rsibr_addon.host.cameras import add_camera
 from rsibr.rsibr_addon.host.cycles import RenderSettings, render_view
 from rsibr.rsibr_addon.host.scenes import temporary_scene
@@ -47,7 +48,9 @@ def rendered(material: bpy.types.Material, samples: int) -> tuple[np.ndarray, fl
 
 def shown_from(**texts: str) -> np.ndarray:
     """The same from reflection tables that all count in full at every angle."""
-    baked = drain(bake_tables(environment().radiance, material_from_texts(texts, open), TableSizes()))
+    baked = drain(
+        bake_tables(environment().radiance, material_from_texts(texts, read_measured), TableSizes())
+    )
     tables = replace(baked.tables, weights=np.ones_like(baked.tables.weights))
     normal = sphere_map.normal_from_uv(texel_centres(FINE, FINE)) @ CAMERA.frame.T
     radiance = reflect_tables(tables, normal, CAMERA.view_dir, TablesLook())

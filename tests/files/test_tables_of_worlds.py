@@ -11,9 +11,10 @@ from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.core.reflection_tables import Role
 from rsibr.rsibr_addon.core.tables.bake import BakedTables, TableSizes, bake_tables
 from rsibr.rsibr_addon.core.tables.material import material_from_texts
+from rsibr.rsibr_addon.files.brdfs import read_measured
 from rsibr.rsibr_addon.files.environments import read_environment
 
-ROWS = 6
+ROWS = 4
 DIRECTIONS = equirect.direction_from_uv(texel_centres(2 * ROWS, ROWS))
 
 
@@ -25,7 +26,7 @@ def world(blender_worlds: Path) -> Environment:
 
 
 def bake(world: Environment, **texts: str) -> BakedTables:
-    material = material_from_texts(texts, open)
+    material = material_from_texts(texts, read_measured)
     return drain(bake_tables(world.radiance, material, TableSizes(ROWS, ROWS)))
 
 

@@ -9,7 +9,11 @@ import numpy as np
 import pytest
 import rsibr
 from rsibr.rsibr_addon.command_line.main import run
+from rsibr.rsibr_addon.core.camera import Camera
+from rsibr.rsibr_addon.core.conventions import texel_centres
+from rsibr.rsibr_addon.core.directions import reflect
 from rsibr.rsibr_addon.core.irradiance import irradiance_from_harmonics
+from rsibr.rsibr_addon.core.maps import equirect, sphere_map
 from rsibr.rsibr_addon.core.maps.representation import representation
 from rsibr.rsibr_addon.core.mip_chain import MipChain
 from rsibr.rsibr_addon.core.prefilter import prefilter_exact
@@ -18,6 +22,7 @@ from rsibr.rsibr_addon.files.kinds.mip_chain import from_map_set
 from rsibr.rsibr_addon.files.map_set import read_map_set
 from rsibr.rsibr_addon.files.pictures import read_exr
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
+from rsibr.tests.mirror_capture import radiance_from
 from rsibr.tests.open_file import open_file_state
 
 CUBE = representation("cube_map")
@@ -77,6 +82,24 @@ def test_a_chain_is_previewed_as_it_is_asked_for(light: np.ndarray) -> None:
     red = read_exr(Path("red.exr"))
     middle = red[200:300, 200:300]
     assert middle[..., 0].min() > 10.0 * middle[..., 1].max()
+
+
+@pytest.mark.needs("gl")
+@pytest.mark.parametrize("name", ["ggx", "bordered"])
+def test_a_mirrored_sphere_shows_its_surroundings(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    write_radiance(tmp_path / "light.exr", radiance_from(equirect.direction_from_uv(texel_centres(256, 128))))
+    bake("--filter", name, "--size", "64")
+    view = ["--view", "0.3,-0.8,0.45", "--f-lambda", "1", "--size", "48"]
+    assert run(["preview", "out.rsibr.exr", *view, "-o", "ball.exr"]) == 0
+    camera = Camera((0.3, -0.8, 0.45))
+    normals = sphere_map.normal_from_uv(texel_centres(48, 48)) @ camera.frame.T
+    expected = radiance_from(reflect(np.broadcast_to(camera.view_dir, normals.shape), normals))
+    inside = np.linalg.norm(2.0 * texel_centres(48, 48) - 1.0, axis=-1) < 0.9
+    # As of captured mirrors (test_preview.py): interpolation of texels, here twice, and a pixel's average.
+    assert np.abs(read_exr(Path("ball.exr"))[..., :3] - expected)[inside].max() < 0.015
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,6 @@ import numpy as np
 
 from ..core.camera import Camera
 from ..core.conventions import Array
-from ..core.directions import normalize
 from ..core.errors import MapSetError
 from ..core.metrics import relative_rmse, relative_rmse_beyond_noise, unpremultiplied
 from ..core.progress import Progress, Steps
@@ -17,7 +16,7 @@ from ..device.preview import PreviewRenderer
 from ..device.radiance_views import RadianceViewsOnDevice
 from ..files.folders import check_folder_target, folder_written_aside
 from ..host.meshes import load_mesh
-from .comparison import Comparison, ComparisonSettings, Way, WayError
+from .comparison import Comparison, ComparisonSettings, StackWay, Way, WayError
 from .comparison_page import comparison_page
 from .comparison_pictures import save_sheets
 from .kinds import OpenedMapSet, open_map_set
@@ -71,7 +70,7 @@ def compare(
     captured = open_map_set(map_set, "radiance_views")
     subject = _subject(map_set, captured, settings)
     easel = _Easel(captured, settings)
-    cameras = _cameras(settings)
+    cameras = settings.cameras
     references: list[Reference] = []
     drawn: dict[Way, list[Array]] = {way: [] for way in easel.ways}
     for number, camera in enumerate(cameras):
@@ -91,27 +90,8 @@ def compare(
         reference_noise=_noise(references),
         errors=tuple(_error(way, pictures, references) for way, pictures in drawn.items()),
     )
-    with folder_written_aside(output, RESULT, force) as folder:
-        sheets = save_sheets(folder / "images", [reference.rgba for reference in references], drawn)
-        (folder / "index.html").write_text(comparison_page(comparison, sheets), encoding="utf-8")
-        (folder / RESULT).write_text(json.dumps(comparison.to_json(), indent=1), encoding="utf-8")
+    save_comparison(output, comparison, [reference.rgba for reference in references], drawn, force)
     return comparison
-
-
-def random_directions(count: int, seed: int) -> Array:
-    """Directions that are equally likely everywhere on the sphere.
-
-    Parameters
-    ----------
-    count, seed : int
-
-    Returns
-    -------
-    ndarray, shape (count, 3), float64
-        Unit vectors; the first of more are the same as fewer.
-    """
-    # Normal distributions along three axes favour no direction.
-    return normalize(np.random.default_rng(seed).standard_normal((count, 3)))
 
 
 class _Easel:
@@ -141,9 +121,34 @@ class _Easel:
         )
 
 
-def _cameras(settings: ComparisonSettings) -> list[Camera]:
-    directions = random_directions(settings.views, settings.seed).tolist()
-    return [Camera((x, y, z), settings.field_of_view) for x, y, z in directions]
+def save_comparison(
+    output: Path,
+    comparison: Comparison,
+    references: list[Array],
+    drawn: dict[Way, list[Array]] | dict[StackWay, list[Array]],
+    force: bool,
+) -> None:
+    """Write a comparison's folder.
+
+    Parameters
+    ----------
+    output : Path
+    comparison : Comparison
+    references : list of ndarray, each of shape (size, size, 4)
+        Radiance times coverage, and coverage; row 0 at the bottom.
+    drawn : dict of Way or StackWay to list of ndarray
+        The same views, drawn.
+    force : bool
+        Whether an earlier comparison is replaced.
+
+    Raises
+    ------
+    OutputFileError
+    """
+    with folder_written_aside(output, RESULT, force) as folder:
+        sheets = save_sheets(folder / "images", references, drawn)
+        (folder / "index.html").write_text(comparison_page(comparison, sheets), encoding="utf-8")
+        (folder / RESULT).write_text(json.dumps(comparison.to_json(), indent=1), encoding="utf-8")
 
 
 def _subject(map_set: Path, captured: OpenedMapSet, settings: ComparisonSettings) -> Subject:

@@ -6,6 +6,11 @@ from dataclasses import asdict, dataclass, field
 from statistics import median
 from typing import Any, Self
 
+import numpy as np
+
+from ..core.camera import Camera
+from ..core.conventions import Array
+from ..core.directions import normalize
 from ..core.errors import RangeError
 from ..core.shading.radiance_views import Mode, Warping
 
@@ -14,21 +19,53 @@ LARGEST = 1024
 
 
 @dataclass(frozen=True)
-class ComparisonSettings:
-    """What to render with Cycles, and which ways of drawing to hold against it.
+class SceneSettings:
+    """What is seen in a comparison, from where, and how large.
 
     Attributes
     ----------
     views : int
         How many view directions, at least 1, evenly distributed at random over the sphere.
     seed : int
-        Of the directions and of Cycles' noise.
+        Of everything random.
     mesh : str
         As `host.meshes.load_mesh` takes it.
     field_of_view : float or None
         Of a perspective camera, in radians; None for orthographic.
     size : int
         Width and height of each picture in pixels, at most `LARGEST`.
+
+    Raises
+    ------
+    RangeError
+        There are no views, or `size` is too large.
+    """
+
+    views: int = 30
+    seed: int = 0
+    mesh: str = "sphere"
+    field_of_view: float | None = None
+    size: int = 128
+
+    def __post_init__(self) -> None:
+        if self.views < 1:
+            raise RangeError(f"A comparison of {self.views} views compares nothing: ask for 1 or more.")
+        if self.size > LARGEST:
+            raise RangeError(f"A comparison cannot be {self.size} pixels wide: choose at most {LARGEST}.")
+
+    @property
+    def cameras(self) -> list[Camera]:
+        """One for each view."""
+        directions = random_directions(self.views, self.seed).tolist()
+        return [Camera((x, y, z), self.field_of_view) for x, y, z in directions]
+
+
+@dataclass(frozen=True)
+class ComparisonSettings(SceneSettings):
+    """What to render with Cycles, and which ways of drawing radiance views to hold against it.
+
+    Attributes
+    ----------
     samples : int
         Cycles' samples a pixel, at least 4: two renders of half as many each tell the noise.
     modes : tuple of Mode
@@ -39,31 +76,48 @@ class ComparisonSettings:
     Raises
     ------
     RangeError
-        There are no views, too few samples, or `size` is too large.
+        Too few samples, or as `SceneSettings`.
     """
 
-    views: int = 30
-    seed: int = 0
-    mesh: str = "sphere"
-    field_of_view: float | None = None
-    size: int = 128
     samples: int = 64
     modes: tuple[Mode, ...] = tuple(Mode)
     warpings: tuple[Warping, ...] = tuple(Warping)
     captured_views: tuple[int, ...] = ()
 
     def __post_init__(self) -> None:
-        if self.views < 1:
-            raise RangeError(f"A comparison of {self.views} views compares nothing: ask for 1 or more.")
+        super().__post_init__()
         if self.samples < 4:
             raise RangeError("Two renders tell the noise of a reference: ask for 4 samples or more.")
-        if self.size > LARGEST:
-            raise RangeError(f"A comparison cannot be {self.size} pixels wide: choose at most {LARGEST}.")
+
+
+@dataclass(frozen=True)
+class StackComparisonSettings(SceneSettings):
+    """What to light exactly, and to hold a lobe stack against.
+
+    Attributes
+    ----------
+    rings : int
+        Of `core.lit_sphere`, at least 4.
+
+    Raises
+    ------
+    RangeError
+        The camera is a perspective one, there are too few rings, or as `SceneSettings`.
+    """
+
+    rings: int = 96
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.field_of_view is not None:
+            raise RangeError("Exact references are seen from afar: leave the perspective out.")
+        if self.rings < 4:
+            raise RangeError(f"{self.rings} rings are too few to interpolate between: ask for 4 or more.")
 
 
 @dataclass(frozen=True)
 class Way:
-    """One way to draw a map set.
+    """One way to draw radiance views.
 
     Attributes
     ----------
@@ -82,21 +136,51 @@ class Way:
         """A name for files and pages: 12-fragment-split."""
         return f"{self.captured_views}-{self.mode}-{self.warping}"
 
+    @property
+    def name(self) -> str:
+        """A name for people."""
+        return f"{self.captured_views} views, {self.mode}, {self.warping} warp"
+
 
 @dataclass(frozen=True)
-class WayError:
-    """Relative RMSE of one way to draw, see `core.metrics.relative_rmse_beyond_noise`.
+class StackWay:
+    """The way to draw a lobe stack: there is one.
 
     Attributes
     ----------
-    way : Way
+    lobes, elevations, taps : int
+        How many there are.
+    """
+
+    lobes: int
+    elevations: int
+    taps: int
+
+    @property
+    def slug(self) -> str:
+        """A name for files and pages: 3-lobes."""
+        return f"{self.lobes}-lobes"
+
+    @property
+    def name(self) -> str:
+        """A name for people."""
+        return f"lobes: {self.lobes}, elevations: {self.elevations}, taps: {self.taps}"
+
+
+@dataclass(frozen=True)
+class WayError:
+    """Relative RMSE of one way to draw, see `core.metrics`.
+
+    Attributes
+    ----------
+    way : Way or StackWay
     per_view : tuple of float
         Of each view alone.
     pooled : float
         Of all views as one picture.
     """
 
-    way: Way
+    way: Way | StackWay
     per_view: tuple[float, ...]
     pooled: float
 
@@ -113,20 +197,20 @@ class WayError:
 
 @dataclass(frozen=True)
 class Comparison:
-    """How far pictures drawn from a map set are from Cycles' own.
+    """How far pictures drawn from a map set are from what they should be.
 
     Attributes
     ----------
     map_set, environment, material : str
         What a person calls them.
     map_size : int
-        Width and height of the captured maps in texels.
-    settings : ComparisonSettings
+        Width and height of the maps in texels.
+    settings : ComparisonSettings or StackComparisonSettings
     view_dirs : tuple
         Unit vector to the eye of each view.
     reference_noise : float
         Relative RMSE that Cycles' own noise alone leaves in the reference: an error much smaller
-        than it cannot be told.
+        than it cannot be told. 0 where the reference is exact.
     errors : tuple of WayError
     """
 
@@ -134,7 +218,7 @@ class Comparison:
     environment: str
     material: str
     map_size: int
-    settings: ComparisonSettings
+    settings: ComparisonSettings | StackComparisonSettings
     view_dirs: tuple[tuple[float, float, float], ...]
     reference_noise: float
     errors: tuple[WayError, ...] = field(repr=False)
@@ -157,33 +241,53 @@ class Comparison:
     @classmethod
     def from_json(cls, plain: dict[str, Any]) -> Self:
         """The inverse of `to_json`, also after a round through JSON text."""
-        settings = {
-            name: tuple(value) if isinstance(value, list) else value
-            for name, value in plain["settings"].items()
-        }
-        settings["modes"] = tuple(Mode(mode) for mode in settings["modes"])
-        settings["warpings"] = tuple(Warping(warping) for warping in settings["warpings"])
+        exact = "rings" in plain["settings"]
+        view_dirs = tuple(tuple(view_dir) for view_dir in plain["view_dirs"])
+        settings: ComparisonSettings | StackComparisonSettings
+        if exact:
+            settings = StackComparisonSettings(**plain["settings"])
+        else:
+            settings = _views_settings(plain["settings"])
         errors = tuple(
-            WayError(
-                Way(each["captured_views"], Mode(each["mode"]), Warping(each["warping"])),
-                tuple(each["per_view"]),
-                each["pooled"],
-            )
+            WayError(_stack_way(each) if exact else _views_way(each), tuple(each["per_view"]), each["pooled"])
             for each in plain["errors"]
         )
-        view_dirs = tuple(tuple(view_dir) for view_dir in plain["view_dirs"])
-        return cls(
-            **{
-                **plain,
-                "settings": ComparisonSettings(**settings),
-                "view_dirs": view_dirs,
-                "errors": errors,
-            }
-        )
+        return cls(**{**plain, "settings": settings, "view_dirs": view_dirs, "errors": errors})
+
+
+def random_directions(count: int, seed: int) -> Array:
+    """Directions that are equally likely everywhere on the sphere.
+
+    Parameters
+    ----------
+    count, seed : int
+
+    Returns
+    -------
+    ndarray, shape (count, 3), float64
+        Unit vectors; the first of more are the same as fewer.
+    """
+    # Normal distributions along three axes favour no direction.
+    return normalize(np.random.default_rng(seed).standard_normal((count, 3)))
+
+
+def _views_settings(plain: dict[str, Any]) -> ComparisonSettings:
+    settings = {name: tuple(value) if isinstance(value, list) else value for name, value in plain.items()}
+    settings["modes"] = tuple(Mode(mode) for mode in settings["modes"])
+    settings["warpings"] = tuple(Warping(warping) for warping in settings["warpings"])
+    return ComparisonSettings(**settings)
+
+
+def _views_way(plain: dict[str, Any]) -> Way:
+    return Way(plain["captured_views"], Mode(plain["mode"]), Warping(plain["warping"]))
+
+
+def _stack_way(plain: dict[str, Any]) -> StackWay:
+    return StackWay(plain["lobes"], plain["elevations"], plain["taps"])
 
 
 def comparison_table(comparisons: Sequence[Comparison]) -> str:
-    """Pooled errors of several comparisons as a table in Markdown.
+    """Pooled errors of several comparisons of radiance views as a table in Markdown.
 
     Parameters
     ----------
@@ -205,4 +309,26 @@ def comparison_table(comparisons: Sequence[Comparison]) -> str:
             errors = (pooled.get((captured_views, *column), math.nan) for column in columns)
             numbers = [f"{number:.3f}" for number in (*errors, comparison.reference_noise)]
             rows.append([comparison.material, comparison.environment, str(captured_views), *numbers])
+    return "".join(f"| {' | '.join(row)} |\n" for row in rows)
+
+
+def stack_table(comparisons: Sequence[Comparison]) -> str:
+    """Errors of several comparisons of lobe stacks as a table in Markdown.
+
+    Parameters
+    ----------
+    comparisons : sequence of Comparison
+
+    Returns
+    -------
+    str
+        A row for each.
+    """
+    head = ["BRDF", "environment", "lobes", "size", "all views", "median view", "worst view"]
+    rows = [head, ["---"] * 2 + ["---:"] * 5]
+    for comparison in comparisons:
+        (error,) = comparison.errors
+        numbers = [f"{number:.4f}" for number in (error.pooled, error.median, error.worst)]
+        maps = [str(error.way.lobes), str(comparison.map_size)]
+        rows.append([comparison.material, comparison.environment, *maps, *numbers])
     return "".join(f"| {' | '.join(row)} |\n" for row in rows)

@@ -6,13 +6,21 @@ from html import escape
 from pathlib import Path
 from string import Template
 
-from .comparison import Comparison, Way, WayError
+from .comparison import Comparison, ComparisonSettings, StackWay, Way, WayError
 from .comparison_pictures import BRIGHTER, COLUMNS, DARKER, FULL_DIFFERENCE, Sheets
 
 TEMPLATE = Path(__file__).with_suffix(".html")
 
+RENDERED = (
+    "Cycles&rsquo; own noise, which makes <b>{noise}</b> of the reference, is not counted: two renders "
+    "tell it apart."
+)
 OCCLUSION = (
     "In Cycles&rsquo; pictures the mesh hides parts of its surroundings from itself; no map knows that."
+)
+INTEGRATED = (
+    "The reference is the sum over all texels of the environment of radiance times BRDF times cosine, "
+    "without noise; in neither picture does the mesh hide its surroundings from itself."
 )
 
 
@@ -37,9 +45,10 @@ def comparison_page(comparison: Comparison, sheets: Sheets) -> str:
         environment=escape(comparison.environment),
         map_set=escape(comparison.map_set),
         mesh=escape(_mesh(comparison)),
-        occlusion="" if comparison.settings.mesh == "sphere" else OCCLUSION,
+        reference_name=_reference_name(comparison),
+        made="rendered by Cycles" if _is_rendered(comparison) else "integrated exactly",
+        notes=_notes(comparison),
         view_count=count,
-        noise=_percent(comparison.reference_noise),
         full_difference=f"{100.0 * FULL_DIFFERENCE:g}&thinsp;%",
         brighter=_css_colour(BRIGHTER),
         darker=_css_colour(DARKER),
@@ -52,7 +61,23 @@ def comparison_page(comparison: Comparison, sheets: Sheets) -> str:
     )
 
 
-def _rules(way: Way, sheets: Sheets) -> str:
+def _is_rendered(comparison: Comparison) -> bool:
+    return isinstance(comparison.settings, ComparisonSettings)
+
+
+def _reference_name(comparison: Comparison) -> str:
+    return "Cycles" if _is_rendered(comparison) else "exact"
+
+
+def _notes(comparison: Comparison) -> str:
+    """What else is to be known of the references."""
+    if not _is_rendered(comparison):
+        return INTEGRATED
+    occlusion = "" if comparison.settings.mesh == "sphere" else OCCLUSION
+    return f"{RENDERED.format(noise=_percent(comparison.reference_noise))} {occlusion}"
+
+
+def _rules(way: Way | StackWay, sheets: Sheets) -> str:
     """The style sheet's rules that show a way's pictures and numbers when its button is pressed."""
     chosen = f"body:has(#way-{way.slug}:checked)"
     return f"""{chosen} .drawing {{ background-image: {_embedded(sheets.drawing[way])}; }}
@@ -69,8 +94,7 @@ def _row(error: WayError, comparison: Comparison, checked: bool) -> str:
         f'<td class="number">{_percent(value)}</td>' for value in (error.pooled, error.median, error.worst)
     )
     bar = f'<td class="bar"><span style="width: {100.0 * error.pooled / largest:.1f}%"></span></td>'
-    name = f"{way.captured_views} views, {way.mode}, {way.warping} warp"
-    return f"<tr><td><label>{button}{name}</label></td>{numbers}{bar}</tr>"
+    return f"<tr><td><label>{button}{way.name}</label></td>{numbers}{bar}</tr>"
 
 
 def _figure(comparison: Comparison, number: int) -> str:
@@ -79,7 +103,7 @@ def _figure(comparison: Comparison, number: int) -> str:
     row, column = divmod(number, COLUMNS)
     # Percentages of a background's position run from its first tile to its last.
     at = f"{100.0 * column / max(columns - 1, 1):.4f}% {100.0 * row / max(rows - 1, 1):.4f}%"
-    names = {"reference": "Cycles", "drawing": "RSIBR", "difference": "difference"}
+    names = {"reference": _reference_name(comparison), "drawing": "RSIBR", "difference": "difference"}
     tiles = "".join(
         f'<div class="tile {kind}" style="--at: {at}" role="img" aria-label="{name}, view {number + 1}">'
         "</div>"
@@ -99,15 +123,19 @@ def _settings(comparison: Comparison) -> list[tuple[str, str]]:
     """Names and values, in words."""
     settings = comparison.settings
     angle = settings.field_of_view
+    if isinstance(settings, ComparisonSettings):
+        reference = ("Cycles", f"two renders of {settings.samples // 2} samples a pixel, not denoised")
+    else:
+        reference = ("exact", f"{settings.rings} rings of surface points")
     return [
         ("map set", escape(comparison.map_set)),
         ("material", escape(comparison.material)),
         ("environment", escape(comparison.environment)),
-        ("captured maps", f"{comparison.map_size}&times;{comparison.map_size}"),
+        ("maps", f"{comparison.map_size}&times;{comparison.map_size}"),
         ("mesh", escape(_mesh(comparison))),
         ("camera", "orthographic" if angle is None else f"perspective, {math.degrees(angle):g}&deg;"),
         ("pictures", f"{settings.size}&times;{settings.size}"),
-        ("Cycles", f"two renders of {settings.samples // 2} samples a pixel, not denoised"),
+        reference,
         ("seed", str(settings.seed)),
     ]
 

@@ -15,8 +15,13 @@ from rsibr.rsibr_addon.core.shading.radiance_views import Mode, Warping
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.host.materials import fingerprint, load_material
 from rsibr.rsibr_addon.host.scenes import temporary_scene
-from rsibr.rsibr_addon.tasks.compare import compare, random_directions
-from rsibr.rsibr_addon.tasks.comparison import Comparison, ComparisonSettings, comparison_table
+from rsibr.rsibr_addon.tasks.compare import compare
+from rsibr.rsibr_addon.tasks.comparison import (
+    Comparison,
+    ComparisonSettings,
+    comparison_table,
+    random_directions,
+)
 from rsibr.rsibr_addon.tasks.comparison_pictures import BRIGHTER, DARKER, difference_picture
 from rsibr.tests.mirror_capture import mirror_map_set
 

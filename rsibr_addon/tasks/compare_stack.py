@@ -1,0 +1,109 @@
+"""Hold pictures drawn from a lobe stack against the BRDF itself, integrated over the environment."""
+
+from pathlib import Path
+
+import numpy as np
+
+from ..core.camera import Camera
+from ..core.conventions import Array
+from ..core.errors import MapSetError
+from ..core.lit_sphere import lit_spheres
+from ..core.metrics import relative_rmse, unpremultiplied
+from ..core.progress import Progress, Steps
+from ..core.shading.lobe_stack import StackLook
+from ..device.context import ensure_context
+from ..device.drawing import OnDevice
+from ..device.lit_sphere import LitSphereOnDevice
+from ..device.lobe_stack import LobeStackOnDevice
+from ..device.preview import PreviewRenderer
+from ..files.brdfs import brdf_from_spec
+from ..files.folders import check_folder_target
+from ..host.meshes import TriangleMesh, load_mesh
+from .compare import RESULT, save_comparison
+from .comparison import Comparison, StackComparisonSettings, StackWay, WayError
+from .kinds import open_map_set
+
+
+def compare_stack(
+    map_set: Path, settings: StackComparisonSettings, output: Path, force: bool = False
+) -> Steps[Comparison]:
+    """Light a sphere exactly, show a mesh as it and from a lobe stack, and tell the difference.
+
+    Parameters
+    ----------
+    map_set : Path
+        A lobe stack, with the environment that it was made of.
+    settings : StackComparisonSettings
+    output : Path
+        A folder to be made, as by `compare.compare`.
+    force : bool
+        Whether an earlier comparison in `output` is replaced.
+
+    Yields
+    ------
+    Progress
+
+    Returns
+    -------
+    Comparison
+
+    Raises
+    ------
+    MapSetError
+        The map set does not hold its environment, or is no lobe stack.
+    InputFileError, RangeError
+        Its BRDF cannot be read any more; or the mesh cannot be used.
+    OutputFileError, DeviceError
+
+    Notes
+    -----
+    Seen from afar, radiance depends on the normal alone, and so a sphere's is any mesh's: what
+    [Kautz2000] section 6 calls filtering with the true BRDF on a per-pixel basis. Both pictures take the same
+    samples of the same mesh.
+    """
+    check_folder_target(output, RESULT, force)
+    yield Progress(0, settings.rings + 2, f"reading {map_set.name}")
+    opened = open_map_set(map_set, "lobe_stack")
+    if opened.environment is None:
+        raise MapSetError(f"{map_set} does not hold the environment to light exactly: bake it again.")
+    spec = opened.material["brdf"]
+    brdf = brdf_from_spec(spec)
+    mesh = load_mesh(settings.mesh)
+    cameras = settings.cameras
+    view_dirs = [camera.view_dir for camera in cameras]
+    spheres = yield from lit_spheres(brdf, opened.environment.radiance, view_dirs, settings.rings)
+    yield Progress(settings.rings + 1, settings.rings + 2, f"writing {output.name}")
+    ensure_context()
+    references = [
+        _picture(LitSphereOnDevice(sphere), None, mesh, camera, settings.size)
+        for sphere, camera in zip(spheres, cameras, strict=True)
+    ]
+    stack = opened.subject
+    ours = LobeStackOnDevice(stack)
+    drawn = [_picture(ours, StackLook(), mesh, camera, settings.size) for camera in cameras]
+    way = StackWay(len(stack.maps), len(stack.mu), stack.taps.shape[2])
+    comparison = Comparison(
+        map_set=map_set.name,
+        environment=opened.environment.name,
+        material=spec,
+        map_size=stack.size,
+        settings=settings,
+        view_dirs=tuple(view_dirs),
+        reference_noise=0.0,
+        errors=(_error(way, np.stack(drawn), np.stack(references)),),
+    )
+    save_comparison(output, comparison, references, {way: drawn}, force)
+    return comparison
+
+
+def _picture(
+    subject: OnDevice, look: StackLook | None, mesh: TriangleMesh, camera: Camera, size: int
+) -> Array:
+    surface = mesh.positions, mesh.normals, mesh.triangles
+    return PreviewRenderer(subject).draw(*surface, camera, size, look)
+
+
+def _error(way: StackWay, drawn: Array, references: Array) -> WayError:
+    compared = unpremultiplied(drawn), unpremultiplied(references), references[..., 3]
+    per_view = tuple(relative_rmse(*each) for each in zip(*compared, strict=True))
+    return WayError(way, per_view, pooled=relative_rmse(*compared))

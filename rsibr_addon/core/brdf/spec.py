@@ -9,6 +9,8 @@ parentheses::
     layered:coat=(ggx:alpha=0.05,eta=1.5),base=(lambert:kd=0.3/0.05/0.02)
     sum:parts=(lambert:kd=0.2)+(phong:n=50,ks=0.5)
     merl:path=gold-metallic-paint.binary
+
+A material of Blender, ``blend:FILE.blend:NAME``, is measured first: see tasks/brdfs.py.
 """
 
 import dataclasses
@@ -25,6 +27,7 @@ from .ggx import Ggx
 from .he_torrance import HeTorrance
 from .lambert import Lambert
 from .layered import Layered, Sum
+from .measured_material import MeasuredMaterial
 from .measured_rgl import MeasuredRgl
 from .metals import METALS
 from .model import Brdf
@@ -106,7 +109,7 @@ def spec_from_brdf(brdf: Brdf) -> str:
     RangeError
         The model is none that a text can describe.
     """
-    if isinstance(brdf, Tabulated | MeasuredRgl):
+    if isinstance(brdf, Tabulated | MeasuredRgl | MeasuredMaterial):
         return brdf.spec
     for name, owner in MODELS.items():
         if type(brdf) is owner:

@@ -20,10 +20,13 @@ class Tabulated(Brdf):
     ----------
     table : ndarray, shape (H, D, P, 3), float64
         [1/sr] at the centres of cells that are even in the root of the half angle theta_h, in the difference
-        angle theta_d, both over [0, pi/2], and in its azimuth phi_d over [0, pi); phi_d + pi swaps light
-        and view, so that the model is reciprocal by construction.
+        angle theta_d, both over [0, pi/2], and in its azimuth phi_d over [0, pi).
     spec : str
         The text that stands for it, `merl:path=gold.binary` for example.
+    reciprocal : bool
+        Whether azimuths phi_d + pi, at which light and view have changed places, show what phi_d
+        shows. Otherwise they show what 2 pi - (phi_d + pi) shows: an isotropic surface is symmetric about the
+        plane of normal and half vector.
 
     Raises
     ------
@@ -37,6 +40,7 @@ class Tabulated(Brdf):
 
     table: Array
     spec: str
+    reciprocal: bool = True
 
     def __post_init__(self) -> None:
         if self.table.ndim != 4 or self.table.shape[3] != 3 or 0 in self.table.shape:
@@ -48,9 +52,12 @@ class Tabulated(Brdf):
         theta_h, theta_d, phi_d = half_difference_angles(geometry)
         half = _between(np.sqrt(theta_h * (2.0 / np.pi)) * half_cells, half_cells)
         difference = _between(theta_d * (2.0 / np.pi) * difference_cells, difference_cells)
-        position = phi_d / np.pi * azimuth_cells - 0.5
-        below = np.floor(position)
-        azimuth = below.astype(np.intp) % azimuth_cells, position - below
+        if self.reciprocal:
+            position = phi_d / np.pi * azimuth_cells - 0.5
+            below = np.floor(position)
+            azimuth = below.astype(np.intp) % azimuth_cells, position - below
+        else:
+            azimuth = _between(np.abs(phi_d) / np.pi * azimuth_cells, azimuth_cells)
         brdf = np.zeros(geometry.light_dir.shape)
         for h, half_weight in _corners(half, half_cells):
             for d, difference_weight in _corners(difference, difference_cells):

@@ -38,7 +38,7 @@ def configure_cycles(scene: bpy.types.Scene, width: int, height: int, samples: i
 
 
 def render_to(scene: bpy.types.Scene, path: Path) -> None:
-    """Render a scene into a file of the kind that it is set to.
+    """Render a scene, at its current frame, into a file of the kind that it is set to.
 
     Parameters
     ----------
@@ -54,7 +54,9 @@ def render_to(scene: bpy.types.Scene, path: Path) -> None:
     scene.render.filepath = str(path)
     scene.render.use_file_extension = False
     try:
-        bpy.ops.render.render(write_still=True, scene=scene.name)
+        # Given by its name, a scene would be put at the frame of the one that the artist works in.
+        with bpy.context.temp_override(scene=scene):
+            bpy.ops.render.render(write_still=True)
     except RuntimeError as error:
         raise RenderError(f"Blender cannot render: {str(error).strip()}.") from error
     if not path.exists():

@@ -40,8 +40,9 @@ def temporary_scene() -> Iterator[bpy.types.Scene]:
     Yields
     ------
     bpy.types.Scene
-        Not shown in any window. Everything that is added to the file in the body is removed after
-        it: not only to the scene, but also materials, images, appended data, the render result.
+        Not shown in any window, at the frame of the artist's. Everything that is added to the file in the
+        body is removed after it: not only to the scene, but also materials, images, appended data, the
+        render result.
 
     Notes
     -----
@@ -50,7 +51,9 @@ def temporary_scene() -> Iterator[bpy.types.Scene]:
     render, do not meet our scene.
     """
     with _temporary_data():
-        yield bpy.data.scenes.new("RSIBR")
+        artists, scene = bpy.context.scene, bpy.data.scenes.new("RSIBR")
+        scene.frame_current, scene.frame_subframe = artists.frame_current, artists.frame_subframe
+        yield scene
 
 
 @contextlib.contextmanager

@@ -1,5 +1,6 @@
 """A scene as it is seen from a point within, without the object that stands there."""
 
+import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -30,7 +31,7 @@ class Surroundings:
         Its name.
     layer : str
         The view layer whose collections count.
-    frame : int
+    frame : float
     subject : str or None
         The object that is left out, with its parts: see `host.subjects.parts_of`.
     point : tuple of 3 floats
@@ -41,7 +42,7 @@ class Surroundings:
 
     scene: str
     layer: str
-    frame: int
+    frame: float
     subject: str | None
     point: tuple[float, float, float]
     unseen: frozenset[str] = frozenset()
@@ -97,7 +98,7 @@ def surroundings_of(
     """
     source = find_scene(scene)
     layer = bpy.context.view_layer if source == bpy.context.scene else source.view_layers[0]
-    frame = source.frame_current if frame is None else frame
+    when = source.frame_current_final if frame is None else float(frame)
     hidden = parts_of(find_object(source, subject)) if subject else set()
     if source.world is None and not set(_rendered(layer.layer_collection)) - hidden:
         raise SceneError(
@@ -105,13 +106,13 @@ def surroundings_of(
         )
     if point is None and subject:
         with temporary_copy(source) as scene_at_frame:
-            scene_at_frame.frame_set(frame)
+            _go_to(scene_at_frame, when)
             middle = centre_of(scene_at_frame.view_layers[layer.name], source.objects[subject])
     elif point is None:
         middle = np.array(source.cursor.location)
     else:
         middle = np.array(point)
-    return Surroundings(source.name, layer.name, frame, subject, tuple(middle.tolist()))
+    return Surroundings(source.name, layer.name, when, subject, tuple(middle.tolist()))
 
 
 @contextmanager
@@ -150,7 +151,7 @@ def surroundings_scene(around: Surroundings) -> Iterator[bpy.types.Scene]:
         for item in shown:
             scene.collection.objects.link(_twin(item, around.unseen) if _is_lamp(item) else item)
         _take_light_as_it_is(scene)
-        scene.frame_set(around.frame)
+        _go_to(scene, around.frame)
         yield scene
 
 
@@ -206,6 +207,11 @@ def render_surroundings(
     if sampling.guides:
         seen |= {"albedo": passes["Denoising Albedo"], "normal": passes["Denoising Normal"]}
     return seen
+
+
+def _go_to(scene: bpy.types.Scene, frame: float) -> None:
+    whole = math.floor(frame)
+    scene.frame_set(whole, subframe=frame - whole)
 
 
 def _rendered(layer: bpy.types.LayerCollection) -> Iterator[bpy.types.Object]:

@@ -87,3 +87,9 @@ def test_an_artists_handlers_rest_and_return() -> None:
     assert open_file_state() == before
     bpy.context.scene.frame_set(3)
     assert called
+
+
+def test_a_scene_of_ours_is_at_the_artists_frame() -> None:
+    bpy.context.scene.frame_set(7, subframe=0.5)
+    with temporary_scene() as scene:
+        assert scene.frame_current_final == 7.5

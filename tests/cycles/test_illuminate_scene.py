@@ -212,6 +212,20 @@ def test_a_lamp_counts_as_it_lights_surfaces_not_as_the_camera_sees_it(
         bpy.data.objects.remove(lamp)
 
 
+def test_a_lamps_nodes_and_its_frame_count(add_lamp: AddLamp, tmp_path: Path) -> None:
+    lamp = add_lamp("POINT", 40, 70, 5.0, energy=200.0, shadow_soft_size=0.0).data
+    plain = captured(tmp_path)[40, 70]
+    emission = lamp.node_tree.nodes["Emission"]
+    emission.inputs["Color"].default_value = (1.0, 0.5, 0.25, 1.0)
+    emission.inputs["Strength"].default_value = 2.0
+    np.testing.assert_allclose(captured(tmp_path)[40, 70], plain * (2.0, 1.0, 0.5), rtol=1e-4)
+    for frame, energy in ((1, 200.0), (10, 600.0)):
+        lamp.energy = energy
+        lamp.keyframe_insert("energy", frame=frame)
+    bpy.context.scene.frame_set(1)
+    np.testing.assert_allclose(captured(tmp_path, frame=10)[40, 70], plain * (6.0, 3.0, 1.5), rtol=1e-4)
+
+
 def test_instances_of_lamps_count_each(add_lamp: AddLamp, tmp_path: Path) -> None:
     for size in (0.0, 0.8):
         lamp = add_lamp("POINT", 40, 70, 3.0, energy=200.0, shadow_soft_size=size)

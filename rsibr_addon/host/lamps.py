@@ -15,7 +15,7 @@ from .cameras import add_camera, closeness
 from .clear_shell import show_to_camera_only
 from .rendering import configure_cycles, render_passes
 from .spheres import add_ball
-from .surroundings import TWIN_OF
+from .surroundings import TWIN_OF, Surroundings, stand_in
 from .working_space import rec709_from_working
 
 PARTS = 1024
@@ -81,14 +81,14 @@ def lamps_around(scene: bpy.types.Scene, point: ArrayLike) -> list[Lamp]:
     ]
 
 
-def measure_lamps(scene: bpy.types.Scene, point: ArrayLike, lamps: Sequence[Lamp]) -> Array:
+def measure_lamps(scene: bpy.types.Scene, around: Surroundings, lamps: Sequence[Lamp]) -> Array:
     """Measure what light arrives from each of several small lamps.
 
     Parameters
     ----------
     scene : bpy.types.Scene
         As `surroundings_scene` yields it; its render settings are replaced.
-    point : array_like, shape (3,)
+    around : Surroundings
     lamps : sequence of Lamp
         Of that scene.
 
@@ -112,7 +112,7 @@ def measure_lamps(scene: bpy.types.Scene, point: ArrayLike, lamps: Sequence[Lamp
     layer = scene.view_layers[0]
     for index, lamp in enumerate(lamps):
         lamp.item.lightgroup = layer.lightgroups.add(name=f"lamp{index}").name
-    normals, inside = _add_probe(scene, np.asarray(point))
+    normals, inside = _add_probe(scene, around)
     configure_cycles(scene, PROBE_SIZE, PROBE_SIZE, PROBE_SAMPLES)
     passes = render_passes(scene)
     irradiance = np.zeros((len(lamps), 3))
@@ -123,12 +123,14 @@ def measure_lamps(scene: bpy.types.Scene, point: ArrayLike, lamps: Sequence[Lamp
     return rec709_from_working(irradiance)
 
 
-def _add_probe(scene: bpy.types.Scene, point: Array) -> tuple[Array, Array]:
+def _add_probe(scene: bpy.types.Scene, around: Surroundings) -> tuple[Array, Array]:
     """A ball and its camera; normals (count, 3) of pixels that lie inside, and which those are."""
-    radius, camera = closeness(point), Camera((0.0, 0.0, 1.0))
-    show_to_camera_only(add_ball(scene, radius, _white(), point))
+    radius, camera = closeness(around.point), Camera((0.0, 0.0, 1.0))
+    ball = add_ball(scene, radius, _white(), around.point)
+    show_to_camera_only(ball)
+    stand_in(scene, around, ball)
     item = add_camera(scene, camera)
-    item.location, item.scale = point + radius * camera.world_from_camera[:3, 3], (1.0, 1.0, 1.0)
+    item.location = np.asarray(around.point) + radius * camera.world_from_camera[:3, 3]
     item.data.ortho_scale, item.data.clip_start, item.data.clip_end = 2.0 * radius, 0.5 * radius, 2.0 * radius
     xy = 2.0 * texel_centres(PROBE_SIZE, PROBE_SIZE) - 1.0
     inside = np.linalg.norm(xy, axis=-1) < 1.0 - 2.0 / PROBE_SIZE

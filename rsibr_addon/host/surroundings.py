@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ..core.conventions import Array, ArrayLike
+from ..core.conventions import Array
 from ..core.errors import SceneError
 from .cameras import add_face_camera, add_panoramic_camera, closeness
 from .clear_shell import add_clear_shell
+from .light_linking import take_place_of
 from .rendering import configure_cycles, render_passes
 from .scenes import find_scene, temporary_copy
 from .subjects import centre_of, find_object, parts_of
@@ -157,7 +158,7 @@ def surroundings_scene(around: Surroundings) -> Iterator[bpy.types.Scene]:
 
 def render_surroundings(
     scene: bpy.types.Scene,
-    point: ArrayLike,
+    around: Surroundings,
     face: int | None,
     size: tuple[int, int],
     sampling: Sampling,
@@ -168,7 +169,7 @@ def render_surroundings(
     ----------
     scene : bpy.types.Scene
         As `surroundings_scene` yields it.
-    point : array_like, shape (3,)
+    around : Surroundings
     face : int or None
         Of a cube: see `add_face_camera`; None for all around, as `add_panoramic_camera` has it.
     size : tuple of 2 int
@@ -198,15 +199,22 @@ def render_surroundings(
     cycles.sample_offset, cycles.sample_subset_length = sampling.start, sampling.count
     scene.view_layers[0].cycles.denoising_store_passes = sampling.guides
     if face is None:
-        add_panoramic_camera(scene, point)
+        add_panoramic_camera(scene, around.point)
     else:
-        add_face_camera(scene, face, point)
-    add_clear_shell(scene, point, closeness(point))
+        add_face_camera(scene, face, around.point)
+    stand_in(scene, around, add_clear_shell(scene, around.point, closeness(around.point)))
     passes = render_passes(scene)
     seen = {"radiance": rec709_from_working(passes["Combined"][..., :3])}
     if sampling.guides:
         seen |= {"albedo": passes["Denoising Albedo"], "normal": passes["Denoising Normal"]}
     return seen
+
+
+def stand_in(scene: bpy.types.Scene, around: Surroundings, item: bpy.types.Object) -> None:
+    """Have the lamps of a scene of surroundings light an object of ours as they light the subject, if any."""
+    if around.subject:
+        subject = find_object(find_scene(around.scene), around.subject)
+        take_place_of(subject, item, [lamp for lamp in scene.objects if TWIN_OF in lamp])
 
 
 def _go_to(scene: bpy.types.Scene, frame: float) -> None:
@@ -247,6 +255,8 @@ def _twin(lamp: bpy.types.Object, unseen: frozenset[str]) -> bpy.types.Object:
     twin = lamp.copy()
     twin.data = lamp.data.copy()
     twin[TWIN_OF] = lamp.name_full
+    if lamp.light_linking.receiver_collection:
+        twin.light_linking.receiver_collection = lamp.light_linking.receiver_collection.copy()
     twin.data.cycles.use_multiple_importance_sampling = True
     twin.visible_transmission = lamp.visible_diffuse and lamp.name_full not in unseen
     return twin

@@ -148,7 +148,7 @@ def illuminate_from_scene(light: SceneLight, output: Path, force: bool = False) 
     for done, (face, sampling) in enumerate(parts, start=1):
         yield Progress(done, total, f"rendering part {done} of {len(parts)}")
         with surroundings_scene(around) as scene:
-            picture = render_surroundings(scene, around.point, face, _resolution(light), sampling)
+            picture = render_surroundings(scene, around, face, _resolution(light), sampling)
         share = sampling.count / sampling.total
         mean = seen.setdefault(face, {})
         for name, pixels in picture.items():
@@ -187,7 +187,7 @@ def _small_lamps(around: Surroundings, size: int) -> tuple[list[LampLight], froz
         ]
         if not lamps:
             return [], frozenset()
-        measured = zip(lamps, measure_lamps(scene, around.point, lamps), strict=True)
+        measured = zip(lamps, measure_lamps(scene, around, lamps), strict=True)
         lights = [LampLight(lamp.directions, irradiance) for lamp, irradiance in measured]
         return lights, frozenset(lamp.name for lamp in lamps)
 

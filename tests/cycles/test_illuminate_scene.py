@@ -226,6 +226,32 @@ def test_a_lamps_nodes_and_its_frame_count(add_lamp: AddLamp, tmp_path: Path) ->
     np.testing.assert_allclose(captured(tmp_path, frame=10)[40, 70], plain * (6.0, 3.0, 1.5), rtol=1e-4)
 
 
+@pytest.mark.parametrize("size", [0.0, 1.0])
+def test_lamps_that_light_chosen_objects_count_if_they_light_the_subject(
+    size: float, add_lamp: AddLamp, tmp_path: Path
+) -> None:
+    lamp = add_lamp("POINT", 40, 70, 5.0, energy=200.0, shadow_soft_size=size)
+    subject, other = add_box(POINT), add_box((9.0, 9.0, 9.0))
+    lit = captured(tmp_path, subject=subject.name)
+    chosen = bpy.data.collections.new("chosen")
+    lamp.light_linking.receiver_collection = chosen
+    for item, state, counts in (
+        (other, "INCLUDE", False),
+        (other, "EXCLUDE", True),
+        (subject, "INCLUDE", True),
+        (subject, "EXCLUDE", False),
+    ):
+        chosen.objects.link(item)
+        chosen.collection_objects[0].light_linking.link_state = state
+        seen = captured(tmp_path, subject=subject.name)[40, 70]
+        np.testing.assert_array_equal(seen, lit[40, 70] if counts else 0.0)
+        chosen.objects.unlink(item)
+    group = bpy.data.collections.new("group")
+    group.objects.link(subject)
+    chosen.children.link(group)
+    np.testing.assert_array_equal(captured(tmp_path, subject=subject.name)[40, 70], lit[40, 70])
+
+
 def test_instances_of_lamps_count_each(add_lamp: AddLamp, tmp_path: Path) -> None:
     for size in (0.0, 0.8):
         lamp = add_lamp("POINT", 40, 70, 3.0, energy=200.0, shadow_soft_size=size)

@@ -1,5 +1,6 @@
 """A Blender of its own with the built extension."""
 
+import json
 import os
 import shutil
 import subprocess
@@ -23,9 +24,15 @@ def extension() -> Path:
 
 
 @pytest.fixture(scope="session")
-def blender(extension: Path, blender_window: Path, tmp_path_factory: pytest.TempPathFactory) -> Blender:
-    """Blender with the extension installed and enabled; sees the folder of its files as /job."""
-    folder = tmp_path_factory.mktemp("blender")
+def job(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder that Blender sees as /job."""
+    return tmp_path_factory.mktemp("blender")
+
+
+@pytest.fixture(scope="session")
+def blender(extension: Path, blender_window: Path, job: Path) -> Blender:
+    """Blender with the extension installed and enabled."""
+    folder = job
     shutil.copy(extension, folder / "extension.zip")
 
     def run(*arguments: str) -> subprocess.CompletedProcess[str]:
@@ -38,4 +45,25 @@ def blender(extension: Path, blender_window: Path, tmp_path_factory: pytest.Temp
 
     install = run("--command", "extension", "install-file", "-r", "user_default", "-e", "/job/extension.zip")
     assert install.returncode == 0, install.stderr
+    return run
+
+
+@pytest.fixture
+def told(blender: Blender, blender_window: Path, job: Path) -> Callable[[str], dict]:
+    """Run a scenario of `in_window` in Blender's window, and say what it told."""
+    shutil.copy(Path(__file__).with_name("in_window.py"), job)
+    shutil.copy(blender_window.with_name("xshot.py"), job)
+
+    def run(scenario: str) -> dict:
+        script = (
+            f"import sys\nsys.path.insert(0, '/job')\nfrom in_window import *\n{scenario}\nrun(scenario)\n"
+        )
+        process = blender("--window", "--enable-event-simulate", "--python-expr", script)
+        lines = [line for line in process.stdout.splitlines() if line.startswith("TOLD ")]
+        assert lines, process.stdout + process.stderr
+        answer = json.loads(lines[0].removeprefix("TOLD "))
+        assert "error" not in answer, answer["error"]
+        assert "Traceback" not in process.stdout + process.stderr
+        return answer
+
     return run

@@ -1,0 +1,207 @@
+"""Previews come, go, fail in words, and follow the file, in Blender's window."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from rsibr.tests.flat_capture import write_flat_capture
+
+type Told = Callable[[str], dict]
+
+
+@pytest.fixture(autouse=True)
+def _flat(job: Path) -> None:
+    write_flat_capture(job / "flat.rsibr.exr", (0.5, 0.0, 0.5))
+    (job / "flat.blend").unlink(missing_ok=True)
+    (job / "later.rsibr.exr").unlink(missing_ok=True)
+
+
+PRELUDE = """
+import importlib
+module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport")
+
+def purple(number=0):
+    return int(like(pixels(number), (188, 0, 188)).sum())
+
+def held():
+    previews = module.previews
+    return [len(previews._meshes), len(previews._map_sets), len(previews._contents)]
+
+def previewed_cube():
+    bare(view())
+    bpy.context.scene.view_settings.view_transform = "Standard"
+    cube = bpy.data.objects["Cube"]
+    cube.rsibr.map_set = "/job/flat.rsibr.exr"
+    return cube
+"""
+
+UNDO = """
+def scenario(told):
+    cube = previewed_cube()
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.ed.undo_push(message="assigned")
+        yield from drawn()
+        told["before"] = purple()
+        cube.scale = (0.5, 0.5, 0.5)
+        bpy.ops.ed.undo_push(message="scaled")
+        yield from drawn()
+        told["scaled"] = purple()
+        bpy.ops.ed.undo()
+        yield from drawn()
+        told["undone"] = purple()
+        bpy.ops.ed.redo()
+        yield from drawn()
+        told["redone"] = purple()
+        bpy.data.objects.remove(bpy.data.objects["Cube"])
+        bpy.ops.ed.undo_push(message="removed")
+        yield from drawn()
+        told["removed"], told["held"] = purple(), held()
+        bpy.ops.ed.undo()
+        yield from drawn()
+        told["back"], told["trouble"] = purple(), module.previews.trouble
+"""
+
+
+def test_undo_and_redo(told: Told) -> None:
+    answer = told(PRELUDE + UNDO)
+    assert answer["before"] > 2 * answer["scaled"] > 1000
+    assert answer["undone"] == answer["before"]
+    assert answer["redone"] == answer["back"] == answer["scaled"]
+    assert answer["removed"] == 0
+    assert answer["held"][:2] == [0, 0]
+    assert answer["trouble"] is None
+
+
+RELOAD = """
+def scenario(told):
+    previewed_cube()
+    yield from drawn()
+    told["before"] = purple()
+    bpy.data.objects["Cube"].rsibr.map_set = "//flat.rsibr.exr"
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.wm.save_as_mainfile(filepath="/job/flat.blend")
+        bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    told["held by an empty file"] = held()
+    yield from drawn()
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.wm.open_mainfile(filepath="/job/flat.blend")
+    yield from drawn()
+    told["reopened"] = purple()
+"""
+
+
+def test_files_are_closed_and_opened(told: Told) -> None:
+    answer = told(PRELUDE + RELOAD)
+    assert answer["held by an empty file"] == [0, 0, 0]
+    assert answer["reopened"] == answer["before"] > 2000
+
+
+DISABLE = """
+import addon_utils
+
+def scenario(told):
+    previewed_cube()
+    yield from drawn()
+    told["before"] = purple()
+    addon_utils.disable(ROOT)
+    yield from drawn()
+    told["disabled"] = purple()
+    told["held"] = held()
+    told["handlers"] = [
+        function.__module__
+        for name in dir(bpy.app.handlers)
+        if isinstance(functions := getattr(bpy.app.handlers, name), list)
+        for function in functions
+        if "rsibr" in function.__module__
+    ]
+    told["property"] = hasattr(bpy.types.Object, "rsibr")
+    addon_utils.enable(ROOT)
+    yield from drawn()
+    told["enabled"] = purple()
+"""
+
+
+def test_disabling_leaves_nothing_behind(told: Told) -> None:
+    answer = told(PRELUDE + DISABLE)
+    assert answer["enabled"] == answer["before"] > 2000
+    assert (answer["disabled"], answer["held"]) == (0, [0, 0, 0])
+    assert (answer["handlers"], answer["property"]) == ([], False)
+
+
+FAULT = """
+import shutil
+
+def scenario(told):
+    cube = previewed_cube()
+    other = bpy.data.objects.new("Other", cube.data.copy())
+    bpy.context.collection.objects.link(other)
+    other.location = (0.0, 2.5, 0.0)
+    other.rsibr.map_set = "/job/flat.rsibr.exr"
+    cube.rsibr.map_set = "/job/later.rsibr.exr"
+    yield from drawn()
+    told["missing"] = [purple(), module.previews.fault(cube), module.previews.fault(other)]
+    shutil.copy("/job/flat.rsibr.exr", "/job/later.rsibr.exr")
+    yield from drawn()
+    told["still off"] = purple()
+    cube.rsibr.show = False
+    yield from drawn()
+    told["hidden"] = [purple(), module.previews.fault(cube)]
+    cube.rsibr.show = True
+    yield from drawn()
+    told["tried again"] = [purple(), module.previews.fault(cube), module.previews.kind(cube)]
+
+    def broken(*arguments):
+        told["draws"] = told.get("draws", 0) + 1
+        raise OSError("the card is on fire")
+
+    module.previews._map_sets["/job/later.rsibr.exr"].on_device.draw = broken
+    yield from drawn()
+    told["broken"] = [purple(), module.previews.fault(cube)]
+"""
+
+
+def test_what_fails_is_told_once_and_switched_off(told: Told) -> None:
+    answer = told(PRELUDE + FAULT)
+    sentence = "/job/later.rsibr.exr does not exist: check the name and the folder."
+    alone, fault, other_fault = answer["missing"]
+    assert alone > 2000
+    assert (fault, other_fault) == (sentence, None)
+    assert answer["still off"] == alone
+    assert answer["hidden"] == [alone, None]
+    both, fault, kind = answer["tried again"]
+    assert both > 1.5 * alone
+    assert (fault, kind) == (None, "radiance_views")
+    assert answer["broken"] == [alone, "the card is on fire"]
+    assert answer["draws"] == 1
+
+
+TWO = """
+def scenario(told):
+    cube = previewed_cube()
+    with bpy.context.temp_override(window=window(), area=view(), region=region(view())):
+        bpy.ops.screen.area_split(direction="VERTICAL", factor=0.4)
+    yield from drawn()
+    bare(view(1))
+    view(0).spaces.active.region_3d.view_perspective = "ORTHO"
+    yield from drawn()
+    told["both"] = [purple(0), purple(1)]
+    meshes = list(module.previews._meshes.values())
+    other = bpy.data.objects.new("Other", None)
+    bpy.context.collection.objects.link(other)
+    bpy.ops.object.select_all(action="DESELECT")
+    other.select_set(True)
+    with bpy.context.temp_override(window=window(), area=view(1), region=region(view(1))):
+        bpy.ops.view3d.localview()
+    yield from drawn()
+    told["local view on nothing"] = [purple(0), purple(1)]
+    told["meshes kept"] = list(module.previews._meshes.values()) == meshes
+"""
+
+
+def test_two_viewports(told: Told) -> None:
+    answer = told(PRELUDE + TWO)
+    left, right = answer["both"]
+    assert min(left, right) > 1000
+    assert left != right
+    assert answer["local view on nothing"] == [left, 0]
+    assert answer["meshes kept"]

@@ -9,17 +9,12 @@ from .report import Report
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what `run` reads."""
-    parser.add_argument(
-        "--environment",
-        metavar="FILE",
-        required=True,
-        help="latitude-longitude picture (EXR or HDR), or the bare name of one of Blender's own, as forest",
-    )
+    options.add_environment(parser)
     parser.add_argument(
         "--material",
         metavar="MATERIAL",
         required=True,
-        help="a preset (mirror, copper, plastic, car-paint), or FILE.blend:NAME",
+        help="a preset (mirror, copper, plastic, car-paint), FILE.blend:NAME, or :NAME of the open file",
     )
     parser.add_argument(
         "--views",

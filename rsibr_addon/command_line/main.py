@@ -12,7 +12,7 @@ from types import ModuleType
 from typing import Any
 
 from ..core.errors import RsibrError
-from . import capture, compare, convert, illuminate, info, mips, page, preview, tables
+from . import capture, compare, convert, illuminate, info, job, mips, page, preview, tables
 from .report import Report, result_stream
 
 COMMANDS = {
@@ -25,6 +25,7 @@ COMMANDS = {
     "mips": mips,
     "tables": tables,
     "report": page,
+    "job": job,
 }
 """Name -> the module with its arguments and its run; or with `KINDS`, such modules in turn."""
 
@@ -48,7 +49,7 @@ def run(argv: Sequence[str]) -> int:
         0 done, 1 failed, 2 wrong usage.
     """
     try:
-        arguments = _parser().parse_args(_with_joined_directions(argv))
+        arguments = parsed(argv)
     except SystemExit as end:  # argparse has said why, or has printed the help
         return int(end.code or 0)
     report = Report(arguments.progress)
@@ -62,6 +63,34 @@ def run(argv: Sequence[str]) -> int:
         for line in [json.dumps(result)] if arguments.json else report.lines:
             print(line, file=out)
     return 0 if result["ok"] else 1
+
+
+def parsed(argv: Sequence[str]) -> argparse.Namespace:
+    """What a command line asks for.
+
+    Parameters
+    ----------
+    argv : sequence of str
+        As `run` takes it.
+
+    Returns
+    -------
+    argparse.Namespace
+        The command's own arguments; its function, `run`; `json` and `progress`.
+
+    Raises
+    ------
+    SystemExit
+        The usage is wrong, or help was asked for; that is printed.
+    """
+    return _parser().parse_args(_with_joined_directions(_with_jobs_command(argv)))
+
+
+def _with_jobs_command(argv: Sequence[str]) -> Sequence[str]:
+    """`bake JOB.json` under the name of what does it: else `bake` takes options alone."""
+    if argv[:1] and argv[0] == "bake" and argv[1:] and argv[1].endswith(".json"):
+        return ["job", *argv[1:]]
+    return argv
 
 
 def _parser() -> argparse.ArgumentParser:

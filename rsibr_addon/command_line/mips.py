@@ -9,12 +9,7 @@ from .report import Report
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what `run` reads."""
-    parser.add_argument(
-        "--environment",
-        metavar="FILE",
-        required=True,
-        help="latitude-longitude picture (EXR or HDR), or the bare name of one of Blender's own, as forest",
-    )
+    options.add_environment(parser)
     parser.add_argument(
         "--filter",
         choices=["box", "bordered", "ggx"],

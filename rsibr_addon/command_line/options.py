@@ -65,6 +65,16 @@ def degrees(text: str) -> float:
     return value
 
 
+def add_environment(parser: argparse.ArgumentParser) -> None:
+    """Declare `environment`; None for the world of the open file."""
+    parser.add_argument(
+        "--environment",
+        metavar="FILE",
+        help="latitude-longitude picture (EXR or HDR), or the bare name of one of Blender's own, as forest "
+        "(default: the world of the open file)",
+    )
+
+
 def add_map_set(parser: argparse.ArgumentParser) -> None:
     """Declare `map_set`, the file to work on."""
     parser.add_argument("map_set", metavar="NAME.rsibr.exr", type=Path, help="a map set")

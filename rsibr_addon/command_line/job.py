@@ -1,0 +1,64 @@
+"""Do what a job file says; `rsibr bake JOB.json` is the same."""
+
+import argparse
+import contextlib
+import io
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from ..core.errors import InputFileError
+from .report import Report
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what `run` reads."""
+    parser.add_argument("job", metavar="JOB.json", type=Path, help="a command and its options, as JSON")
+
+
+def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
+    """Do the job.
+
+    Returns
+    -------
+    dict
+        What the job's own command returns.
+
+    Raises
+    ------
+    InputFileError
+        The file is missing, no job, or a job that its command does not understand.
+    RsibrError
+        See the job's command.
+    """
+    from ..job import BakeJob
+
+    job = BakeJob.from_json(_text(arguments.job), str(arguments.job))
+    asked = _parsed(job.arguments, arguments.job)
+    result: dict[str, Any] = asked.run(asked, report)
+    return result
+
+
+def _text(path: Path) -> str:
+    if not path.is_file():
+        raise InputFileError(f"There is no job {path}: check the path.")
+    try:
+        return path.read_text(encoding="utf-8")
+    except UnicodeDecodeError as error:
+        raise InputFileError(f"{path} is no text: give a job, which is JSON in UTF-8.") from error
+
+
+def _parsed(argv: Sequence[str], path: Path) -> argparse.Namespace:
+    """What a job's arguments ask for; of a usage that is wrong, argparse's own words."""
+    from .main import parsed
+
+    said = io.StringIO()
+    try:
+        with contextlib.redirect_stderr(said), contextlib.redirect_stdout(said):
+            asked = parsed(argv)
+    except SystemExit as end:
+        reason = (said.getvalue().strip().splitlines() or [""])[-1].partition("error: ")[2]
+        raise InputFileError(f"{path} cannot be done ({reason or 'it asks for help'}): correct it.") from end
+    if asked.run is run:
+        raise InputFileError(f"{path} is a job whose work is another job: give that one.")
+    return asked

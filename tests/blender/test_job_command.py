@@ -1,0 +1,79 @@
+"""Jobs from files do what their commands do, and what they leave out is taken from the open file."""
+
+import json
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.command_line.main import run
+from rsibr.rsibr_addon.files.map_set import read_map_set
+from rsibr.rsibr_addon.job import BakeJob
+
+
+@pytest.fixture(autouse=True)
+def _small_world(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.environments.WORLD_HEIGHT", 16)
+
+
+def write_job(*arguments: str) -> None:
+    Path("job.json").write_text(BakeJob(arguments).to_json())
+
+
+def test_a_job_does_what_its_command_does(capfd: pytest.CaptureFixture[str]) -> None:
+    command = ("mips", "--filter", "bordered", "--size", "4", "-o")
+    write_job(*command, "job.rsibr.exr")
+    assert run(["bake", "job.json", "--json", "--progress", "json"]) == 0
+    out, err = capfd.readouterr()
+    result = json.loads(out.splitlines()[-1])
+    assert result["ok"]
+    assert result["map_set"] == "job.rsibr.exr"
+    assert '{"progress": ' in err
+    assert run([*command, "command.rsibr.exr"]) == 0
+    assert Path("job.rsibr.exr").read_bytes() == Path("command.rsibr.exr").read_bytes()
+
+
+@pytest.mark.parametrize(
+    "command", [("mips", "--size", "4"), ("tables", "--material", "matte", "--diffuse-rows", "4")]
+)
+def test_without_an_environment_it_is_the_world(command: tuple[str, ...]) -> None:
+    tree = bpy.context.scene.world.node_tree
+    tree.nodes["Background"].inputs["Color"].default_value = (0.25, 0.5, 0.75, 1.0)
+    assert run([*command, "-o", "out.rsibr.exr", "--progress", "none"]) == 0
+    map_set = read_map_set(Path("out.rsibr.exr"))
+    header = map_set.header["environment"]
+    assert header["name"] == "World"
+    # The world is sampled into single precision, and nothing but that
+    name = next(part["name"] for part in map_set.header["parts"])
+    np.testing.assert_allclose(map_set.maps[name][0, 0, 2] / map_set.maps[name][0, 0, 0], 3.0, rtol=1e-5)
+
+
+def test_without_a_world_there_is_a_sentence(capfd: pytest.CaptureFixture[str]) -> None:
+    bpy.context.scene.world = None
+    assert run(["mips", "--size", "4", "-o", "out.rsibr.exr", "--progress", "none"]) == 1
+    assert "Scene Scene has no world: add one in its World properties." in capfd.readouterr().err
+    assert not Path("out.rsibr.exr").exists()
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        (None, "There is no job job.json: check the path."),
+        (b"\xff\xfe\xfd", "job.json is no text"),
+        ("{}", "job.json is no job"),
+        (BakeJob(("mips",)), "job.json cannot be done (the following arguments are required: -o/--output)"),
+        (BakeJob(("mips", "--help")), "job.json cannot be done (it asks for help)"),
+        (BakeJob(("bake", "job.json")), "job.json is a job whose work is another job"),
+    ],
+)
+def test_bad_jobs_are_a_sentence(
+    text: str | bytes | BakeJob | None, sentence: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    if isinstance(text, BakeJob):
+        text = text.to_json()
+    if text is not None:
+        Path("job.json").write_bytes(text if isinstance(text, bytes) else text.encode())
+    assert run(["bake", "job.json", "--json", "--progress", "none"]) == 1
+    result = json.loads(capfd.readouterr().out)
+    assert result["error"].startswith(sentence)

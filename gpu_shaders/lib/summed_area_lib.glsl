@@ -1,9 +1,8 @@
 // Twin of rsibr_addon/core/antialiased/summed_area.py, and of the box in footprint.py:
 // [Miller1984] section 8.3.
 // The table is a texture array of three layers (see device/summed_area.py): the sums' lowest 21 bits, the
-// next
-// and the highest, as whole numbers. Sums and differences of four such numbers are whole and below 2^24,
-// so single precision holds them exactly, in whatever order a compiler takes them.
+// next and the highest, as whole numbers. Sums and differences of four such numbers are whole and below
+// 2^24, so single precision holds them exactly, in whatever order a compiler takes them.
 #include "lib/equirect_lib.glsl"
 
 const float DIGIT = 2097152.0;  // 2^21

@@ -8,7 +8,13 @@ from pathlib import Path
 
 import pytest
 from rsibr.rsibr_addon.core.errors import DeviceError
-from rsibr.rsibr_addon.device import mip_chain_shaders, shaders, viewport_shaders
+from rsibr.rsibr_addon.device import (
+    lobe_stack_shaders,
+    mip_chain_shaders,
+    reflection_tables,
+    shaders,
+    viewport_shaders,
+)
 from rsibr.rsibr_addon.device import shader_source as sources
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.shader_source import SHADER_FOLDER, shader_source
@@ -20,6 +26,8 @@ PROGRAMS = [
     shaders.views_texel_shader,
     shaders.views_disk_shader,
     mip_chain_shaders.mip_chain_shader,
+    reflection_tables.reflection_tables_shader,
+    lobe_stack_shaders.lobe_stack_shader,
     viewport_shaders.composite_shader,
     viewport_shaders.occluder_shader,
 ]

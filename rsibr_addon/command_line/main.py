@@ -12,7 +12,7 @@ from types import ModuleType
 from typing import Any
 
 from ..core.errors import RsibrError
-from . import capture, compare, convert, illuminate, info, job, mips, page, preview, tables
+from . import capture, compare, convert, fit, illuminate, info, job, mips, page, preview, tables
 from .report import Report, result_stream
 
 COMMANDS = {
@@ -24,6 +24,7 @@ COMMANDS = {
     "illuminate": illuminate,
     "mips": mips,
     "tables": tables,
+    "fit": fit,
     "report": page,
     "job": job,
 }

@@ -6,7 +6,7 @@ from ..conventions import Array
 from .projection import Lookups, Projection, Projector
 
 _ITERATIONS, _TRIALS = 40, 7
-_CONVERGED = 1e-6
+_CONVERGED = 1e-5
 _DAMPING = 1e-3
 _LARGEST_TURN = 0.3
 _FLATTEST = 1e-9

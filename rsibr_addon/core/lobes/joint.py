@@ -5,7 +5,7 @@ start is followed to its optimum at one elevation, and from there to grazing and
 elevation starting from its neighbour's tilts.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -46,10 +46,8 @@ def bank_for(slices: Sequence[TargetSlice]) -> KernelBank:
     return octaves((_SHARPNESS / slices[-1].radius) ** 2)
 
 
-def joint_fits(
-    slices: Sequence[TargetSlice], brdf: str, taps: int = 1, non_negative: bool = False
-) -> Iterator[Fit]:
-    """Fit with one lobe, then two, then three, and so on without end.
+class JointFitter:
+    """Fits lobes to one model, one lobe more at a time.
 
     Parameters
     ----------
@@ -61,22 +59,40 @@ def joint_fits(
         Directions in which each lobe's map is looked up.
     non_negative : bool
         Whether no kernel may have a negative weight.
-
-    Yields
-    ------
-    Fit
     """
-    bank = bank_for(slices)
-    first = int(_START * len(slices))
-    projector = Projector(slices[first], bank, non_negative=non_negative)
-    lobes: Array = np.zeros((0, 1))
-    while True:
-        start = _added_lobe(projector, lobes)
-        lobes = start.angles
-        for _ in range(taps - 1):
-            start, _ = descend(projector, _added_tap(start, projector.target.radius), with_taps=True)
-        states = _tracked(slices, bank, start, first, non_negative)
-        yield _fit(slices, bank, states, brdf)
+
+    def __init__(
+        self, slices: Sequence[TargetSlice], brdf: str, taps: int = 1, non_negative: bool = False
+    ) -> None:
+        self._slices, self._brdf, self._taps = slices, brdf, taps
+        self._non_negative = non_negative
+        self._bank = bank_for(slices)
+        self._first = int(_START * len(slices))
+        self._projector = Projector(slices[self._first], self._bank, non_negative=non_negative)
+        self._angles: Array = np.zeros((0, 1))
+
+    @property
+    def lobes(self) -> int:
+        """How many lobes there are: at first none."""
+        return len(self._angles)
+
+    def grow(self) -> None:
+        """Add a lobe, at the elevation where tracking begins."""
+        self._angles = _added_lobe(self._projector, self._angles)
+
+    def fit(self) -> Fit:
+        """Track the lobes, at least one, over all elevations.
+
+        Returns
+        -------
+        Fit
+        """
+        start = Lookups(self._angles, np.ones_like(self._angles))
+        for _ in range(self._taps - 1):
+            wider = _added_tap(start, self._projector.target.radius)
+            start, _ = descend(self._projector, wider, with_taps=True)
+        states = _tracked(self._slices, self._bank, start, self._first, self._non_negative)
+        return _fit(self._slices, self._bank, states, self._brdf)
 
 
 def amplification(bank: KernelBank, state: State, target: TargetSlice) -> float:
@@ -101,15 +117,15 @@ def amplification(bank: KernelBank, state: State, target: TargetSlice) -> float:
     return float(total / np.sqrt(target.power))
 
 
-def _added_lobe(projector: Projector, angles: Array) -> Lookups:
-    """The best lookups with one lobe more, shapes (J + 1, 1)."""
+def _added_lobe(projector: Projector, angles: Array) -> Array:
+    """The best angles with one lobe more, shape (J + 1, 1)."""
     candidates = [np.append(angles, [[angle]], axis=0) for angle in _ANGLES]
     starts = [min((Lookups(start, np.ones_like(start)) for start in candidates), key=projector.objective)]
     if len(angles):
         spread = _spread(angles.T, projector.target.radius).T
         starts.append(Lookups(spread, np.ones_like(spread)))
     settled = [descend(projector, start, with_taps=False) for start in starts]
-    return min(settled, key=lambda pair: pair[1].objective)[0]
+    return min(settled, key=lambda pair: pair[1].objective)[0].angles
 
 
 def _added_tap(lookups: Lookups, width: float) -> Lookups:

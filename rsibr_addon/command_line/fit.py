@@ -1,0 +1,81 @@
+"""Fit radially symmetric lobes to a reflectance model."""
+
+import argparse
+from typing import Any
+
+from . import options
+from .report import Report
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what `run` reads."""
+    parser.add_argument(
+        "--brdf",
+        metavar="SPEC",
+        required=True,
+        help="model:key=value,..., as ward:alpha=0.04,ks=0.8 or merl:path=FILE; or blend:FILE.blend:NAME",
+    )
+    parser.add_argument(
+        "--lobes",
+        metavar="J",
+        type=options.whole,
+        default=3,
+        help="for each layer of the model, at most (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--slices", metavar="K", type=options.whole, default=16, help="view elevations (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--method",
+        choices=["joint", "greedy", "single", "single-2d"],
+        default="joint",
+        help="all profiles at once, or as Kautz & McCool: several lobes, one, or one that all elevations "
+        "share (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--taps",
+        metavar="T",
+        type=options.whole,
+        default=1,
+        help="directions in which each lobe's map is looked up (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--error", metavar="E", type=float, help="add lobes only until the error is at most this"
+    )
+    parser.add_argument("--non-negative", action="store_true", help="no kernel with a negative weight")
+    options.add_output(parser, "FIT.json", "the fit to write")
+
+
+def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
+    """Fit.
+
+    Returns
+    -------
+    dict
+        "fit", the path of the file, and its figures: see `tasks.fit_lobes.FitResult`.
+
+    Raises
+    ------
+    RsibrError
+        See `tasks.fit_lobes`.
+    """
+    from ..tasks.fit_lobes import FitSettings, fit_lobes
+
+    settings = FitSettings(
+        method=arguments.method,
+        lobes=arguments.lobes,
+        slices=arguments.slices,
+        taps=arguments.taps,
+        error=arguments.error,
+        non_negative=arguments.non_negative,
+    )
+    result = report.steps(fit_lobes(arguments.brdf, settings, arguments.output, arguments.force))
+    figures = result.report()
+    report.say(
+        f"{arguments.output}: {', '.join(f'{name} {_text(value)}' for name, value in figures.items())}"
+    )
+    return {"fit": str(arguments.output), **figures}
+
+
+def _text(value: float | None) -> str:
+    return "none" if value is None else f"{value:.3g}"

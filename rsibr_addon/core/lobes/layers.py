@@ -1,0 +1,117 @@
+"""Joint fits of whole models, layer by layer: each layer has one kind of lobe, which is easier to fit."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..brdf.model import Brdf
+from ..brdf.spec import spec_from_brdf
+from ..conventions import Array
+from ..progress import Progress, Steps
+from .accuracy import fit_errors
+from .fit import Fit, joined
+from .joint import JointFitter
+from .target import target_slices
+
+NEGLIGIBLE = 0.1
+"""A layer whose error is below this share of the whole's gets no more lobes."""
+
+
+@dataclass
+class _Layer:
+    """One layer, with as many lobes as it has so far.
+
+    Attributes
+    ----------
+    share : ndarray, shape (S,)
+        Of its power in that of the whole model.
+    """
+
+    brdf: Brdf
+    fitter: JointFitter
+    share: Array
+    fit: Fit | None = None
+    error: float = np.inf
+
+    def grow(self) -> None:
+        """Add a lobe."""
+        self.fitter.grow()
+        self.fit = self.fitter.fit()
+        self.error = float(np.sqrt(np.mean(fit_errors(self.fit, self.brdf).shape ** 2 * self.share)))
+
+
+def layered_fit(
+    brdf: Brdf,
+    mu: Sequence[float] | Array,
+    lobes: int,
+    error: float | None = None,
+    taps: int = 1,
+    non_negative: bool = False,
+) -> Steps[Fit]:
+    """Fit the sum of a model's layers.
+
+    Parameters
+    ----------
+    brdf : Brdf
+    mu : sequence of float
+        Cosines of the view elevations, ascending, in (0, 1].
+    lobes : int
+        At most so many for each layer; where there are several layers, fewer for those that are `NEGLIGIBLE`.
+    error : float, optional
+        Stop adding lobes, to the layer that is furthest off, where E of the whole is at most this.
+    taps : int
+        Directions in which each lobe's map is looked up.
+    non_negative : bool
+        Whether no kernel may have a negative weight.
+
+    Yields
+    ------
+    Progress
+
+    Returns
+    -------
+    Fit
+
+    Raises
+    ------
+    RangeError
+        An elevation lies outside (0, 1]; a layer is black at one of them, or not finite.
+    """
+    spec = spec_from_brdf(brdf)
+    yield Progress(0, 1, "sampling the reflectance")
+    layers = _layers(brdf, mu, spec, taps, non_negative)
+    if error is None and len(layers) == 1:
+        return (yield from _at_once(layers[0].fitter, lobes))
+    total = len(layers) * lobes
+    for done in range(total):
+        together = np.sqrt(sum(layer.error**2 for layer in layers))
+        if error is not None and together <= error:
+            break
+        growing = [layer for layer in layers if layer.fitter.lobes < lobes]
+        worst = max(growing, key=lambda layer: layer.error)
+        if worst.fit is not None and worst.error < NEGLIGIBLE * together:
+            break
+        yield Progress(done, total, f"fitting lobe {worst.fitter.lobes + 1} of {type(worst.brdf).__name__}")
+        worst.grow()
+    return joined([layer.fit for layer in layers if layer.fit is not None], spec)
+
+
+def _at_once(fitter: JointFitter, lobes: int) -> Steps[Fit]:
+    for done in range(lobes):
+        yield Progress(done, lobes + 1, f"adding lobe {done + 1}")
+        fitter.grow()
+    yield Progress(lobes, lobes + 1, "tracking lobes over elevations")
+    return fitter.fit()
+
+
+def _layers(
+    brdf: Brdf, mu: Sequence[float] | Array, spec: str, taps: int, non_negative: bool
+) -> list[_Layer]:
+    whole = np.array([target.power for target in target_slices(brdf, mu)])
+    layers = []
+    for layer in brdf.layers:
+        slices = target_slices(layer, mu)
+        share = np.array([target.power for target in slices]) / whole
+        layers.append(_Layer(layer, JointFitter(slices, spec, taps, non_negative), share))
+    return layers

@@ -1,0 +1,65 @@
+"""`rsibr fit`: the figures, the file, and what bad input says."""
+
+import json
+from pathlib import Path
+
+import pytest
+from rsibr.rsibr_addon.command_line.main import run
+from rsibr.rsibr_addon.core.errors import RangeError
+from rsibr.rsibr_addon.files.fits import read_fit
+from rsibr.rsibr_addon.tasks.fit_lobes import FitSettings
+
+COMMAND = ["fit", "--brdf", "phong:n=40,ks=0.5", "--slices", "3", "--lobes", "2"]
+
+
+def test_the_command_writes_a_fit_and_tells_its_figures(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "FIT.json"
+    assert run([*COMMAND, "--json", "-o", str(path)]) == 0
+    told = json.loads(capfd.readouterr().out.splitlines()[-1])
+    assert told["fit"] == str(path)
+    assert (told["lobes"], told["slices"], told["taps"]) == (2, 3, 1)
+    assert 0.0 < told["E"] < 0.2
+    assert told["E_grazing"] is None
+    assert told["albedo_error"] < 1e-3
+    assert 1.0 < told["amplification"] < 8.0
+    assert json.loads(path.read_text())["report"]["E"] == told["E"]
+    assert read_fit(path).brdf == "phong:n=40,ks=0.5"
+
+
+@pytest.mark.parametrize(
+    ("more", "sentence"),
+    [
+        (["--lobes", "0"], "0 lobes are out of range: choose 1 to 12, 3 for most."),
+        (["--lobes", "99"], "99 lobes are out of range"),
+        (["--slices", "0"], "0 slices are out of range: choose 1 to 256"),
+        (["--slices", "9999"], "9999 slices are out of range"),
+        (["--taps", "0"], "0 taps are out of range: choose 1 to 9."),
+        (["--error", "1.5"], "An error of 1.5 is out of range: choose one between 0 and 1."),
+        (["--brdf", "phong:n=40,ks=2"], "phong: ks"),
+        (["--brdf", "merl:path=none.binary"], "none.binary does not exist"),
+        (["--brdf", "lambert:kd=0"], "The reflectance is black, NaN or infinite"),
+    ],
+)
+def test_bad_input_is_told_in_a_sentence_and_writes_nothing(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], more: list[str], sentence: str
+) -> None:
+    assert run([*COMMAND, *more, "-o", str(tmp_path / "FIT.json")]) == 1
+    assert sentence in capfd.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
+def test_existing_fits_are_kept(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "FIT.json"
+    path.write_text("kept")
+    assert run([*COMMAND, "-o", str(path)]) == 1
+    assert "--force to replace it" in capfd.readouterr().err
+    assert path.read_text() == "kept"
+
+
+def test_methods_have_no_use_for_what_is_anothers() -> None:
+    with pytest.raises(RangeError, match="are for the method joint, not single"):
+        FitSettings(method="single", taps=3)
+    with pytest.raises(RangeError, match="There is no method exact: choose one of joint"):
+        FitSettings(method="exact")

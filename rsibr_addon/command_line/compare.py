@@ -69,7 +69,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--rings",
         metavar="N",
         type=options.positive,
-        help="rings of a sphere on which reflection is integrated exactly (default: 96)",
+        help="rings of a sphere on which reflection is integrated exactly (default: as the maps are fine)",
     )
     options.add_output(parser, "FOLDER", "for the page, its pictures and comparison.json")
 
@@ -135,6 +135,6 @@ def _compare_stack(
     from ..tasks.compare_stack import compare_stack
     from ..tasks.comparison import StackComparisonSettings, stack_table
 
-    settings = StackComparisonSettings(**scene, rings=vars(arguments).get("rings", 96))
+    settings = StackComparisonSettings(**scene, rings=vars(arguments).get("rings"))
     comparison = report.steps(compare_stack(arguments.map_set, settings, arguments.output, arguments.force))
     return comparison, stack_table([comparison])

@@ -106,7 +106,7 @@ def lit_spheres(
     if rings < 4:
         raise RangeError(f"{rings} rings are too few to interpolate between: ask for 4 or more.")
     frames = [camera_frame(view_dir) for view_dir in view_dirs]
-    spectrum = _row_spectrum(np.stack([_in_camera_axes(radiance, frame) for frame in frames]))
+    spectrum = _row_spectrum(np.stack([environment_about(radiance, frame) for frame in frames]))
     spheres = np.empty((len(frames), rings, radiance.shape[1], 3))
     for ring in range(rings):
         yield Progress(ring, rings, f"integrating ring {ring + 1} of {rings}")
@@ -149,12 +149,26 @@ def ring_radiance(brdf: BrdfFunction, radiance: Array, mu: Sequence[float]) -> A
     return np.stack([_ring(brdf, spectrum, float(cosine)) for cosine in mu], axis=-3)
 
 
-def _in_camera_axes(radiance: Array, frame: Array) -> Array:
-    """The environment as a map about the view."""
+def environment_about(radiance: Array, frame: Array) -> Array:
+    """An environment as a map about a camera's view, which is where `ring_radiance` wants it.
+
+    Parameters
+    ----------
+    radiance : ndarray, shape (height, 2 * height, 3)
+        Latitude-longitude map.
+    frame : ndarray, shape (3, 3)
+        The camera's axes as columns: see `directions.camera_frame`.
+
+    Returns
+    -------
+    ndarray, shape (height, 2 * height, 3)
+        Latitude-longitude map in those axes, looked up bilinearly; from straight above, as it is.
+    """
     if np.array_equal(frame[:, 2], (0.0, 0.0, 1.0)):
-        # Straight above, the camera's x and y are -X and -Y: half a turn about the pole.
+        # The camera's x and y are then -X and -Y: half a turn about the pole.
         return np.roll(radiance, radiance.shape[1] // 2, axis=1)
-    seen: Array = resample(radiance[None], _EQUIRECT, replace(_EQUIRECT, frame=frame), radiance.shape[1])[0]
+    axes = replace(_EQUIRECT, frame=frame)
+    seen: Array = resample(radiance[None], _EQUIRECT, axes, radiance.shape[1])[0]
     return seen
 
 

@@ -96,8 +96,8 @@ class StackComparisonSettings(SceneSettings):
 
     Attributes
     ----------
-    rings : int
-        Of `core.lit_sphere`, at least 4.
+    rings : int or None
+        Of `core.lit_sphere`, at least 4; None for half as many as a map has texels in a row, at least 32.
 
     Raises
     ------
@@ -105,13 +105,13 @@ class StackComparisonSettings(SceneSettings):
         The camera is a perspective one, there are too few rings, or as `SceneSettings`.
     """
 
-    rings: int = 96
+    rings: int | None = None
 
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.field_of_view is not None:
             raise RangeError("Exact references are seen from afar: leave the perspective out.")
-        if self.rings < 4:
+        if self.rings is not None and self.rings < 4:
             raise RangeError(f"{self.rings} rings are too few to interpolate between: ask for 4 or more.")
 
 

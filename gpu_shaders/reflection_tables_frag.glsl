@@ -10,10 +10,21 @@ void main()
   vec3 mirror_dir = reflect_dir(view_dir, unit_normal);
   vec3 refracted_dir = refract_dir(view_dir, unit_normal, tables.eta);
   float cosine = dot(unit_normal, view_dir);
+  // What the pixel reflects, taking neighbours' differences for its own.
+  vec3 across = 0.5 * dFdx(mirror_dir);
+  vec3 up = 0.5 * dFdy(mirror_dir);
+  vec3 corners[4] = vec3[4](mirror_dir - across - up,
+                            mirror_dir + across - up,
+                            mirror_dir + across + up,
+                            mirror_dir - across + up);
   radiance = vec4(0.0, 0.0, 0.0, 1.0);
   radiance.rgb += weighted_table(tables.diffuse, diffuse, weights, TABLE_DIFFUSE, cosine, unit_normal);
   radiance.rgb += weighted_table(tables.specular, specular, weights, TABLE_SPECULAR, cosine, mirror_dir);
   radiance.rgb += weighted_table(tables.coat, coat, weights, TABLE_COAT, cosine, mirror_dir);
+  radiance.rgb += weighted_mean(
+      tables.specular_mean, specular_sums, tables.specular_unit.rgb, weights, TABLE_SPECULAR, cosine, corners);
+  radiance.rgb += weighted_mean(
+      tables.coat_mean, coat_sums, tables.coat_unit.rgb, weights, TABLE_COAT, cosine, corners);
   radiance.rgb += weighted_table(tables.retro, retro, weights, TABLE_RETRO, cosine, view_dir);
   radiance.rgb += weighted_table(
       tables.refraction, refraction, weights, TABLE_REFRACTION, cosine, refracted_dir);

@@ -50,6 +50,11 @@ class RSIBR_PG_reflection_tables(bpy.types.PropertyGroup):
         ],
         default={"diffuse", "specular", "coat", "retro", "refraction"},
     )
+    antialiased: bpy.props.BoolProperty(
+        name="Antialiased",
+        description="Average specular and coat over what each pixel reflects",
+        update=_notice,
+    )
 
 
 class RSIBR_PG_mip_chain(bpy.types.PropertyGroup):

@@ -1,5 +1,6 @@
 // Twin of rsibr_addon/core/shading/reflection_tables.py: [Miller1984] sections 3, 7 and 9.
 #include "lib/equirect_lib.glsl"
+#include "lib/summed_area_lib.glsl"
 
 // Rows of the weights, in the order of core/reflection_tables.py `Role`.
 #define TABLE_DIFFUSE 0
@@ -9,12 +10,27 @@
 #define TABLE_REFRACTION 4
 #define TABLES 5
 
+vec3 table_weight(sampler2D weights, int role, float cosine)
+{
+  return textureLod(weights, vec2(cosine, (float(role) + 0.5) / float(TABLES)), 0.0).rgb;
+}
+
 // Weight times table, or black where the table is not there or not to be shown.
 vec3 weighted_table(float shown, sampler2D table, sampler2D weights, int role, float cosine, vec3 direction)
 {
   if (shown < 0.5) {
     return vec3(0.0);
   }
-  vec3 weight = textureLod(weights, vec2(cosine, (float(role) + 0.5) / float(TABLES)), 0.0).rgb;
-  return weight * equirect_radiance(table, direction);
+  return table_weight(weights, role, cosine) * equirect_radiance(table, direction);
+}
+
+// The same for a table that is averaged over a pixel's footprint (see summed_area_lib.glsl).
+vec3 weighted_mean(
+    float shown, sampler2DArray sums, vec3 unit, sampler2D weights, int role, float cosine, vec3 corners[4])
+{
+  if (shown < 0.5) {
+    return vec3(0.0);
+  }
+  vec4 box = footprint_box(corners, vec2(textureSize(sums, 0).xy - 1));
+  return table_weight(weights, role, cosine) * box_mean(sums, unit, box);
 }

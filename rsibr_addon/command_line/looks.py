@@ -10,6 +10,7 @@ KIND_OF: dict[str, tuple[str, ...]] = {
     "warping": ("radiance_views",),
     "lobes": ("lobe_stack",),
     "shown": ("reflection_tables",),
+    "antialiased": ("reflection_tables",),
     "f_lambda": ("mip_chain",),
     "k_d": ("mip_chain",),
     "bias": ("mip_chain",),
@@ -49,6 +50,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="NAMES",
         type=lambda text: tuple(text.split(",")),
         help="those that count, of diffuse,specular,coat,retro,refraction (default: all)",
+    )
+    tables.add_argument(
+        "--antialiased",
+        action="store_true",
+        help="average specular and coat over what each pixel reflects, from summed-area tables",
     )
     mips = parser.add_argument_group("mip chains", argument_default=argparse.SUPPRESS)
     mips.add_argument(

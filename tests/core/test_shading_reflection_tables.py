@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.directions import dot, normalize
-from rsibr.rsibr_addon.core.errors import RangeError
+from rsibr.rsibr_addon.core.errors import RangeError, ShapeError
 from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.core.radial_lobes import phong_lobe
 from rsibr.rsibr_addon.core.reflection_tables import ReflectionTables, Role
@@ -88,6 +88,25 @@ def test_a_bilinear_lookup_errs_as_little_as_tables_are_sized_for(n: float) -> N
     error = np.abs(reflect_tables(tables, around, around, TablesLook()) - lobe(around)).max()
     peak = lobe(light_dir).max()
     assert 0.5 * LOOKUP_ERROR * peak < error < 1.02 * LOOKUP_ERROR * peak
+
+
+def test_antialiased_tables_are_means_over_the_pixel() -> None:
+    rng = np.random.default_rng(32)
+    maps = {role: rng.random((16, 32, 3)) for role in (Role.SPECULAR, Role.COAT)}
+    weights = rng.random((len(Role), 1, 3))
+    tables = ReflectionTables(maps, weights)
+    # The corners of a box of 4 x 2 texels, whose mean is by hand.
+    corners = equirect.direction_from_uv(np.array([(8, 6), (12, 6), (12, 8), (8, 8)]) / (32, 16))
+    normal = view_dir = np.array([0.0, 0.0, 1.0])
+    solid_angle = equirect.texel_solid_angle(32, 16)[6:8, 8:12, None]
+    expected = sum(
+        weights[row, 0] * np.sum(maps[role][6:8, 8:12] * solid_angle, axis=(0, 1)) / solid_angle.sum()
+        for row, role in ((1, Role.SPECULAR), (2, Role.COAT))
+    )
+    shown = reflect_tables(tables, normal, view_dir, TablesLook(antialiased=True), corners)
+    np.testing.assert_allclose(shown, expected, rtol=1e-12)
+    with pytest.raises(ShapeError, match="need the footprint of each pixel"):
+        reflect_tables(tables, normal, view_dir, TablesLook(antialiased=True))
 
 
 def test_a_look_names_tables_that_there_are() -> None:

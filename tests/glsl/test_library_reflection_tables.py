@@ -2,14 +2,17 @@
 
 import numpy as np
 import pytest
+from rsibr.rsibr_addon.core.antialiased.summed_area import summed_area_table
 from rsibr.rsibr_addon.core.directions import dot, normalize, refract
-from rsibr.rsibr_addon.core.maps import equirect
+from rsibr.rsibr_addon.core.maps import equirect, sphere_map
 from rsibr.rsibr_addon.core.reflection_tables import ReflectionTables, Role
 from rsibr.rsibr_addon.core.resample import bilinear
 from rsibr.rsibr_addon.core.shading.reflection_tables import TablesLook, reflect_tables
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.reflection_tables import _with_alpha, bordered
+from rsibr.rsibr_addon.device.summed_area import summed_area_texture
 from rsibr.tests.glsl.evaluation import Samplers
+from rsibr.tests.glsl.test_library_summed_area import CORNERS, footprints
 from rsibr.tests.glsl.twins import AXES, COUNT, ULP, Twin, check, single, unit_vectors
 
 ROWS = 8
@@ -70,6 +73,20 @@ def weighted(role: Role, direction: np.ndarray, cosine: np.ndarray) -> np.ndarra
     return reflect_tables(tables, direction, view_dir, TablesLook())
 
 
+SUMMED = summed_area_table(IMAGE)
+UNIT = "vec3({!r}, {!r}, {!r})".format(*SUMMED.unit.tolist())
+
+
+def weighted_mean(*arguments: np.ndarray) -> np.ndarray:
+    """Weight times the table's mean over a footprint, through the reference."""
+    *corners, more = arguments
+    tables = ReflectionTables({Role.SPECULAR: IMAGE}, WEIGHTS)
+    normal = np.array([0.0, 0.0, 1.0])
+    view_dir = np.stack([np.sqrt(1.0 - more[:, 0] ** 2), np.zeros(COUNT), more[:, 0]], axis=-1)
+    averaged = TablesLook(antialiased=True)
+    return more[:, 1:] * reflect_tables(tables, normal, view_dir, averaged, np.stack(corners, axis=1))
+
+
 TWINS = {
     "refract_dir": Twin(
         "directions_lib.glsl",
@@ -97,6 +114,29 @@ TWINS = {
         # A place off by the arctangent's error, in texels, twice
         2.0 * (FILTERING + 2 * ROWS * ARCTANGENT),
         samplers=samplers,
+    ),
+    "table_weight": Twin(
+        "reflection_tables_lib.glsl",
+        "result_0.xyz = table_weight(weights, int(in_0.y + 0.5), in_0.x);",
+        lambda: [single(np.c_[RNG.uniform(-0.2, 1.0, COUNT), RNG.integers(0, len(Role), COUNT)])],
+        lambda place: bilinear(
+            WEIGHTS, np.stack([place[:, 0], (place[:, 1] + 0.5) / len(Role)], axis=-1), sphere_map.wrap
+        ),
+        FILTERING,
+        samplers=samplers,
+    ),
+    "weighted_mean": Twin(
+        "reflection_tables_lib.glsl",
+        f"{CORNERS} result_0.xyz = weighted_mean("
+        f"in_4.y, sums, {UNIT}, weights, TABLE_SPECULAR, in_4.x, corners);",
+        lambda: [
+            *footprints(),
+            single(np.c_[RNG.uniform(-0.2, 1.0, COUNT), RNG.integers(0, 2, COUNT).astype(np.float64)]),
+        ],
+        weighted_mean,
+        # Boxes off by 3e-6, at worst over one texel, of which neighbours differ by up to 1
+        2.0 * FILTERING + 6e-6 * 2 * ROWS,
+        samplers=lambda: samplers() | {"sums": ("FLOAT_2D_ARRAY", summed_area_texture(SUMMED))},
     ),
 } | {
     f"weighted_table {role}": Twin(

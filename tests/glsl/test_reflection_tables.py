@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.camera import Camera
 from rsibr.rsibr_addon.core.conventions import texel_centres
+from rsibr.rsibr_addon.core.directions import reflect
 from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.core.reflection_tables import ReflectionTables, Role
 from rsibr.rsibr_addon.core.shading.reflection_tables import TablesLook, reflect_tables
@@ -65,3 +66,50 @@ def test_tables_that_are_not_there_are_black() -> None:
     # In an orthographic view retro-reflection depends on the angle alone.
     expected = reflect_tables(alone, (1.0, 0.0, 0.0), (1.0, 0.0, 0.0), TablesLook())
     np.testing.assert_allclose(seen[3:5, 3:5, :3], np.broadcast_to(expected, (2, 2, 3)), rtol=0.05)
+
+
+TEXELS = 128
+"""Rows of a table that shows a lamp of 3 x 3 texels, 2.5 degrees wide."""
+
+
+def lamp_pictures(look: TablesLook, turns: int) -> np.ndarray:
+    """The lamp in a mirror ball of 8 x 8 pixels, a texel further in each picture; shape (turns, 8, 8, 4)."""
+    pictures = []
+    for turn in range(turns):
+        table = np.full((TEXELS, 2 * TEXELS, 3), 1e-3, dtype=np.float32)
+        table[70:73, TEXELS + 20 + turn : TEXELS + 23 + turn] = 1e4
+        tables = ReflectionTables({Role.SPECULAR: table}, np.ones((len(Role), 2, 3), dtype=np.float32))
+        renderer = PreviewRenderer(ReflectionTablesOnDevice(tables))
+        pictures.append(renderer.draw(*SPHERE, Camera((1.0, 0.0, 0.0)), 8, look))
+    return np.array(pictures)
+
+
+def test_an_antialiased_lamp_neither_goes_out_nor_flickers() -> None:
+    ensure_context()
+    # A mirror ball scatters evenly: of its disk, solid angle / 4 shows the lamp, in pixels of 1/16.
+    solid_angle = equirect.texel_solid_angle(2 * TEXELS, TEXELS)[70:73, :3].sum()
+    expected = 1e4 * solid_angle / 4.0 * 16.0
+    interpolated = lamp_pictures(TablesLook(), 8)[..., 0].sum(axis=(1, 2))
+    assert interpolated.min() < 0.01 * expected
+    assert interpolated.max() > 2.0 * expected
+    averaged = lamp_pictures(TablesLook(antialiased=True), 8)[..., 0].sum(axis=(1, 2))
+    # Boxes hold a sample's footprint, and so some of its neighbours': 10 % was seen.
+    np.testing.assert_allclose(averaged, expected, rtol=0.15)
+
+
+@BY_CAMERA
+def test_an_antialiased_picture_is_what_the_reference_says(camera: Camera) -> None:
+    ensure_context()
+    tables = smooth_tables(1.5)
+    look = TablesLook((Role.SPECULAR, Role.COAT), antialiased=True)
+    picture = PreviewRenderer(ReflectionTablesOnDevice(tables)).draw(*SPHERE, camera, SIZE, look)
+    normal, view_dir, cosine = samples(camera)
+    mirror_dir = reflect(view_dir, normal)
+    steps = [0.5 * np.gradient(mirror_dir, axis=axis) for axis in (1, 0)]
+    corners = [mirror_dir + p * steps[0] + q * steps[1] for p, q in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    blocks = (SIZE, SAMPLES_PER_AXIS, SIZE, SAMPLES_PER_AXIS)
+    shown = reflect_tables(tables, normal, view_dir, look, np.stack(corners, axis=-2))
+    inside = (cosine > 0.3).reshape(blocks).all(axis=(1, 3))
+    expected = shown.reshape(*blocks, 3).mean(axis=(1, 3))
+    error = np.abs(picture[..., :3] - expected)[inside].max()
+    assert error < 2e-3 * expected[inside].max()

@@ -4,12 +4,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..antialiased.footprint import footprint_box
+from ..antialiased.summed_area import box_mean, summed_area_table
 from ..conventions import Array, ArrayLike
 from ..directions import dot, reflect, refract
-from ..errors import RangeError
+from ..errors import RangeError, ShapeError
 from ..maps import equirect, sphere_map
 from ..reflection_tables import ReflectionTables, Role
 from ..resample import bilinear
+
+MIRRORED = (Role.SPECULAR, Role.COAT)
+"""Tables that are looked up by the mirrored view direction, which turns fastest from pixel to pixel."""
 
 
 @dataclass(frozen=True)
@@ -20,6 +25,8 @@ class TablesLook:
     ----------
     shown : tuple of Role
         Or their values, as text: the tables that count; what a material lacks is not missed.
+    antialiased : bool
+        Whether tables of `MIRRORED` are averaged over what a pixel reflects; otherwise they are interpolated.
 
     Raises
     ------
@@ -28,6 +35,7 @@ class TablesLook:
     """
 
     shown: tuple[Role, ...] = tuple(Role)
+    antialiased: bool = False
 
     def __post_init__(self) -> None:
         try:
@@ -70,7 +78,11 @@ def lookup_direction(role: Role, normal: ArrayLike, view_dir: ArrayLike, eta: fl
 
 
 def reflect_tables(
-    tables: ReflectionTables, normal: ArrayLike, view_dir: ArrayLike, look: TablesLook
+    tables: ReflectionTables,
+    normal: ArrayLike,
+    view_dir: ArrayLike,
+    look: TablesLook,
+    mirror_footprint: ArrayLike | None = None,
 ) -> Array:
     """Radiance of surface points: the sum over the tables of weight times table.
 
@@ -80,18 +92,30 @@ def reflect_tables(
     normal, view_dir : array_like, shape (..., 3)
         Unit vectors in world coordinates.
     look : TablesLook
+    mirror_footprint : array_like, shape (..., 4, 3), optional
+        Mirrored view directions at the corners of each point's pixel, see `core.antialiased`; what
+        `look.antialiased` needs.
 
     Returns
     -------
     ndarray, shape (..., 3), float64
         Radiance: Wd(E.N) D[N] + Ws(E.N) S[R] of [Miller1984] section 3, and so for the other tables.
 
+    Raises
+    ------
+    ShapeError
+        An antialiased look without a footprint.
+
     Notes
     -----
     Tables are interpolated (section 7.1) between texel centres, across seam and poles too, weights
-    between their columns. GLSL twin: gpu_shaders/reflection_tables_frag.glsl.
+    between their columns. Antialiased ones are averaged as of section 8.3. GLSL twin:
+    gpu_shaders/reflection_tables_frag.glsl.
     """
     normal, view_dir = np.broadcast_arrays(np.asarray(normal, np.float64), np.asarray(view_dir, np.float64))
+    footprint = mirror_footprint if look.antialiased else None
+    if look.antialiased and footprint is None:
+        raise ShapeError("Antialiased tables need the footprint of each pixel: give the mirrored directions.")
     cosine = dot(normal, view_dir)
     radiance = np.zeros(normal.shape)
     for number, role in enumerate(Role):
@@ -99,6 +123,11 @@ def reflect_tables(
             continue
         row = np.full_like(cosine, (number + 0.5) / len(Role))
         weight = bilinear(tables.weights, np.stack([cosine, row], axis=-1), sphere_map.wrap)
-        uv = equirect.uv_from_direction(lookup_direction(role, normal, view_dir, tables.eta))
-        radiance += weight * bilinear(tables.maps[role], uv, equirect.wrap)
+        table = tables.maps[role]
+        if footprint is not None and role in MIRRORED:
+            box = footprint_box(footprint, table.shape[1], table.shape[0])
+            radiance += weight * box_mean(summed_area_table(table), box)
+        else:
+            uv = equirect.uv_from_direction(lookup_direction(role, normal, view_dir, tables.eta))
+            radiance += weight * bilinear(table, uv, equirect.wrap)
     return radiance

@@ -26,7 +26,9 @@ class RSIBR_PT_preview(bpy.types.Panel):
         """Show the file, what it holds, how it is shaded, and what went wrong."""
         item, layout = context.object, self.layout
         layout.use_property_split = True
-        layout.prop(item.rsibr, "map_set")
+        row = layout.row(align=True)
+        row.prop(item.rsibr, "map_set")
+        row.operator("rsibr.reload_map_sets", text="", icon="FILE_REFRESH")
         for message in filter(None, (previews.fault(item), previews.trouble)):
             _tell(layout, message, context.region.width)
         kind = previews.kind(item)
@@ -34,8 +36,9 @@ class RSIBR_PT_preview(bpy.types.Panel):
             return
         layout.label(text=kind.replace("_", " ").capitalize())
         settings = getattr(item.rsibr, kind, None)
-        for name in getattr(settings, "__annotations__", ()):
-            layout.prop(settings, name)
+        for setting in settings.bl_rna.properties if settings else ():
+            if setting.identifier not in bpy.types.PropertyGroup.bl_rna.properties:
+                layout.prop(settings, setting.identifier)
 
 
 def _tell(layout: bpy.types.UILayout, message: str, width: int) -> None:

@@ -3,13 +3,14 @@
 Copied beside them into the folder that Blender sees as /job; not imported by the tests themselves.
 """
 
+import importlib  # noqa: F401  (for the scenarios)
 import json
 import os
 import time
 import traceback
 from collections.abc import Callable, Iterator
 
-import bmesh  # noqa: F401  (for the scenarios)
+import bmesh  # noqa: F401
 import bpy
 import numpy as np
 import xshot

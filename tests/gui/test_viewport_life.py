@@ -17,7 +17,6 @@ def _flat(job: Path) -> None:
 
 
 PRELUDE = """
-import importlib
 module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport")
 
 def purple(number=0):

@@ -1,0 +1,21 @@
+"""Read the map sets of previews anew."""
+
+import bpy
+
+from ..rsibr_addon.tasks.viewport import previews
+
+
+class RSIBR_OT_reload_map_sets(bpy.types.Operator):
+    """Read the map sets' files again, and try again what failed"""  # noqa: D400  (a tooltip)
+
+    bl_idname = "rsibr.reload_map_sets"
+    bl_label = "Reload Map Sets"
+    bl_options = {"REGISTER"}  # noqa: RUF012  (Blender reads the class)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Let go of what is uploaded; the next redraw reads it."""
+        previews.reload()
+        for window in context.window_manager.windows:
+            for area in window.screen.areas:
+                area.tag_redraw()
+        return {"FINISHED"}

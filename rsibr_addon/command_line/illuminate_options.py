@@ -27,7 +27,7 @@ def add_bracket(parser: argparse.ArgumentParser, description: str) -> None:
     times.add_argument(
         "--times",
         metavar="T,T,...",
-        type=_times,
+        type=exposure_times,
         help="exposure times in seconds, 1/125 or 0.5, one for each (default: what the files' Exif tells)",
     )
     times.add_argument("--times-file", metavar="FILE", type=Path, help="a text file with the exposure times")
@@ -57,7 +57,8 @@ def bracket_settings(arguments: argparse.Namespace) -> BracketSettings:
     return BracketSettings(tuple(arguments.photographs), times, Curve(arguments.curve), arguments.align)
 
 
-def _times(text: str) -> tuple[float, ...]:
+def exposure_times(text: str) -> tuple[float, ...]:
+    """Exposure times, T,T,...: 1/125 or 0.5."""
     try:
         return tuple(exposure_time(part) for part in text.split(","))
     except ValueError:

@@ -17,6 +17,9 @@ SAMPLES = 40_000
 GREEN = 1
 """The colour in which movement is looked for: it has the least noise, and in most cameras the most pixels."""
 
+WHITE = 0.97
+"""Encoded values above this may well be more."""
+
 BLACK = 2.0 / 255.0
 """Encoded values up to this are black: rounding alone makes a quarter of them."""
 
@@ -123,14 +126,15 @@ def merge_bracket(
     mean, amount = _mean(photographs, weights, times, motions, curve)
     unsure = amount <= 0.0
     shortest, longest = _ends(photographs, motions)
-    rest = np.where(
-        shortest > 0.5,
-        curve.logarithm(shortest) - np.log(times[0]),
-        curve.logarithm(longest) - np.log(times[-1]),
-    )
+    by_shortest = curve.logarithm(shortest) - np.log(times[0])
+    by_longest = curve.logarithm(longest) - np.log(times[-1])
+    rest = np.where(shortest > 0.5, by_shortest, by_longest)
+    # The curves' upper ends are extrapolated, each for itself: that is no reason to give a lamp a colour
+    white = np.all(unsure & (shortest > WHITE), axis=-1, keepdims=True)
+    rest = np.where(white, rest.mean(axis=-1, keepdims=True), rest)
     return Merged(
         np.exp(np.where(unsure, rest, mean)).astype(np.float32),
-        float(np.mean(np.any(unsure & (shortest >= 1.0), axis=-1))),
+        float(np.mean(np.any(unsure & (shortest > WHITE), axis=-1))),
         float(np.mean(np.any(unsure & (longest <= BLACK), axis=-1))),
         curve,
         tuple(motions),

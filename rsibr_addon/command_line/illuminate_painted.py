@@ -1,0 +1,63 @@
+"""Make it from a painted picture, whose whites become lamps."""
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from .convert import LAYOUTS
+from .illuminate_options import add_environment_output
+from .options import colour
+from .report import Report
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what `run` reads."""
+    parser.add_argument(
+        "source", metavar="PICTURE", type=Path, help="JPEG, PNG and the like, of 8 or 16 bits"
+    )
+    parser.add_argument(
+        "--from",
+        metavar="LAYOUT",
+        dest="source_layout",
+        choices=LAYOUTS,
+        default="equirect",
+        help=f"how it is laid out: {', '.join(LAYOUTS)} (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--white",
+        metavar="RADIANCE|R,G,B",
+        type=colour,
+        required=True,
+        help="what white becomes, 1 or more; the darker a colour the less it is lifted",
+    )
+    parser.add_argument(
+        "--knee",
+        metavar="X",
+        type=float,
+        default=0.7,
+        help="linear luminance up to which nothing is lifted, 0 to 1 (default: %(default)g)",
+    )
+    add_environment_output(parser)
+
+
+def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
+    """Make the map.
+
+    Returns
+    -------
+    dict
+        "environment", the path of the map.
+
+    Raises
+    ------
+    RsibrError
+        See `tasks.illuminate_painted`.
+    """
+    from ..tasks.illuminate_painted import PaintedSettings, illuminate_from_painting
+
+    settings = PaintedSettings(arguments.source_layout, arguments.size, arguments.white, arguments.knee)
+    output = report.steps(
+        illuminate_from_painting(arguments.source, settings, arguments.output, arguments.force)
+    )
+    report.say(f"{output}")
+    return {"environment": str(output)}

@@ -1,0 +1,182 @@
+"""An environment from photographs of a mirrored ball."""
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..core.ball_circle import Circle, find_circle
+from ..core.ball_photograph import BallSide, cut_ball, distance_from_view, environment_from_balls
+from ..core.conventions import Array
+from ..core.errors import InputFileError, RangeError
+from ..core.maps.representation import representation
+from ..core.progress import Progress, Steps
+from ..files.radiance_pictures import check_radiance_target, write_radiance
+from .brackets import BracketSettings, merged, read_photographs
+from .light_pictures import read_light
+
+
+@dataclass(frozen=True)
+class SideSettings:
+    """The photographs of a ball from one side.
+
+    Attributes
+    ----------
+    bracket : BracketSettings
+        One photograph or several exposures; these need not be of one size.
+    circle : tuple of 3 floats or None
+        x, y and radius of the ball's outline in pixels from the photographs' top left corner; None to
+        find it in each.
+    turn : float
+        See `core.ball_photograph.BallSide` [rad].
+    """
+
+    bracket: BracketSettings
+    circle: tuple[float, float, float] | None = None
+    turn: float = 0.0
+
+
+@dataclass(frozen=True)
+class BallSettings:
+    """All photographs of a ball, and how they were taken.
+
+    Attributes
+    ----------
+    sides : tuple of SideSettings
+    size : int
+        Width of the environment in texels, even.
+    distance : float or None
+        Of the cameras in radii of the ball; None for a distant one, or one that `field_of_view` tells.
+    field_of_view : float or None
+        Angle that the longer side of the photographs shows, if they are not cropped [rad].
+    elevation : float
+        How far the cameras looked down [rad].
+    camera_angle : float
+        See `core.ball_photograph.environment_from_balls` [rad].
+
+    Raises
+    ------
+    RangeError
+        A number is out of its range.
+    """
+
+    sides: tuple[SideSettings, ...]
+    size: int
+    distance: float | None = None
+    field_of_view: float | None = None
+    elevation: float = 0.0
+    camera_angle: float = math.radians(15.0)
+
+    def __post_init__(self) -> None:
+        representation("equirect").shape(self.size)
+        if self.distance is not None:
+            representation("mirror_ball", distance=self.distance)
+        if not -0.5 * math.pi < self.elevation < 0.5 * math.pi:
+            raise RangeError("A camera looks down by less than 90 degrees: check its elevation.")
+        if not 0.0 <= self.camera_angle < math.pi:
+            raise RangeError("A camera's reflection takes up from 0 to 180 degrees: check its angle.")
+
+
+@dataclass(frozen=True, eq=False)
+class BallReport:
+    """What was found in the photographs.
+
+    Attributes
+    ----------
+    circles : tuple of (Path, Circle)
+        The outline in each, from the bottom left corner.
+    gains : tuple of float
+        Of each side: see `environment_from_balls`.
+    """
+
+    circles: tuple[tuple[Path, Circle], ...]
+    gains: tuple[float, ...]
+
+
+def illuminate_from_ball(settings: BallSettings, output: Path, force: bool = False) -> Steps[BallReport]:
+    """Unwrap photographs of a ball into an environment.
+
+    Parameters
+    ----------
+    settings : BallSettings
+    output : Path
+        NAME.exr or NAME.hdr.
+    force : bool
+        Whether an existing file is replaced.
+
+    Yields
+    ------
+    Progress
+
+    Returns
+    -------
+    BallReport
+
+    Raises
+    ------
+    InputFileError
+        A photograph is missing or unreadable, no ball is found in it, or the exposures cannot be merged.
+    RangeError
+        The sides share nothing to compare their exposures by.
+    OutputFileError
+        See `write_radiance`.
+
+    Warns
+    -----
+    RsibrWarning
+        See `brackets.merged`.
+    """
+    check_radiance_target(output, force)
+    sides, circles = [], []
+    for side in settings.sides:
+        picture, found, longer = yield from _picture(side)
+        distance = settings.distance or np.inf
+        if settings.field_of_view is not None:
+            distance = distance_from_view(found[0][1], longer, settings.field_of_view)
+        sides.append(BallSide(picture, side.turn, settings.elevation, distance))
+        circles += found
+    yield Progress(1, 2, f"unwrapping into {output.name}")
+    radiance, gains = environment_from_balls(sides, settings.size, settings.camera_angle)
+    write_radiance(output, radiance, force)
+    return BallReport(tuple(circles), tuple(float(gain) for gain in gains))
+
+
+def _picture(side: SideSettings) -> Steps[tuple[Array, list[tuple[Path, Circle]], int]]:
+    """Radiance in the square around the ball, the outlines, and the longer side of the first photograph."""
+    alone = len(side.bracket.photographs) == 1
+    if alone:
+        paths, times = list(side.bracket.photographs), [1.0]
+        yield Progress(0, 2, f"reading {paths[0].name}")
+        pictures = [read_light(paths[0])]
+    else:
+        paths, times = side.bracket.in_order()
+        pictures = yield from read_photographs(paths)
+    circles = []
+    for path, picture in zip(paths, pictures, strict=True):
+        yield Progress(0, 2, f"looking for the ball in {path.name}")
+        circles.append(_circle(path, picture, side))
+    size = max(round(2.0 * circle.radius) for circle in circles)
+    squares = [cut_ball(picture, circle, size) for picture, circle in zip(pictures, circles, strict=True)]
+    found = list(zip(paths, circles, strict=True))
+    longer = max(pictures[0].shape[:2])
+    return squares[0] if alone else merged(side.bracket, squares, times).radiance, found, longer
+
+
+def _circle(path: Path, picture: Array, side: SideSettings) -> Circle:
+    """The outline: the one given, or found."""
+    height, width = picture.shape[:2]
+    try:
+        if side.circle is None:
+            # Spread around the middle brightness, so that edges show in radiance as in dark exposures
+            return find_circle(picture / (picture + max(float(np.median(picture)), 1e-3)))[0]
+        x, y, radius = side.circle
+        circle = Circle(x, height - y, radius)
+    except RangeError as error:
+        raise InputFileError(f"{path}: {error}") from error
+    if not (0.0 <= x <= width and 0.0 <= y <= height and radius <= max(width, height)):
+        raise InputFileError(
+            f"{path} is {width}x{height}, but the circle {x:g},{y:g},{radius:g} is not in it: give "
+            f"its middle from the top left corner, and its radius, in pixels."
+        )
+    return circle

@@ -40,7 +40,7 @@ PANORAMA_STEPS = 8
 OVERLAP = 16
 """Columns that a panorama is continued by on either side while it is denoised."""
 
-LARGEST, SMALLEST = 16384, 8
+LARGEST, SMALLEST = 8192, 8
 """Width of a map."""
 
 
@@ -130,7 +130,7 @@ def illuminate_from_scene(light: SceneLight, output: Path, force: bool = False) 
     Warns
     -----
     RsibrWarning
-        The map is black; or a lamp is where the point is.
+        The map is black.
 
     Notes
     -----
@@ -152,7 +152,8 @@ def illuminate_from_scene(light: SceneLight, output: Path, force: bool = False) 
         share = sampling.count / sampling.total
         mean = seen.setdefault(face, {})
         for name, pixels in picture.items():
-            mean[name] = mean.get(name, 0.0) + share * pixels.astype(np.float64)
+            texels = pixels if light.faces else _merged_rows(pixels)
+            mean[name] = mean.get(name, 0.0) + share * texels.astype(np.float64)
     radiance = add_lamps(_assembled(light, seen), lamps)
     if not np.any(radiance):
         warnings.warn(f"No light arrives there, so {output} is black.", RsibrWarning, stacklevel=2)
@@ -197,7 +198,7 @@ def _assembled(light: SceneLight, seen: dict[int | None, dict[str, Array]]) -> A
     if light.faces:
         cube = np.stack([_radiance(light, seen[face], 0) for face in range(6)])
         return resample(cube, representation("cube_map"), representation("equirect"), light.size)[0]
-    return _radiance(light, {name: _merged_rows(pixels) for name, pixels in seen[None].items()}, OVERLAP)
+    return _radiance(light, seen[None], OVERLAP)
 
 
 def _merged_rows(pixels: Array) -> Array:

@@ -389,7 +389,7 @@ def test_a_point_without_size_at_the_place_itself_is_left_out(add_lamp: AddLamp,
 @pytest.mark.parametrize(
     ("settings", "error", "words"),
     [
-        ({"size": 7}, RangeError, "cannot be 7 texels wide: choose an even number, 8 to 16384"),
+        ({"size": 7}, RangeError, "cannot be 7 texels wide: choose an even number, 8 to 8192"),
         ({"size": 32768}, RangeError, "cannot be 32768 texels wide"),
         ({"samples": 0}, RangeError, "cannot take 0 samples: choose 1 to"),
         ({"seed": -1}, RangeError, "seed -1 is out of range"),

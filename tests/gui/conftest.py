@@ -5,7 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -24,9 +24,13 @@ def extension() -> Path:
 
 
 @pytest.fixture(scope="session")
-def job(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def job(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     """The folder that Blender sees as /job."""
-    return tmp_path_factory.mktemp("blender")
+    folder = tmp_path_factory.mktemp("blender")
+    yield folder
+    # Mounted there, it could not be removed.
+    root = Path(os.environ.get("WINDOW_ROOT", Path.home() / ".cache" / "blender-window"))
+    subprocess.run(["umount", root / "sid" / "job"], check=True)
 
 
 @pytest.fixture(scope="session")

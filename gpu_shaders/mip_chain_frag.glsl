@@ -1,4 +1,5 @@
-// Twin of core/shading/mip_chain.py `mip_chain_radiance`: [Kautz2004] Eq. 8 in one pass.
+// Twin of core/shading/mip_chain.py `mip_chain_radiance`: [Kautz2004] Eq. 8 in one pass. LIVE: the
+// harmonics lie on the GPU, where they were summed.
 #include "lib/directions_lib.glsl"
 #include "lib/draw_lib.glsl"
 #include "lib/fresnel_lib.glsl"
@@ -10,7 +11,11 @@ void main()
   vec3 unit_normal = normalize(world_normal);
   vec3 view_dir = view_direction(draw.eye, world_position);
   vec3 fresnel = fresnel_schlick(clamp(dot(unit_normal, view_dir), 0.0, 1.0), look.f_lambda.rgb);
+#ifdef LIVE
+  vec3 light = irradiance_from_harmonics(harmonics, unit_normal);
+#else
   vec3 light = irradiance(look.irradiance_red, look.irradiance_green, look.irradiance_blue, unit_normal);
+#endif
   vec3 diffuse = look.k_d.rgb / 3.14159265 * max(light, 0.0);
   vec3 mirror_dir = reflect_dir(view_dir, unit_normal);
   vec3 glossy = glossy_radiance(atlas, mirror_dir, look.level, look.clamped > 0.5);

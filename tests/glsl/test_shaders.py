@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from rsibr.rsibr_addon.core.errors import DeviceError
 from rsibr.rsibr_addon.device import (
+    live_environment_shaders,
     lobe_stack_shaders,
     mip_chain_shaders,
     reflection_tables,
@@ -30,6 +31,13 @@ PROGRAMS = [
     lobe_stack_shaders.lobe_stack_shader,
     viewport_shaders.composite_shader,
     viewport_shaders.occluder_shader,
+    live_environment_shaders.face_shader,
+    live_environment_shaders.bordered_shader,
+    live_environment_shaders.box_shader,
+    live_environment_shaders.tent_shader,
+    live_environment_shaders.rows_shader,
+    live_environment_shaders.harmonics_shader,
+    live_environment_shaders.live_mip_chain_shader,
 ]
 
 

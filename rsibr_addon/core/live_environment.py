@@ -1,0 +1,141 @@
+"""Light that changes while one looks: a cube map rendered around a point, filtered anew.
+
+[Kautz2004] section 5: six renders with a right angle of view, one for every face; nine harmonics of
+what they show for diffuse light, their mips for glossy light.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from .conventions import Array, ArrayLike
+from .irradiance import real_harmonics
+from .maps import cube_map
+from .maps.representation import representation
+from .mip_chain import MipChain
+from .mips.texture_space import filtered_mips
+
+FACE_COUNT = 6
+
+_CUBE = representation("cube_map")
+
+
+def chain_of_faces(faces: Array, halved: Callable[[Array], Array]) -> MipChain:
+    """What an object is shaded from, of six renders.
+
+    Parameters
+    ----------
+    faces : ndarray, shape (6, n, n, 3)
+        Radiance, n a power of 2.
+    halved : callable
+        `mips.texture_space.box_halved` or `tent_halved`.
+
+    Returns
+    -------
+    MipChain
+        Down to a single texel.
+
+    Raises
+    ------
+    RangeError
+        n is no power of 2, or too large.
+    ShapeError
+        The faces are not six squares.
+
+    Notes
+    -----
+    GPU twin: `device.live_environment.LiveEnvironmentOnDevice`.
+    """
+    mips = filtered_mips(faces, halved)
+    return MipChain(tuple(mip.astype(np.float32) for mip in mips), harmonics_of_faces(faces))
+
+
+def harmonics_of_faces(faces: Array) -> Array:
+    """Nine coefficients of the radiance on a cube: the sum of radiance, solid angle and harmonic.
+
+    Parameters
+    ----------
+    faces : ndarray, shape (6, n, n, channels)
+
+    Returns
+    -------
+    ndarray, shape (9, channels), float64
+        In the order of `irradiance.real_harmonics`: [Kautz2004] Eq. 11.
+
+    Notes
+    -----
+    Each harmonic is taken at the texels' centres. By the cube's symmetry, constant light has nothing of
+    degree 1 and 2, whatever n.
+    GLSL twin: gpu_shaders/lib/live_environment_lib.glsl `harmonics_of_row` and `harmonics_of_rows`,
+    1e-5 of the sum of radiance and solid angle.
+    """
+    size = faces.shape[1]
+    weights = real_harmonics(_CUBE.texel_directions(size), 2) * cube_map.texel_solid_angle(size)[..., None]
+    coefficients: Array = np.einsum("frck,frcn->kn", weights, np.asarray(faces, np.float64))
+    return coefficients
+
+
+def solid_angle_texels(size: int) -> Array:
+    """Solid angles of a face's texels in every mip, as gpu_shaders/lib/live_environment_lib.glsl reads them.
+
+    Parameters
+    ----------
+    size : int
+        Of the first mip, a power of 2.
+
+    Returns
+    -------
+    ndarray, shape (2 * size - 1, size), float64
+        [sr]; a square for each mip, from the bottom up, at the left.
+    """
+    texels = np.zeros((2 * size - 1, size))
+    bottom = 0
+    while size:
+        texels[bottom : bottom + size, :size] = cube_map.texel_solid_angle(size)[0]
+        bottom, size = bottom + size, size // 2
+    return texels
+
+
+def face_view(face: int, centre: ArrayLike) -> Array:
+    """The view from a cube's centre on one of its faces.
+
+    Parameters
+    ----------
+    face : int
+        0 to 5, in the order of `maps.cube_map`.
+    centre : array_like, shape (3,)
+        In world coordinates.
+
+    Returns
+    -------
+    ndarray, shape (4, 4), float64
+        Camera from world coordinates: x along the face's s, y along its t, looking along -z.
+    """
+    s, t, forward = cube_map.FACES[face]
+    view = np.eye(4)
+    view[:3, :3] = [s, t, -forward]
+    view[:3, 3] = view[:3, :3] @ -np.asarray(centre, dtype=np.float64)
+    return view
+
+
+def face_projection(near: float, far: float) -> Array:
+    """A right angle of view both ways.
+
+    Parameters
+    ----------
+    near, far : float
+        Distances of the planes that cut off what is seen; 0 < near < far.
+
+    Returns
+    -------
+    ndarray, shape (4, 4), float64
+        OpenGL clip coordinates from camera coordinates.
+    """
+    return np.array(
+        [
+            [1.0, 0.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0, 0.0],
+            [0.0, 0.0, -(far + near) / (far - near), -2.0 * far * near / (far - near)],
+            [0.0, 0.0, -1.0, 0.0],
+        ]
+    )

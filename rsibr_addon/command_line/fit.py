@@ -42,6 +42,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--error", metavar="E", type=float, help="add lobes only until the error is at most this"
     )
+    parser.add_argument(
+        "--seek",
+        choices=["peaks", "places", "search"],
+        default="peaks",
+        help="where greedy places lobes: at the highest peak; at the best of peak, mirror direction, normal "
+        "and view; or anywhere, by a search from coarse to fine (default: %(default)s)",
+    )
     parser.add_argument("--non-negative", action="store_true", help="no kernel with a negative weight")
     options.add_output(parser, "FIT.json", "the fit to write")
 
@@ -68,6 +75,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
         taps=arguments.taps,
         error=arguments.error,
         non_negative=arguments.non_negative,
+        seek=arguments.seek,
     )
     result = report.steps(fit_lobes(arguments.brdf, settings, arguments.output, arguments.force))
     figures = result.report()

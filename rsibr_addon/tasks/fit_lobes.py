@@ -7,10 +7,13 @@ from pathlib import Path
 from typing import Any
 
 from ..core.brdf.model import Brdf
+from ..core.brdf.spec import spec_from_brdf
 from ..core.errors import RangeError
 from ..core.lobes.accuracy import FitErrors, fit_errors
 from ..core.lobes.fit import Fit
+from ..core.lobes.kautz_mccool import greedy_fit, single_2d_fit, single_fit
 from ..core.lobes.layers import layered_fit
+from ..core.lobes.seeking import SEEKING
 from ..core.lobes.target import elevation_slices
 from ..core.progress import Progress, Steps
 from ..files.atomic import check_target
@@ -38,6 +41,8 @@ class FitSettings:
         Use fewer lobes where E is at most this, above 0 and below 1; of the method joint.
     non_negative : bool
         Whether no kernel may have a negative weight; of the method joint.
+    seek : str
+        One of `core.lobes.seeking.SEEKING`: where the method greedy places its lobes.
 
     Raises
     ------
@@ -51,6 +56,7 @@ class FitSettings:
     taps: int = 1
     error: float | None = None
     non_negative: bool = False
+    seek: str = "peaks"
 
     def __post_init__(self) -> None:
         if self.method not in METHODS:
@@ -61,10 +67,14 @@ class FitSettings:
             raise RangeError(f"{self.taps} taps are out of range: choose 1 to {MOST_TAPS}.")
         if self.error is not None and not 0.0 < self.error < 1.0:
             raise RangeError(f"An error of {self.error} is out of range: choose one between 0 and 1.")
+        if self.seek not in SEEKING:
+            raise RangeError(f"Lobes are not sought by {self.seek}: choose one of {', '.join(SEEKING)}.")
         elevation_slices(self.slices)
         joint = self.taps > 1 or self.error is not None or self.non_negative
         if joint and self.method != "joint":
             raise RangeError(f"Taps, an error and signs are for the method joint, not {self.method}.")
+        if self.seek != "peaks" and self.method != "greedy":
+            raise RangeError(f"Where to seek lobes is for the method greedy, not {self.method}.")
 
 
 @dataclass(frozen=True)
@@ -152,5 +162,26 @@ def _joint(brdf: Brdf, settings: FitSettings) -> Steps[Fit]:
     )
 
 
-METHODS: dict[str, Callable[[Brdf, FitSettings], Steps[Fit]]] = {"joint": _joint}
+def _greedy(brdf: Brdf, settings: FitSettings) -> Steps[Fit]:
+    yield Progress(0, 1, "fitting minimum profiles")
+    mu = elevation_slices(settings.slices)
+    return greedy_fit(brdf, spec_from_brdf(brdf), mu, settings.lobes, SEEKING[settings.seek])
+
+
+def _single(brdf: Brdf, settings: FitSettings) -> Steps[Fit]:
+    yield Progress(0, 1, "fitting mean profiles")
+    return single_fit(brdf, spec_from_brdf(brdf), elevation_slices(settings.slices))
+
+
+def _single_2d(brdf: Brdf, settings: FitSettings) -> Steps[Fit]:
+    yield Progress(0, 1, "fitting mean profiles")
+    return single_2d_fit(brdf, spec_from_brdf(brdf), elevation_slices(settings.slices))
+
+
+METHODS: dict[str, Callable[[Brdf, FitSettings], Steps[Fit]]] = {
+    "joint": _joint,
+    "greedy": _greedy,
+    "single": _single,
+    "single-2d": _single_2d,
+}
 """Name -> what fits by it."""

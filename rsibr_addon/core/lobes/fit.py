@@ -193,6 +193,29 @@ def lobe_axes(normal: ArrayLike, reflect_dir: ArrayLike, offsets: ArrayLike) -> 
     return axes
 
 
+def offsets_from_axes(normal: ArrayLike, reflect_dir: ArrayLike, axes: ArrayLike) -> Array:
+    """The inverse of `lobe_axes`.
+
+    Parameters
+    ----------
+    normal, reflect_dir, axes : array_like, shapes (..., 3)
+        Unit vectors; normal and mirror direction differ, axes are not opposite to the mirror direction.
+
+    Returns
+    -------
+    ndarray, shape (..., 2)
+        (tilt, turn).
+    """
+    normal, reflect_dir, axes = (np.asarray(array, np.float64) for array in (normal, reflect_dir, axes))
+    chord = np.linalg.norm(axes - reflect_dir, axis=-1)
+    angle = 2.0 * np.arcsin(np.minimum(0.5 * chord, 1.0))
+    up = normal - dot(normal, reflect_dir)[..., None] * reflect_dir
+    aside = np.cross(normal, reflect_dir)
+    # Across the mirror direction an axis reaches the sine of its angle
+    factor = 1.0 / (np.sinc(angle / np.pi) * dot(up, up))
+    return np.stack([dot(axes, up) * factor, dot(axes, aside) * factor], axis=-1)
+
+
 def joined(fits: Sequence[Fit], brdf: str) -> Fit:
     """The sum of several fits, such as of the layers of a material.
 

@@ -36,6 +36,13 @@ vec3 elevation_value(sampler2D elevations, int row, vec2 elevation)
              elevation.y);
 }
 
+// Normals that point away from the eye, turned to the horizon.
+vec3 facing_normal(vec3 normal, vec3 view_dir)
+{
+  vec3 turned = normal - min(dot(normal, view_dir), 0.0) * view_dir;
+  return turned / max(length(turned), 1e-9);
+}
+
 // Twin of core/lobes/fit.py `lobe_axes`; offset is (tilt, turn).
 vec3 lobe_axis(vec3 normal, vec3 mirror_dir, vec2 offset)
 {
@@ -76,9 +83,10 @@ vec3 stack_radiance(sampler3D maps,
                     int lobes,
                     int taps,
                     int slices,
-                    vec3 normal,
+                    vec3 shading_normal,
                     vec3 view_dir)
 {
+  vec3 normal = facing_normal(shading_normal, view_dir);
   vec3 mirror_dir = reflect_dir(view_dir, normal);
   vec2 elevation = elevation_at(elevations, dot(normal, view_dir));
   vec3 radiance = vec3(0.0);

@@ -7,7 +7,7 @@ from rsibr.rsibr_addon.core.lobes.fit import lobe_axes
 from rsibr.rsibr_addon.core.lobes.stack import LAYOUTS, LobeStack, stack_representation
 from rsibr.rsibr_addon.core.maps import octahedral
 from rsibr.rsibr_addon.core.resample import lookup
-from rsibr.rsibr_addon.core.shading.lobe_stack import StackLook, stack_radiance
+from rsibr.rsibr_addon.core.shading.lobe_stack import StackLook, facing_normal, stack_radiance
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.lobe_stack import elevation_texels, map_texels
 from rsibr.tests.glsl.evaluation import Samplers, evaluate
@@ -45,6 +45,20 @@ def offsets() -> np.ndarray:
     large[: COUNT // 4] *= 10.0 ** RNG.uniform(-7.0, 0.0, (COUNT // 4, 1))
     large[:10] = 0.0
     return single(large)
+
+
+def towards_and_away() -> list[np.ndarray]:
+    """Pairs of directions, none of them nearly opposite to each other."""
+    normal, view_dir = unit_vectors(40), unit_vectors(41)
+    opposite = np.linalg.norm(normal + view_dir, axis=-1) < 1e-3
+    normal[opposite] = view_dir[opposite]
+    return [normal, view_dir]
+
+
+def turned_length(normal: np.ndarray, view_dir: np.ndarray) -> np.ndarray:
+    """Of normals that point away what is left across the view, of others 1."""
+    across = np.linalg.norm(np.cross(normal, view_dir), axis=-1)
+    return np.where(dot(normal, view_dir) < 0.0, np.maximum(across, 1e-3), 1.0)
 
 
 def expected_place(direction: np.ndarray) -> np.ndarray:
@@ -91,6 +105,14 @@ TWINS = {
         # As above, times what neighbours differ by, at most 0.8; and the rounding of the values.
         (0.8 * (2 / 0.1 + 8) + 4) * ULP,
         samplers=elevations,
+    ),
+    "facing_normal": Twin(
+        "lobe_stack_lib.glsl",
+        "result_0.xyz = facing_normal(in_0.xyz, in_1.xyz);",
+        towards_and_away,
+        facing_normal,
+        # Roundings of the difference, of cosines, squares and a root, over its length.
+        lambda normal, view_dir: (8 * ULP / turned_length(normal, view_dir))[:, None, None],
     ),
     "lobe_axis": Twin(
         "lobe_stack_lib.glsl",
@@ -148,15 +170,15 @@ def test_map_radiance(layout: str, lobe: int, number: int) -> None:
 def test_stack_radiance(layout: str, shared: bool) -> None:
     stack = random_stack(layout, SIZE, shared)
     normal, view_dir = unit_vectors(38), unit_vectors(39)
-    view_dir *= np.where(dot(normal, view_dir) < 0.0, -1.0, 1.0)[:, None]
     # Where the hemispheres meet, rounding decides which sheet shows an axis; both show the same there, up to
     # interpolation, but not of texels without a pattern.
-    mirror_dir = reflect(view_dir, normal)
-    below, share = stack.elevation(dot(normal, view_dir))
+    facing = facing_normal(normal, view_dir)
+    mirror_dir = reflect(view_dir, facing)
+    below, share = stack.elevation(dot(facing, view_dir))
     above = np.minimum(below + 1, 4)
     mixed = (1.0 - share)[:, None, None, None] * stack.offsets[:, below].swapaxes(0, 1)
     mixed += share[:, None, None, None] * stack.offsets[:, above].swapaxes(0, 1)
-    axes = lobe_axes(normal[:, None, None], mirror_dir[:, None, None], mixed)
+    axes = lobe_axes(facing[:, None, None], mirror_dir[:, None, None], mixed)
     clear = np.all(np.abs(axes @ stack.representation.frame[:, 2]) > 1e-5, axis=(1, 2))
     code = (
         f"result_0.rgb = stack_radiance(maps, elevations, {LAYOUTS.index(layout)}, 3, 2, "

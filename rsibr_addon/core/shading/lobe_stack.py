@@ -54,7 +54,7 @@ def stack_radiance(stack: LobeStack, normal: ArrayLike, view_dir: ArrayLike, loo
     ----------
     stack : LobeStack
     normal, view_dir : array_like, shape (..., 3)
-        Unit vectors in world coordinates.
+        Unit vectors in world coordinates; for normals that point away see `facing_normal`.
     look : StackLook
 
     Returns
@@ -76,6 +76,7 @@ def stack_radiance(stack: LobeStack, normal: ArrayLike, view_dir: ArrayLike, loo
     gpu_shaders/lobe_stack_frag.glsl; with half-float maps, within 2e-3 of the peak.
     """
     normal, view_dir = np.broadcast_arrays(np.asarray(normal, np.float64), np.asarray(view_dir, np.float64))
+    normal = facing_normal(normal, view_dir)
     below, share = stack.elevation(dot(normal, view_dir))
     above = np.minimum(below + 1, len(stack.mu) - 1)
     mirror_dir = reflect(view_dir, normal)
@@ -89,6 +90,33 @@ def stack_radiance(stack: LobeStack, normal: ArrayLike, view_dir: ArrayLike, loo
             filtered = _map_lookup(stack, lobe, axes[..., tap, :], below, share)
             radiance += taps[..., tap, None] * scale * filtered
     return np.maximum(radiance, 0.0)
+
+
+def facing_normal(normal: ArrayLike, view_dir: ArrayLike) -> Array:
+    """Turn normals that point away from the eye to the horizon.
+
+    Parameters
+    ----------
+    normal, view_dir : array_like, shape (..., 3)
+        Unit vectors.
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        Unit vectors with n.v of 0 and more. Interpolated normals of a visible facet may point away, where
+        a mirror direction would lie inside the object.
+
+    Notes
+    -----
+    GLSL twin: gpu_shaders/lib/lobe_stack_lib.glsl `facing_normal`, 1e-6 but for normals within 1e-3 of
+    straight away, which have no nearest one.
+    """
+    normal, view_dir = np.asarray(normal), np.asarray(view_dir)
+    away = np.minimum(dot(normal, view_dir), 0.0)[..., None]
+    turned = normal - away * view_dir
+    length = np.linalg.norm(turned, axis=-1, keepdims=True)
+    facing: Array = turned / np.where(length > 0.0, length, 1.0)
+    return facing
 
 
 def _between(table: Array, below: Indices, above: Indices, share: Array) -> Array:

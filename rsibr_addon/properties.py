@@ -108,6 +108,12 @@ class RSIBR_PG_preview(bpy.types.PropertyGroup):
     show: bpy.props.BoolProperty(
         name="Show", description="Shade the object from its map set", update=_notice, default=True
     )
+    follow_world: bpy.props.BoolProperty(
+        name="Follow World",
+        description="Turn and scale the light as the world's Mapping and Background do with its Environment "
+        "Texture; for map sets that were made in the bare environment",
+        update=_notice,
+    )
     radiance_views: bpy.props.PointerProperty(type=RSIBR_PG_radiance_views)
     reflection_tables: bpy.props.PointerProperty(type=RSIBR_PG_reflection_tables)
     mip_chain: bpy.props.PointerProperty(type=RSIBR_PG_mip_chain)

@@ -132,7 +132,9 @@ def _rows_of_four(field: Array) -> Array:
     if field.shape == (4, 4):
         return field.T  # GLSL stores matrices by column.
     rows = np.atleast_2d(field)
-    return np.pad(rows, ((0, 0), (0, 4 - rows.shape[1])))
+    filled: Array = np.zeros((len(rows), 4))
+    filled[:, : rows.shape[1]] = rows
+    return filled
 
 
 def _buffer(values: Array) -> gpu.types.Buffer:

@@ -1,6 +1,6 @@
 """What every kind of map set has in common on the GPU: an upload, drawn on a mesh as its look says."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 import gpu
@@ -21,6 +21,9 @@ class Draw:
         Homogeneous position of the eye in world space, as `core.camera.Camera.eye`.
     view_dir : ndarray, shape (3,)
         Unit vector from the object to the eye: the view that destination maps are made for.
+    turn : ndarray, shape (3, 3)
+        Rotation from the world to that of the map set, for a world that has been turned since. It is for
+        shading alone: position, normal and `eye` are turned by it, `view_dir` has been.
     """
 
     model: Array
@@ -28,12 +31,16 @@ class Draw:
     projection: Array
     eye: Array
     view_dir: Array
+    turn: Array = field(default_factory=lambda: np.eye(3))
 
     def uniforms(self) -> gpu.types.GPUUniformBuf:
         """The block `Draw` of the shaders."""
-        normal_matrix = np.eye(4)
-        normal_matrix[:3, :3] = np.linalg.inv(self.model[:3, :3]).T
-        return buffers.uniform_block(self.model, normal_matrix, self.view, self.projection, self.eye)
+        normal_matrix, turn = np.eye(4), np.eye(4)
+        normal_matrix[:3, :3] = self.turn @ np.linalg.inv(self.model[:3, :3]).T
+        turn[:3, :3] = self.turn
+        return buffers.uniform_block(
+            self.model, normal_matrix, self.view, self.projection, turn, turn @ self.eye
+        )
 
 
 class OnDevice(Protocol):

@@ -54,13 +54,14 @@ class RadianceViewsOnDevice:
     def draw(self, mesh: gpu.types.GPUBatch, draw: Draw, look: ViewsLook) -> None:
         """See `OnDevice.draw`. Reference: core/shading/radiance_views.py."""
         # Bound blocks must outlive the draw: Blender keeps no reference to them.
-        placed, blend = draw.uniforms(), _blend_uniforms(self._sphere, draw.view_dir)
+        placed = draw.uniforms()
         if look.mode is Mode.FRAGMENT:
             shader = shaders.views_fragment_shader()
             shader.bind()
             shader.uniform_sampler("views", self._views)
             shader.uniform_sampler("sphere", self._geodesic)
         else:
+            blend = _blend_uniforms(self._sphere, draw.view_dir)
             self._make_destination(blend, look)
             shader = shaders.views_destination_shader()
             shader.bind()

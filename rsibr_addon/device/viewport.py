@@ -7,6 +7,7 @@ set is shaded by the programs it has, and only what is seen is brought to the di
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 
 import gpu
 import numpy as np
@@ -19,24 +20,47 @@ from .viewport_shaders import composite_shader, occluder_shader
 _SCREEN_TRIANGLE = np.array([[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]])
 
 
-def draw_of(model: Array) -> Draw:
-    """A mesh in the view that Blender is drawing.
+@dataclass(frozen=True)
+class Sight:
+    """The view that Blender is drawing.
 
-    Parameters
+    Attributes
     ----------
-    model : ndarray, shape (4, 4)
-        World from object coordinates.
-
-    Returns
-    -------
-    Draw
+    view, projection : ndarray, shape (4, 4)
+    eye : ndarray, shape (4,)
+        As in `Draw`.
     """
+
+    view: Array
+    projection: Array
+    eye: Array
+
+    def on(self, model: Array, turn: Array) -> Draw:
+        """A mesh in this view.
+
+        Parameters
+        ----------
+        model : ndarray, shape (4, 4)
+            World from object coordinates.
+        turn : ndarray, shape (3, 3)
+            As in `Draw`.
+
+        Returns
+        -------
+        Draw
+        """
+        to_eye = turn @ (self.eye[:3] - self.eye[3] * model[:3, 3])
+        view_dir = to_eye / np.linalg.norm(to_eye)
+        return Draw(model, self.view, self.projection, self.eye, view_dir, turn)
+
+
+def current_sight() -> Sight:
+    """What Blender is drawing."""
     view = np.array(gpu.matrix.get_model_view_matrix())
     projection = np.array(gpu.matrix.get_projection_matrix())
     # The camera's origin, or where a parallel projection's rays come from: what the view maps there.
-    eye = np.linalg.inv(view) @ ([0.0, 0.0, 0.0, 1.0] if projection[3, 3] == 0.0 else [0.0, 0.0, 1.0, 0.0])
-    to_eye = eye[:3] - eye[3] * model[:3, 3]
-    return Draw(model, view, projection, eye, to_eye / np.linalg.norm(to_eye))
+    in_view = [0.0, 0.0, 0.0, 1.0] if projection[3, 3] == 0.0 else [0.0, 0.0, 1.0, 0.0]
+    return Sight(view, projection, np.linalg.inv(view) @ in_view)
 
 
 def draw_occluder(mesh: gpu.types.GPUBatch, draw: Draw) -> None:

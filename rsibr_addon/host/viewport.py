@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from ..core.conventions import Array
+from .world_light import AS_IT_IS, WorldLight, world_light
 
 UNSHADED = ("WIRE", "BOUNDS")
 """Ways to display an object without its surface."""
@@ -15,7 +16,7 @@ type Layer = tuple[int, str]
 """A view layer: its scene, and its name."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Surface:
     """A mesh as it stands in a scene.
 
@@ -65,6 +66,11 @@ class View:
     def has_depth(self) -> bool:
         """Whether Blender leaves its surfaces' depths to those who draw later."""
         return self.space.shading.type == "SOLID" or self.space.overlay.show_overlays
+
+    def light_of(self, item: bpy.types.Object) -> WorldLight:
+        """What the world makes of the environment of an object's map set: nothing, unless it is followed."""
+        followed = world_light(self.scene.world) if item.rsibr.follow_world else None
+        return followed or AS_IT_IS
 
 
 def current_view() -> View:

@@ -12,17 +12,18 @@ from ..core.display import table_radiance
 from ..core.errors import RsibrError
 from ..device import buffers
 from ..device.drawing import OnDevice, mesh_batch
-from ..device.viewport import Stage, draw_occluder, draw_of
+from ..device.viewport import Stage, current_sight, draw_occluder
 from ..host.display import Display, display_of, displayed_colours, scale_before_display
 from ..host.meshes import mesh_from_object
 from ..host.viewport import Layer, Surface, View, is_wanted, map_set_of, shown_layers, surfaces
+from ..host.world_light import AS_IT_IS
 from .kinds import KINDS, open_map_set
 
 DISPLAYS_KEPT = 4
 """Tables of 7 MB each, so that one can switch between view transforms."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Preview:
     """A surface, and the file that it is shaded from."""
 
@@ -140,15 +141,22 @@ class Previews:
         display = self._display(view)
         if display is None:
             return False
-        with self._stage.drawing():
-            if contents.others is not None:
-                for other in contents.others:
-                    if _is_seen(other, view):
-                        draw_occluder(self._meshes[other.mesh], draw_of(other.matrix))
-            for each in seen:
-                self._draw_one(each)
-        self._stage.show(display, scale_before_display(view.scene), among_others=view.has_depth)
+        hidden_by = [each for each in contents.others or () if _is_seen(each, view)]
+        for strength, group in _by_strength(seen, view).items():
+            with self._stage.drawing():
+                if not view.has_depth:
+                    self._hide(hidden_by + [each.surface for each in seen if each not in group])
+                for each in group:
+                    self._draw_one(each, view)
+            scale = strength * scale_before_display(view.scene)
+            self._stage.show(display, scale, among_others=view.has_depth)
         return True
+
+    def _hide(self, behind: list[Surface]) -> None:
+        """Let surfaces hide what is drawn after them."""
+        sight, turn = current_sight(), AS_IT_IS.turn
+        for surface in behind:
+            draw_occluder(self._meshes[surface.mesh], sight.on(surface.matrix, turn))
 
     def _contents_of(self, view: View) -> _Contents:
         contents = self._contents.get(view.layer)
@@ -200,11 +208,12 @@ class Previews:
                 self._map_sets[preview.path] = _MapSet(opened.kind, opened.upload())
         return preview.path in self._map_sets
 
-    def _draw_one(self, preview: _Preview) -> None:
-        map_set, item = self._map_sets[preview.path], preview.surface.item
-        with self._faults_noted(item):
-            look = KINDS[map_set.kind].look(**_look_settings(item, map_set.kind))
-            map_set.on_device.draw(self._meshes[preview.surface.mesh], draw_of(preview.surface.matrix), look)
+    def _draw_one(self, preview: _Preview, view: View) -> None:
+        map_set, surface = self._map_sets[preview.path], preview.surface
+        with self._faults_noted(surface.item):
+            look = KINDS[map_set.kind].look(**_look_settings(surface.item, map_set.kind))
+            placed = current_sight().on(surface.matrix, view.light_of(surface.item).turn)
+            map_set.on_device.draw(self._meshes[surface.mesh], placed, look)
 
     def _display(self, view: View) -> Any:
         """The texture of how a view's scene shows radiance; None if that is not known yet."""
@@ -225,6 +234,13 @@ class Previews:
 
 def _is_seen(surface: Surface, view: View) -> bool:
     return surface.shown_by.visible_in_viewport_get(view.space)
+
+
+def _by_strength(previews: list[_Preview], view: View) -> dict[float, list[_Preview]]:
+    groups: dict[float, list[_Preview]] = {}
+    for each in previews:
+        groups.setdefault(view.light_of(each.surface.item).strength, []).append(each)
+    return groups
 
 
 def _settings(item: Any) -> object:

@@ -2,7 +2,13 @@
 
 import bpy
 
+from ..host.world_light import world_light
 from ..tasks.viewport import previews
+
+NOT_FOLLOWED = (
+    "The world is more than a Background and an Environment Texture with a Mapping that rotates: bake in "
+    "the world itself instead of following it."
+)
 
 
 class RSIBR_PT_preview(bpy.types.Panel):
@@ -29,6 +35,9 @@ class RSIBR_PT_preview(bpy.types.Panel):
         row = layout.row(align=True)
         row.prop(item.rsibr, "map_set")
         row.operator("rsibr.reload_map_sets", text="", icon="FILE_REFRESH")
+        layout.prop(item.rsibr, "follow_world")
+        if item.rsibr.follow_world and world_light(context.scene.world) is None:
+            _tell(layout, NOT_FOLLOWED, context.region.width)
         for message in filter(None, (previews.fault(item), previews.trouble)):
             _tell(layout, message, context.region.width)
         kind = previews.kind(item)

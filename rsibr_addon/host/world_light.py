@@ -1,0 +1,70 @@
+"""How a world turns and scales its environment, where its nodes say no more than that."""
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ..core.conventions import Array
+
+
+@dataclass(frozen=True)
+class WorldLight:
+    """What a world makes of an environment.
+
+    Attributes
+    ----------
+    strength : float
+        Radiance is multiplied by it.
+    turn : ndarray, shape (3, 3)
+        A rotation: from a direction in the world to that in the environment.
+    """
+
+    strength: float
+    turn: Array
+
+
+AS_IT_IS = WorldLight(1.0, np.eye(3))
+
+
+def world_light(world: bpy.types.World | None) -> WorldLight | None:
+    """Read a world's strength and rotation.
+
+    Parameters
+    ----------
+    world : bpy.types.World or None
+
+    Returns
+    -------
+    WorldLight or None
+        None unless the world is a Background of constant strength with an Environment Texture, which
+        may have a Mapping that does nothing but rotate.
+    """
+    background = _before(world and world.node_tree.get_output_node("ALL"), "Surface", "BACKGROUND")
+    texture = _before(background, "Color", "TEX_ENVIRONMENT")
+    if texture is None or background.inputs["Strength"].is_linked:
+        return None
+    strength = background.inputs["Strength"].default_value
+    if not texture.inputs["Vector"].is_linked:
+        return WorldLight(strength, np.eye(3))
+    mapping = _before(texture, "Vector", "MAPPING")
+    if mapping is None or not _only_rotates(mapping):
+        return None
+    rotation = np.array(mapping.inputs["Rotation"].default_value.to_matrix())
+    return WorldLight(strength, rotation.T if mapping.vector_type == "TEXTURE" else rotation)
+
+
+def _before(node: bpy.types.Node | None, socket: str, kind: str) -> bpy.types.Node | None:
+    """The node that a socket's value comes from, if it is of a kind."""
+    links = node.inputs[socket].links if node else ()
+    return links[0].from_node if links and links[0].from_node.type == kind else None
+
+
+def _only_rotates(mapping: bpy.types.Node) -> bool:
+    vector = mapping.inputs["Vector"]
+    linked = [socket.name for socket in mapping.inputs if socket.is_linked]
+    generated = vector.is_linked and vector.links[0].from_socket.name == "Generated"
+    # Where the type of mapping has no location, the socket is there all the same, and counts for nothing.
+    moved = mapping.vector_type in ("POINT", "TEXTURE") and any(mapping.inputs["Location"].default_value)
+    scaled = any(size != 1.0 for size in mapping.inputs["Scale"].default_value)
+    return linked == ["Vector"] and generated and not moved and not scaled

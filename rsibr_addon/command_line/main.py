@@ -12,7 +12,7 @@ from types import ModuleType
 from typing import Any
 
 from ..core.errors import RsibrError
-from . import capture, compare, convert, fit, illuminate, info, job, mips, page, preview, tables
+from . import bake, capture, compare, convert, fit, illuminate, info, job, mips, page, preview, tables
 from .report import Report, result_stream
 
 COMMANDS = {
@@ -25,6 +25,7 @@ COMMANDS = {
     "mips": mips,
     "tables": tables,
     "fit": fit,
+    "bake": bake,
     "report": page,
     "job": job,
 }

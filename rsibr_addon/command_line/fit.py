@@ -1,6 +1,7 @@
 """Fit radially symmetric lobes to a reflectance model."""
 
 import argparse
+from pathlib import Path
 from typing import Any
 
 from . import options
@@ -50,6 +51,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "and view; or anywhere, by a search from coarse to fine (default: %(default)s)",
     )
     parser.add_argument("--non-negative", action="store_true", help="no kernel with a negative weight")
+    parser.add_argument(
+        "--plot", metavar="FOLDER", type=Path, help="write polar plots and the error over n.v there, as SVG"
+    )
     options.add_output(parser, "FIT.json", "the fit to write")
 
 
@@ -77,7 +81,9 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
         non_negative=arguments.non_negative,
         seek=arguments.seek,
     )
-    result = report.steps(fit_lobes(arguments.brdf, settings, arguments.output, arguments.force))
+    result = report.steps(
+        fit_lobes(arguments.brdf, settings, arguments.output, arguments.force, arguments.plot)
+    )
     figures = result.report()
     report.say(
         f"{arguments.output}: {', '.join(f'{name} {_text(value)}' for name, value in figures.items())}"

@@ -19,6 +19,7 @@ from ..core.progress import Progress, Steps
 from ..files.atomic import check_target
 from ..files.fits import write_fit
 from .brdfs import load_brdf
+from .fit_plots import check_plots, write_plots
 
 MOST_LOBES, MOST_TAPS = 12, 9
 
@@ -108,7 +109,9 @@ class FitResult:
         }
 
 
-def fit_lobes(spec: str, settings: FitSettings, output: Path, force: bool = False) -> Steps[FitResult]:
+def fit_lobes(
+    spec: str, settings: FitSettings, output: Path, force: bool = False, plots: Path | None = None
+) -> Steps[FitResult]:
     """Fit a model and write the fit.
 
     Parameters
@@ -120,6 +123,8 @@ def fit_lobes(spec: str, settings: FitSettings, output: Path, force: bool = Fals
         By custom NAME.json.
     force : bool
         Whether existing files are replaced.
+    plots : Path, optional
+        A new folder, or one with earlier plots: see `fit_plots.write_plots`.
 
     Yields
     ------
@@ -141,12 +146,16 @@ def fit_lobes(spec: str, settings: FitSettings, output: Path, force: bool = Fals
         See `load_brdf`.
     """
     check_target(output, force)
+    if plots is not None:
+        check_plots(plots, force)
     brdf = yield from load_brdf(spec)
     started = time.process_time()
     fit = yield from METHODS[settings.method](brdf, settings)
     seconds = time.process_time() - started
     yield Progress(1, 2, "measuring the fit")
     result = FitResult(fit, fit_errors(fit, brdf), seconds)
+    if plots is not None:
+        write_plots(plots, result.fit, brdf, result.errors, force)
     write_fit(output, fit, result.report(), force)
     return result
 

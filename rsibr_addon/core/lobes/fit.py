@@ -146,14 +146,20 @@ class Fit:
         ndarray, shape (..., 3)
             [1/sr]; not 0 below the horizon, and negative in places unless no weight is.
         """
+        total: Array = self.evaluate_lobes(light_dir, mu).sum(axis=0)
+        return total
+
+    def evaluate_lobes(self, light_dir: ArrayLike, mu: float) -> Array:
+        """What each lobe adds to `evaluate`, shape (L, ..., 3)."""
         light_dir = np.asarray(light_dir, dtype=np.float64)
-        total = np.zeros(light_dir.shape)
-        for axis, weights in zip(*self.at(mu), strict=True):
+        values = np.zeros((len(self.weights), *light_dir.shape))
+        taps = self.taps.shape[2]
+        for index, (axis, weights) in enumerate(zip(*self.at(mu), strict=True)):
             chord = light_dir - axis
             falls = self.bank.falls(0.25 * dot(chord, chord))
             for fall, weight in zip(falls, self.bank.peaks[:, None] * weights, strict=True):
-                total += fall[..., None] * weight
-        return total
+                values[index // taps] += fall[..., None] * weight
+        return values
 
     def _neighbours(self, mu: float) -> tuple[int, float]:
         """The elevation below `mu`, and the share of the one above."""

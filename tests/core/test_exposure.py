@@ -142,6 +142,25 @@ def test_what_no_photograph_tells_is_counted() -> None:
     assert np.all(merged.radiance[12, 12] < 0.01)
 
 
+def test_a_longer_exposure_that_is_darker_does_not_count() -> None:
+    radiance = np.geomspace(0.05, 3.0, 600).reshape(20, 30)[..., None] * np.ones(3)
+    photographs = [np.clip(radiance * time, 0.0, 1.0) for time in (0.25, 1.0, 4.0)]
+    # A camera that clips long exposures to grey, where the shorter ones are still right
+    photographs[2][photographs[2] >= 1.0] = 0.6
+    merged = merge_bracket(photographs, (0.25, 1.0, 4.0), linear_response(), align=False)
+    # Up to 0.6 / 0.25 the shorter ones are darker than that, and the grey cannot be told from light
+    told = radiance > 2.5
+    np.testing.assert_allclose(merged.radiance[told], radiance[told], rtol=1e-5)
+
+
+def test_lamps_that_are_white_throughout_get_no_colour() -> None:
+    scene_light = np.geomspace(0.02, 2.0, 900).reshape(30, 30)[..., None] * np.array([1.0, 0.8, 0.6])
+    scene_light[10:16, 10:16] = 500.0
+    photographs = [np.clip(scene_light * time, 0.0, 1.0) ** [0.4, 0.5, 0.6] for time in (0.2, 0.7, 2.0)]
+    lamp = merge_bracket(photographs, (0.2, 0.7, 2.0), align=False).radiance[12, 12]
+    np.testing.assert_allclose(lamp, lamp[0], rtol=1e-6)
+
+
 def test_bad_brackets_are_refused() -> None:
     grey, white = np.full((8, 8, 3), 0.5), np.ones((8, 8, 3))
     with pytest.raises(RangeError, match="One photograph is no bracket: give two or more"):

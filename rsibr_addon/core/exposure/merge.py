@@ -23,6 +23,9 @@ WHITE = 0.97
 BLACK = 2.0 / 255.0
 """Encoded values up to this are black: rounding alone makes a quarter of them."""
 
+FALL = 0.02
+"""A longer exposure that is darker by this is not what it seems."""
+
 STILL = 0.1
 """Movements of less than this [pixels] are left alone: making up for them would blur."""
 
@@ -74,7 +77,7 @@ def certainty(encoded: Array) -> Array:
         padded = np.concatenate([brightest.take([0], axis), brightest, brightest.take([-1], axis)], axis)
         size = encoded.shape[axis]
         brightest = np.max([padded.take(range(i, i + size), axis) for i in range(3)], axis=0)
-    hat: Array = 2.0 * np.minimum(encoded - BLACK, 1.0 - brightest, dtype=np.float64)
+    hat: Array = 2.0 * np.minimum(encoded - BLACK, WHITE - brightest, dtype=np.float64)
     return np.clip(hat, 0.0, 1.0)
 
 
@@ -170,10 +173,14 @@ def _recovered(
     stride = max(1, int(np.sqrt(height * width / SAMPLES)))
     points = pixel_points(width, height)[stride // 2 :: stride, stride // 2 :: stride].ravel()
     samples, certain = [], []
+    brightest = np.zeros((len(points), 3))
     for photograph, weight, motion in zip(photographs, weights, motions, strict=True):
         there = motion.of(points)
-        samples.append(looked_up(photograph, there))
-        certain.append(looked_up(weight, there) * covers(there, width, height)[:, None])
+        seen = looked_up(photograph, there)
+        trusted = (seen > brightest - FALL) & covers(there, width, height)[:, None]
+        samples.append(seen)
+        certain.append(looked_up(weight, there) * trusted)
+        brightest = np.maximum(brightest, seen)
     return recover_response(np.stack(samples), np.stack(certain), times)
 
 
@@ -185,17 +192,22 @@ def _mean(
     curve: Response,
 ) -> tuple[Array, Array]:
     """Weighted mean of the logarithms of radiance, and the sum of the weights."""
-    total, amount = np.zeros(photographs[0].shape), np.zeros(photographs[0].shape)
+    total, amount, brightest = (np.zeros(photographs[0].shape) for _ in range(3))
     height, width = total.shape[:2]
     points = pixel_points(width, height)
     for photograph, weight, time, motion in zip(photographs, weights, times, motions, strict=True):
         logarithm = curve.logarithm(photograph) - np.log(time)
-        both = np.concatenate([weight * logarithm, weight], axis=-1)
+        channels = np.concatenate([weight * logarithm, weight, photograph], axis=-1)
+        trusted = np.ones((height, width, 1), dtype=bool)
         if motion != Motion():
             there = motion.of(points)
-            both = looked_up(both, there) * covers(there, width, height)[..., None]
-        total += both[..., :3]
-        amount += both[..., 3:]
+            channels = looked_up(channels, there)
+            trusted = covers(there, width, height)[..., None]
+        weighted, weight, seen = np.split(channels, 3, axis=-1)
+        trusted = trusted & (seen > brightest - FALL)
+        total += weighted * trusted
+        amount += weight * trusted
+        brightest = np.maximum(brightest, seen)
     return total / np.where(amount > 0.0, amount, 1.0), amount
 
 

@@ -18,10 +18,10 @@ NOISE = 0.03
 FINEST = 1536
 """Longer side of the pictures in which movements are looked for: a larger one is shrunk."""
 
-TILE = 96
-"""Side of the tiles that show how each part of a picture moved [pixels of the shrunk one]."""
+TILE, SPACING = 96, 72
+"""Side of the tiles that show how each part of a picture moved, and their distance [pixels]."""
 
-ROUNDS = 4
+ROUNDS = 3
 """Of looking where the tiles went, each from where the last one left them."""
 
 FEWEST = 4
@@ -146,8 +146,8 @@ def _tile_steps(
     """Middles of the tiles that show something in both fields, and where in the second they are."""
     height, width = first.shape
     steps = []
-    for row in range(0, height - TILE + 1, TILE // 2):
-        for column in range(0, width - TILE + 1, TILE // 2):
+    for row in range(0, height - TILE + 1, SPACING):
+        for column in range(0, width - TILE + 1, SPACING):
             tile = slice(row, row + TILE), slice(column, column + TILE)
             step, coefficient = _peak(first[tile], second[tile])
             if coefficient > CLEAR and max(abs(step.real), abs(step.imag)) < TILE / 4:

@@ -85,6 +85,14 @@ class RSIBR_PG_mip_chain(bpy.types.PropertyGroup):
         min=0.0,
         soft_max=10.0,
     )
+    use_roughness: bpy.props.BoolProperty(
+        name="By Roughness",
+        description="Choose the mip of a roughness; the other one has to be 0. For chains of GGX lobes",
+        update=_notice,
+    )
+    roughness: bpy.props.FloatProperty(
+        name="Roughness", description="That glossy light is of", update=_notice, default=0.3, min=0.0, max=1.0
+    )
     borders: bpy.props.EnumProperty(
         name="Borders",
         description="What a lookup near a face's border interpolates with",

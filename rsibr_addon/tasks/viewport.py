@@ -249,10 +249,13 @@ def _settings(item: Any) -> object:
 
 
 def _look_settings(item: Any, kind: str) -> dict[str, Any]:
-    """What an object says of how a kind of map set is shaded: fields of the kind's look."""
+    """What an object says of how a kind of map set is shaded: fields of the kind's look.
+
+    A field `name` may have a switch `use_name`.
+    """
     group = getattr(item.rsibr, kind, None)
     names = [field.name for field in fields(KINDS[kind].look) if hasattr(group, field.name)]
-    return {name: _plain(getattr(group, name)) for name in names}
+    return {name: _plain(getattr(group, name)) for name in names if getattr(group, f"use_{name}", True)}
 
 
 def _plain(value: Any) -> Any:

@@ -1,0 +1,119 @@
+"""What objects say of their previews, and the looks that tasks make of it."""
+
+from collections.abc import Iterator
+from dataclasses import fields
+
+import bpy
+import numpy as np
+import pytest
+import rsibr
+from rsibr.rsibr_addon.host.viewport import is_wanted, map_set_of, surfaces
+from rsibr.rsibr_addon.tasks.kinds import KINDS
+from rsibr.rsibr_addon.tasks.viewport import _look_settings, _settings
+
+
+@pytest.fixture(autouse=True)
+def _registered() -> Iterator[None]:
+    rsibr.register()
+    yield
+    rsibr.unregister()
+
+
+def settings_of(group: bpy.types.PropertyGroup) -> set[str]:
+    return {prop.identifier for prop in group.bl_rna.properties} - {"rna_type", "name"}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_an_untouched_object_is_shaded_by_its_kind_s_defaults(kind: str) -> None:
+    cube = bpy.data.objects["Cube"]
+    look, default = KINDS[kind].look(**_look_settings(cube, kind)), KINDS[kind].look()
+    for field in fields(default):
+        found, expected = getattr(look, field.name), getattr(default, field.name)
+        if isinstance(expected, tuple) and expected and isinstance(expected[0], float):
+            assert found == pytest.approx(expected)  # properties are single precision
+        elif isinstance(expected, tuple):
+            assert set(found) == set(expected)
+        else:
+            assert found == expected
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_setting_is_a_field_of_the_look(kind: str) -> None:
+    group = getattr(bpy.data.objects["Cube"].rsibr, kind, None)
+    if group is None:
+        return  # shaded by its defaults alone
+    names = {field.name for field in fields(KINDS[kind].look)}
+    assert {name.removeprefix("use_") for name in settings_of(group)} <= names
+
+
+def test_settings_reach_the_look_and_are_told_apart() -> None:
+    cube = bpy.data.objects["Cube"]
+    before = _settings(cube)
+    assert _settings(cube) == before
+    cube.rsibr.mip_chain.k_d = (0.25, 0.5, 1.0)
+    assert _look_settings(cube, "mip_chain")["k_d"] == (0.25, 0.5, 1.0)
+    assert _settings(cube) != before
+    assert "roughness" not in _look_settings(cube, "mip_chain")
+    cube.rsibr.mip_chain.use_roughness = True
+    assert _look_settings(cube, "mip_chain")["roughness"] == pytest.approx(0.3)
+    cube.rsibr.reflection_tables.shown = {"retro"}
+    assert _look_settings(cube, "reflection_tables")["shown"] == {"retro"}
+
+
+def test_nothing_is_wanted_until_a_file_is_named_and_shown() -> None:
+    cube = bpy.data.objects["Cube"]
+    assert not is_wanted()
+    cube.rsibr.map_set = "/tmp/some.rsibr.exr"
+    assert is_wanted()
+    assert map_set_of(cube) == "/tmp/some.rsibr.exr"
+    cube.rsibr.show = False
+    assert not is_wanted()
+    assert map_set_of(cube) == ""
+
+
+def test_surfaces_are_those_that_blender_shows() -> None:
+    cube = bpy.data.objects["Cube"]
+    cube.location = (1.0, 2.0, 3.0)
+    wired = bpy.data.objects.new("Wired", cube.data.copy())
+    wired.display_type = "WIRE"
+    hidden = bpy.data.objects.new("Hidden", cube.data)
+    text = bpy.data.objects.new("Text", bpy.data.curves.new("Text", "FONT"))
+    text.data.body = "A"
+    grouped = bpy.data.collections.new("Grouped")
+    inner = bpy.data.objects.new("Inner", cube.data)
+    grouped.objects.link(inner)
+    instancer = bpy.data.objects.new("Instancer", None)
+    instancer.instance_type, instancer.instance_collection = "COLLECTION", grouped
+    instancer.location = (0.0, 0.0, 7.0)
+    for item in (wired, hidden, text, instancer):
+        bpy.context.collection.objects.link(item)
+    hidden.hide_set(True)
+    found = [surface for surface, _ in surfaces(bpy.context.evaluated_depsgraph_get())]
+    assert {surface.item.name for surface in found} == {"Cube", "Text", "Inner"}
+    by_name = {surface.item.name: surface for surface in found}
+    assert by_name["Inner"].shown_by == instancer
+    np.testing.assert_array_equal(by_name["Inner"].matrix[:3, 3], (0.0, 0.0, 7.0))
+    np.testing.assert_array_equal(by_name["Cube"].matrix[:3, 3], (1.0, 2.0, 3.0))
+    assert by_name["Inner"].mesh == by_name["Cube"].mesh  # one mesh, uploaded once
+
+
+def test_a_mesh_has_a_new_number_when_it_changes_and_no_other_time() -> None:
+    cube = bpy.data.objects["Cube"]
+
+    def number() -> int:
+        ((surface, _),) = surfaces(bpy.context.evaluated_depsgraph_get())
+        return surface.mesh
+
+    seen = [number()]
+    cube.location.x = 3.0
+    assert number() == seen[-1]
+    changes = [
+        lambda: cube.data.update(),
+        lambda: cube.modifiers.new("Subdivision", "SUBSURF"),
+        lambda: cube.data.shade_smooth(),
+        lambda: cube.modifiers.clear(),
+    ]
+    for change in changes:
+        change()
+        assert number() not in seen
+        seen.append(number())

@@ -1,9 +1,15 @@
 """Operators, one per file; thin: properties to settings, then a task."""
 
+from .apply_quality import RSIBR_OT_apply_quality
+from .assign import RSIBR_OT_assign
+from .bake_in_background import RSIBR_OT_bake
 from .bake_mips import RSIBR_OT_bake_mips
 from .bake_tables import RSIBR_OT_bake_tables
+from .cancel_bake import RSIBR_OT_cancel_bake
 from .capture_environment import RSIBR_OT_capture_environment
 from .capture_views import RSIBR_OT_capture_views
+from .fit_lobes import RSIBR_OT_fit_lobes
+from .open_report import RSIBR_OT_open_report
 from .reload_map_sets import RSIBR_OT_reload_map_sets
 
 CLASSES: tuple[type, ...] = (
@@ -11,6 +17,12 @@ CLASSES: tuple[type, ...] = (
     RSIBR_OT_capture_environment,
     RSIBR_OT_bake_mips,
     RSIBR_OT_bake_tables,
+    RSIBR_OT_fit_lobes,
+    RSIBR_OT_apply_quality,
+    RSIBR_OT_bake,
+    RSIBR_OT_cancel_bake,
+    RSIBR_OT_assign,
+    RSIBR_OT_open_report,
     RSIBR_OT_reload_map_sets,
 )
 """Every operator's class, in the order of registration."""

@@ -6,6 +6,7 @@ import bpy
 
 from ..rsibr_addon.core.errors import SceneError
 from ..rsibr_addon.core.progress import Steps
+from ..rsibr_addon.host.bake_settings import stored_path
 from ..rsibr_addon.tasks.illuminate_scene import LARGEST, SMALLEST, SceneLight, illuminate_from_scene
 from ..rsibr_addon.tasks.illuminate_world import illuminate_from_world
 from .stepwise import Stepwise
@@ -57,6 +58,9 @@ class RSIBR_OT_capture_environment(Stepwise, bpy.types.Operator):
     load_image: bpy.props.BoolProperty(
         name="Load", description="Load the picture into this file afterwards", default=True
     )
+    use: bpy.props.BoolProperty(
+        name="Use", description="Bake with this light from now on", options={"SKIP_SAVE"}
+    )
 
     interrupted = "Capture interrupted; nothing was written"
 
@@ -68,9 +72,12 @@ class RSIBR_OT_capture_environment(Stepwise, bpy.types.Operator):
         return illuminate_from_scene(self._light(context), output, self.force)
 
     def finish(self, result: Path) -> None:
-        """Load the picture, if so wished, and say where it is."""
+        """Load the picture and choose it, if so wished, and say where it is."""
         if self.load_image:
             bpy.data.images.load(str(result), check_existing=True).reload()
+        if self.use:
+            chosen = bpy.context.scene.rsibr_bake
+            chosen.light, chosen.picture = "PICTURE", stored_path(result)
         self.report({"INFO"}, f"Captured {result}")
 
     def _light(self, context: bpy.types.Context) -> SceneLight:

@@ -12,17 +12,19 @@ def register() -> None:
     import bpy
 
     from .. import operators
+    from ..operators import background
     from . import properties, ui
-    from .ui import viewport
+    from .ui import bake_properties, viewport
 
     with ExitStack() as undo:
         for cls in (*properties.CLASSES, *operators.CLASSES, *ui.CLASSES):
             bpy.utils.register_class(cls)
             undo.callback(bpy.utils.unregister_class, cls)
-        for name, (owner, group) in properties.POINTERS.items():
+        for name, (owner, group) in (properties.POINTERS | bake_properties.POINTERS).items():
             setattr(owner, name, bpy.props.PointerProperty(type=group))
             undo.callback(delattr, owner, name)
         viewport.start(undo)
+        background.start(undo)
         command = bpy.utils.register_cli_command("rsibr", _run_command)
         undo.callback(bpy.utils.unregister_cli_command, command)
         _registered.push(undo.pop_all())

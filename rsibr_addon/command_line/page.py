@@ -33,11 +33,9 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     RsibrError
         See `tasks.map_set_page`.
     """
-    from ..tasks.map_set_page import map_set_page
+    from ..tasks.map_set_page import map_set_page, page_beside
 
-    map_set = arguments.map_set
-    stem = map_set.name.removesuffix(".exr").removesuffix(".rsibr")
-    output = arguments.output or map_set.with_name(f"{stem}.html")
-    page = report.steps(map_set_page(map_set, output, arguments.force))
+    output = arguments.output or page_beside(arguments.map_set)
+    page = report.steps(map_set_page(arguments.map_set, output, arguments.force))
     report.say(f"{page}")
     return {"page": str(page)}

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import os
 import re
 from collections.abc import Collection
 from pathlib import Path
@@ -13,6 +14,9 @@ import numpy as np
 from ..core.errors import InputFileError, SceneError
 from .blend_files import check_there, unreadable
 from .presets import PRESETS, build_preset
+
+ORIGINAL = "RSIBR_ORIGINAL"
+"""Environment variable: the file that the open one is a copy of, where it is; empty if that has no name."""
 
 NAMES_SHOWN = 8
 """So many materials of a file are listed when one is asked for that it does not hold."""
@@ -67,15 +71,15 @@ def material_name(spec: str) -> str:
 
 def lasting_spec(spec: str) -> str:
     """What names the same material also when another file is open, as far as this one has a name."""
-    return f"{bpy.data.filepath}{spec}" if spec.startswith(":") else spec
+    return f"{os.environ.get(ORIGINAL, bpy.data.filepath)}{spec}" if spec.startswith(":") else spec
 
 
-def fingerprint(material: bpy.types.Material) -> str:
-    """A hash of what a material is.
+def fingerprint(material: bpy.types.Material | bpy.types.World) -> str:
+    """A hash of what a material is, or a world.
 
     Parameters
     ----------
-    material : bpy.types.Material
+    material : bpy.types.Material or bpy.types.World
 
     Returns
     -------
@@ -171,6 +175,8 @@ def _content(value: Any) -> Any:
             return _image_content(value)
         case bpy.types.Text():
             return value.as_string()
+        case bpy.types.Object():  # Gives coordinates.
+            return [value.name, _content(value.matrix_world)]
         case bpy.types.ID() | bpy.types.Node():
             return value.name
         case bpy.types.bpy_struct():

@@ -2,12 +2,13 @@
 
 import contextlib
 import json
+import os
 import subprocess
 import sys
 import threading
 import time
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
@@ -32,15 +33,17 @@ class State(StrEnum):
     CANCELLED = "cancelled"
 
 
-def blender_command(blender: str, blend: Path, job: Path) -> list[str]:
+def blender_command(blender: str, extension: str, blend: Path | None, job: Path) -> list[str]:
     """What starts a job in a background Blender.
 
     Parameters
     ----------
     blender : str
         The program.
-    blend : Path
-        The file that is opened first: the job's world and materials may be its own.
+    extension : str
+        The package that Blender knows us by; it may not be enabled in the preferences that are saved.
+    blend : Path or None
+        The file that is opened first, where the job's world or material are its own.
     job : Path
         The job's JSON.
 
@@ -49,7 +52,8 @@ def blender_command(blender: str, blend: Path, job: Path) -> list[str]:
     list of str
     """
     return [
-        *(blender, "--background", str(blend), "--command", "rsibr"),
+        *(blender, "--background", *(() if blend is None else (str(blend),))),
+        *("--addons", extension, "--command", "rsibr"),
         *("bake", str(job), "--json", "--progress", "json"),
     ]
 
@@ -66,6 +70,8 @@ class Bake:
         The map set that it writes.
     command : sequence of str
         Starts a process that speaks as `rsibr --json --progress json` does.
+    variables : mapping of str to str
+        Environment variables of the process, beside those of this one.
     state : State
     progress : Progress or None
         None before there is any.
@@ -77,6 +83,7 @@ class Bake:
     title: str
     output: Path
     command: Sequence[str]
+    variables: Mapping[str, str] = field(default_factory=dict)
     state: State = State.WAITING
     progress: Progress | None = None
     message: str = ""
@@ -113,6 +120,7 @@ class Bake:
         try:
             self._process = subprocess.Popen(
                 self.command,
+                env={**os.environ, **self.variables},
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE,
@@ -217,6 +225,10 @@ class BakeQueue:
         if active and active[0].state is State.WAITING:
             active[0].start()
         return [bake for bake in running if bake.ended]
+
+    def is_baking(self, output: Path) -> bool:
+        """Whether a bake of this file runs or waits."""
+        return any(bake.output == output and not bake.ended for bake in self.bakes)
 
     @property
     def busy(self) -> bool:

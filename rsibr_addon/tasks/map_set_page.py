@@ -33,6 +33,11 @@ LOOKS = {"sphere": Camera((0.3, -1.0, 0.3)), "monkey": Camera((0.3, -1.0, 0.3))}
 """Mesh -> from where it is shown."""
 
 
+def page_beside(map_set: Path) -> Path:
+    """Where the page of a map set goes unless one says otherwise: NAME.html beside NAME.rsibr.exr."""
+    return map_set.with_name(f"{map_set.name.removesuffix('.exr').removesuffix('.rsibr')}.html")
+
+
 def map_set_page(map_set: Path, output: Path, force: bool = False) -> Steps[Path]:
     """Show all that a map set holds.
 

@@ -1,6 +1,23 @@
 """What the artist sees: panels, and the previews in the viewport."""
 
+from . import bake_properties
+from .bake_panel import RSIBR_PT_bake
+from .environment_panel import RSIBR_PT_environment
+from .material_panel import RSIBR_MT_models, RSIBR_PT_material
+from .method_panel import RSIBR_PT_method
 from .panel import RSIBR_PT_preview
+from .preferences import RSIBR_AP_preferences
+from .result_panel import RSIBR_PT_result
 
-CLASSES: tuple[type, ...] = (RSIBR_PT_preview,)
-"""Every panel's class, in the order of registration."""
+CLASSES: tuple[type, ...] = (
+    *bake_properties.CLASSES,
+    RSIBR_AP_preferences,
+    RSIBR_MT_models,
+    RSIBR_PT_environment,
+    RSIBR_PT_material,
+    RSIBR_PT_method,
+    RSIBR_PT_bake,
+    RSIBR_PT_preview,
+    RSIBR_PT_result,
+)
+"""Every class, in the order of registration, which is that of the panels."""

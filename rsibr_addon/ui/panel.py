@@ -4,6 +4,7 @@ import bpy
 
 from ..host.world_light import world_light
 from ..tasks.viewport import previews
+from .sentences import tell
 
 NOT_FOLLOWED = (
     "The world is more than a Background and an Environment Texture with a Mapping that rotates: bake in "
@@ -37,9 +38,9 @@ class RSIBR_PT_preview(bpy.types.Panel):
         row.operator("rsibr.reload_map_sets", text="", icon="FILE_REFRESH")
         layout.prop(item.rsibr, "follow_world")
         if item.rsibr.follow_world and world_light(context.scene.world) is None:
-            _tell(layout, NOT_FOLLOWED, context.region.width)
+            tell(layout, NOT_FOLLOWED, context.region.width)
         for message in filter(None, (previews.fault(item), previews.trouble)):
-            _tell(layout, message, context.region.width)
+            tell(layout, message, context.region.width)
         kind = previews.kind(item)
         if kind is None:
             return
@@ -48,18 +49,3 @@ class RSIBR_PT_preview(bpy.types.Panel):
         for setting in settings.bl_rna.properties if settings else ():
             if setting.identifier not in bpy.types.PropertyGroup.bl_rna.properties:
                 layout.prop(settings, setting.identifier)
-
-
-def _tell(layout: bpy.types.UILayout, message: str, width: int) -> None:
-    """A sentence, broken into lines; Blender would cut it off."""
-    column = layout.column(align=True)
-    letters = max(20, width // 8)
-    words, line = message.split(), ""
-    lines = []
-    for word in words:
-        if line and len(line) + len(word) >= letters:
-            lines.append(line)
-            line = ""
-        line = f"{line} {word}".strip()
-    for number, text in enumerate([*lines, line]):
-        column.label(text=text, icon="ERROR" if number == 0 else "BLANK1")

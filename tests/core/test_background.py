@@ -110,6 +110,31 @@ def test_time_left_is_judged_by_the_steps_so_far() -> None:
 
 
 def test_the_command_is_blenders() -> None:
-    command = blender_command("/opt/blender", Path("a.blend"), Path("job.json"))
-    assert command[:5] == ["/opt/blender", "--background", "a.blend", "--command", "rsibr"]
-    assert command[5:] == ["bake", "job.json", "--json", "--progress", "json"]
+    command = blender_command("/opt/blender", "ours", Path("a.blend"), Path("job.json"))
+    assert command[:7] == [
+        "/opt/blender",
+        "--background",
+        "a.blend",
+        "--addons",
+        "ours",
+        "--command",
+        "rsibr",
+    ]
+    assert command[7:] == ["bake", "job.json", "--json", "--progress", "json"]
+    assert blender_command("/opt/blender", "ours", None, Path("j"))[:3] == [
+        "/opt/blender",
+        "--background",
+        "--addons",
+    ]
+
+
+def test_a_process_gets_variables_beside_our_own() -> None:
+    queue = BakeQueue()
+    script = (
+        "import json, os; print(json.dumps({'ok': os.environ['RSIBR_TEST'] == 'a' and 'PATH' in os.environ}))"
+    )
+    told = bake(script)
+    told.variables = {"RSIBR_TEST": "a"}
+    queue.add(told)
+    wait(queue, lambda: not queue.busy)
+    assert told.state is State.DONE

@@ -1,0 +1,40 @@
+"""Shade the active object from a map set."""
+
+from pathlib import Path
+
+import bpy
+
+from ..rsibr_addon.files.map_set import read_map_set_header
+from ..rsibr_addon.host.bake_settings import assign
+from .reporting import reporting
+
+
+class RSIBR_OT_assign(bpy.types.Operator):
+    """Shade the active object from a map set's file"""  # noqa: D400  (a tooltip)
+
+    bl_idname = "rsibr.assign"
+    bl_label = "Assign Map Set"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  (Blender reads the class)
+
+    filepath: bpy.props.StringProperty(
+        name="Map Set", description="File to shade from", subtype="FILE_PATH", options={"SKIP_SAVE"}
+    )
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Whether there is an object."""
+        return context.object is not None
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Assign, if the file is a map set."""
+        with reporting(self):
+            path = Path(bpy.path.abspath(self.filepath))
+            read_map_set_header(path)
+            assign(context.object.session_uid, path)
+            return {"FINISHED"}
+        return {"CANCELLED"}
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Ask for the file."""
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}

@@ -1,0 +1,69 @@
+"""How bakes go on while Blender does: the queue, looked at now and then, and what comes of it."""
+
+from contextlib import ExitStack
+
+import bpy
+
+from ..rsibr_addon.host.bake_settings import assign
+from ..rsibr_addon.tasks.background import BakeQueue, State
+from ..rsibr_addon.tasks.bake_order import ObjectBake, is_baked
+
+SECONDS = 0.2
+"""Between two looks."""
+
+queue = BakeQueue()
+"""The bakes of this Blender."""
+
+
+def start(undo: ExitStack) -> None:
+    """Have bakes ended when the extension or Blender goes.
+
+    Parameters
+    ----------
+    undo : ExitStack
+        Takes what ends them.
+    """
+    undo.callback(_close)
+
+
+def submit(bake: ObjectBake) -> None:
+    """Start a bake, or have it wait for those before it."""
+    queue.add(bake)
+    if not bpy.app.timers.is_registered(_look):
+        bpy.app.timers.register(_look, first_interval=SECONDS, persistent=True)
+
+
+def look() -> None:
+    """Notice what has happened to the bakes, assign what is done, and have the panel show it."""
+    for bake in queue.update():
+        bake.tidy()
+        # Another Blender may have made the same file meanwhile, so that ours was refused.
+        if bake.state is not State.CANCELLED and is_baked(bake.output) and assign(bake.item, bake.output):
+            _push_undo("Assign Map Set")
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                for region in area.regions:
+                    if region.type == "UI":
+                        region.tag_redraw()
+
+
+def _look() -> float | None:
+    look()
+    return SECONDS if queue.busy else None
+
+
+def _push_undo(message: str) -> None:
+    windows = bpy.context.window_manager.windows
+    if windows:
+        with bpy.context.temp_override(window=windows[0]):
+            bpy.ops.ed.undo_push(message=message)
+
+
+def _close() -> None:
+    if bpy.app.timers.is_registered(_look):
+        bpy.app.timers.unregister(_look)
+    bakes = list(queue.bakes)
+    queue.close()
+    for bake in bakes:
+        bake.tidy()

@@ -1,0 +1,29 @@
+"""End a bake of the queue, or put one away that has ended."""
+
+import bpy
+
+from . import background
+
+
+class RSIBR_OT_cancel_bake(bpy.types.Operator):
+    """End this bake; baked again, it goes on with the views that are finished. One that has ended is put away"""  # noqa: D400, E501  (a tooltip)
+
+    bl_idname = "rsibr.cancel_bake"
+    bl_label = "Cancel Bake"
+
+    number: bpy.props.IntProperty(
+        name="Number", description="Place in the queue, from 0", options={"SKIP_SAVE"}
+    )
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Cancel or put away."""
+        if not 0 <= self.number < len(background.queue.bakes):
+            self.report({"ERROR"}, f"There is no bake number {self.number}: the queue has changed.")
+            return {"CANCELLED"}
+        bake = background.queue.bakes[self.number]
+        if bake.ended:
+            background.queue.bakes.remove(bake)
+        else:
+            bake.cancel()
+            bake.tidy()
+        return {"FINISHED"}

@@ -1,0 +1,39 @@
+"""Write all of a map set on one page, and open it."""
+
+from pathlib import Path
+
+import bpy
+
+from ..rsibr_addon.core.errors import SceneError
+from ..rsibr_addon.core.progress import drain
+from ..rsibr_addon.tasks.map_set_page import map_set_page, page_beside
+from .reporting import reporting
+
+
+class RSIBR_OT_open_report(bpy.types.Operator):
+    """Show all that the active object's map set holds: its maps, its settings and the error it promises"""  # noqa: D400  (a tooltip)
+
+    bl_idname = "rsibr.open_report"
+    bl_label = "Report"
+
+    open_page: bpy.props.BoolProperty(
+        name="Open", description="Open the page in the browser", default=True, options={"SKIP_SAVE"}
+    )
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Whether there is a map set."""
+        return context.object is not None and bool(context.object.rsibr.map_set)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Write it beside the map set, in place of an earlier one."""
+        with reporting(self):
+            path = Path(bpy.path.abspath(context.object.rsibr.map_set))
+            if not path.is_file():
+                raise SceneError(f"There is no map set {path}: bake it again, or choose another.")
+            page = drain(map_set_page(path, page_beside(path), force=True))
+            self.report({"INFO"}, f"Wrote {page}")
+            if self.open_page:
+                bpy.ops.wm.url_open(url=page.resolve().as_uri())
+            return {"FINISHED"}
+        return {"CANCELLED"}

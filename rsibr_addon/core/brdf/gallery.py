@@ -1,0 +1,30 @@
+"""Reflectance models to choose from, as texts."""
+
+from .car_paint import PAINTS
+from .metals import METALS
+
+
+def _lacquer(alpha: float, base: str) -> str:
+    return f"layered:coat=(ggx:alpha={alpha},eta=1.5),base=({base})"
+
+
+GALLERY: dict[str, dict[str, str]] = {
+    "Metals": {
+        **{f"Brushed {metal}": f"ggx:alpha=0.3,metal={metal}" for metal in METALS},
+        "Satin aluminium": "ggx:alpha=0.15,metal=aluminium",
+        "Chrome": "ggx:alpha=0.04,metal=chromium",
+        "Polished gold": "ggx:alpha=0.06,metal=gold",
+    },
+    "Plastics": {
+        "Red plastic": _lacquer(0.1, "lambert:kd=0.5/0.05/0.03"),
+        "Black plastic": _lacquer(0.2, "lambert:kd=0.02"),
+        "White ceramic": _lacquer(0.04, "lambert:kd=0.8/0.78/0.72"),
+    },
+    "Car paints": {name.replace("_", " ").capitalize(): f"car_paint:name={name}" for name in PAINTS},
+    "Wood and cloth": {
+        "Varnished wood": _lacquer(0.08, "lambert:kd=0.35/0.15/0.05"),
+        "Satin": "sum:parts=(lambert:kd=0.15/0.03/0.05)+(ward:alpha=0.35,ks=0.4)",
+        "Matte clay": "lambert:kd=0.55/0.4/0.3",
+    },
+}
+"""Group -> name for people -> what `core.brdf.spec` makes a model of."""

@@ -1,0 +1,182 @@
+"""What an artist has chosen to bake: the scene's settings and the active object, as names and paths."""
+
+from pathlib import Path
+
+import bpy
+
+from ..core.errors import InputFileError, OutputFileError, SceneError
+from .materials import surface_output
+from .worlds import studio_environments, world_of
+
+EXTENSION = __package__.rpartition(".rsibr_addon")[0]
+"""The package that Blender knows us by."""
+
+FOLDER = "//rsibr"
+"""Where baked files go beside a saved file."""
+
+SHAPED = ("MESH", "CURVE", "SURFACE", "FONT", "META")
+"""Types of objects that have surfaces."""
+
+
+def chosen_environment(scene: bpy.types.Scene) -> str | None:
+    """The environment that a scene's settings choose.
+
+    Returns
+    -------
+    str or None
+        As `tasks.environments.load_environment` takes it.
+
+    Raises
+    ------
+    SceneError
+        There is no world.
+    InputFileError
+        No file is given, or it is not there.
+    """
+    chosen = scene.rsibr_bake
+    match chosen.light:
+        case "WORLD":
+            world_of(scene)
+            return None
+        case "STUDIO":
+            return str(studio_environments()[chosen.studio])
+        case _:
+            return existing(chosen.picture, "environment", "a latitude-longitude picture")
+
+
+def existing(path: str, what: str, wanted: str) -> str:
+    """The absolute path of a file that was chosen.
+
+    Parameters
+    ----------
+    path : str
+        As Blender writes paths, `//` and all.
+    what, wanted : str
+        What the file is to be, and in more words.
+
+    Raises
+    ------
+    InputFileError
+        None was chosen, or it is not there.
+    """
+    if not path:
+        raise InputFileError(f"No {what} is chosen: give {wanted}.")
+    absolute = bpy.path.abspath(path)
+    if not Path(absolute).is_file():
+        raise InputFileError(f"There is no file {absolute}: choose another.")
+    return absolute
+
+
+def check_object(item: bpy.types.Object | None) -> None:
+    """Refuse to bake for nothing.
+
+    Raises
+    ------
+    SceneError
+    """
+    if item is None:
+        raise SceneError("There is no object to bake for: select one.")
+    if item.type not in SHAPED:
+        raise SceneError(f"Object {item.name} has no surface: select one that has.")
+
+
+def own_material(item: bpy.types.Object) -> bpy.types.Material:
+    """The material that an object shows.
+
+    Raises
+    ------
+    SceneError
+        It has none, or one without a surface.
+    """
+    material = item.active_material
+    if material is None:
+        raise SceneError(f"Object {item.name} has no material: give it one, or choose another source.")
+    if surface_output(material) is None:
+        raise SceneError(
+            f"Material {material.name} has no surface: link a shader to the Surface of its Material Output."
+        )
+    return material
+
+
+def baked_folder() -> Path:
+    """Where baked files go: as the preferences say, or beside the open file, or among the user's own.
+
+    Raises
+    ------
+    OutputFileError
+        It cannot be made.
+    """
+    addon = bpy.context.preferences.addons.get(EXTENSION)
+    wished = (addon and addon.preferences and addon.preferences.folder) or FOLDER
+    known = bool(bpy.data.filepath) or not wished.startswith("//")
+    folder = Path(bpy.path.abspath(wished)) if known else user_folder()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputFileError(
+            f"{folder} cannot be made ({error.strerror}): choose another folder in the add-on's preferences."
+        ) from error
+    return folder
+
+
+def user_folder() -> Path:
+    """The extension's own folder among the user's files, which outlasts upgrades."""
+    try:
+        return Path(bpy.utils.extension_path_user(EXTENSION, path="baked"))
+    except ValueError:  # Not installed as an extension, but imported from elsewhere.
+        return Path(bpy.utils.user_resource("DATAFILES", path="rsibr"))
+
+
+def save_copy(path: Path) -> None:
+    """Write the open file as it is now, unsaved changes too; it stays as it was, and stays open.
+
+    Raises
+    ------
+    OutputFileError
+    """
+    try:
+        bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True, check_existing=False)
+    except RuntimeError as error:
+        raise OutputFileError(f"No copy of the file can be written to {path}: free some space.") from error
+
+
+def open_file() -> str:
+    """Path of the open file; empty before it is saved."""
+    return bpy.data.filepath
+
+
+def blender_program() -> str:
+    """What starts this Blender again; empty where it is but a module of Python."""
+    return bpy.app.binary_path
+
+
+def assign(uid: int, path: Path) -> str | None:
+    """Have an object shaded from a map set.
+
+    Parameters
+    ----------
+    uid : int
+        Its `session_uid`, which stays while names change.
+    path : Path
+
+    Returns
+    -------
+    str or None
+        Its name; None where it is gone, or may not be changed.
+    """
+    item = next((each for each in bpy.data.objects if each.session_uid == uid), None)
+    if item is None or not item.is_editable:
+        return None
+    item.rsibr.map_set = stored_path(path)
+    item.rsibr.show = True
+    return item.name
+
+
+def stored_path(path: Path) -> str:
+    """A path as a file keeps it: relative where that is possible."""
+    if not bpy.data.filepath:
+        return str(path)
+    try:
+        return bpy.path.relpath(str(path))
+    except ValueError:  # On another drive
+        return str(path)

@@ -1,0 +1,211 @@
+"""From what an artist has chosen to a bake in the background, and the file that it makes."""
+
+import hashlib
+import json
+import re
+import tempfile
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ..core.errors import MapSetError, SceneError
+from ..files.map_set import read_map_set_header
+from ..host.bake_settings import (
+    EXTENSION,
+    baked_folder,
+    blender_program,
+    check_object,
+    chosen_environment,
+    existing,
+    open_file,
+    own_material,
+    save_copy,
+)
+from ..host.materials import ORIGINAL, fingerprint
+from ..host.version import software
+from ..host.worlds import world_of
+from ..job import BakeJob
+from .background import Bake, blender_command
+from .methods import METHODS, Method
+
+HASH_LETTERS = 10
+"""Of a file's name: enough to tell a million bakes apart."""
+
+NAME_LETTERS = 60
+"""Of a file's name at most, for people."""
+
+
+@dataclass(frozen=True)
+class Order:
+    """What is to be baked.
+
+    Attributes
+    ----------
+    environment : str or None
+        None for the world of the open file.
+    method : Method
+    own_material : str or None
+        Name of the material, where it is one of the open file.
+    measured : str or None
+        Path of the file that holds the material, where there is one.
+    """
+
+    environment: str | None
+    method: Method
+    own_material: str | None
+    measured: str | None
+
+    @property
+    def needs_file(self) -> bool:
+        """Whether the world or the material are those of the open file."""
+        return self.environment is None or self.own_material is not None
+
+    @property
+    def title(self) -> str:
+        """What is baked, in words."""
+        light = "the world" if self.environment is None else Path(self.environment).stem
+        return f"{self.method.subject or self.method.kind.replace('_', ' ')} in {light}"
+
+    def job(self, output: Path) -> BakeJob:
+        """What makes `output`, and replaces what is there: that is damaged, or it would not be made."""
+        light = () if self.environment is None else ("--environment", self.environment)
+        return BakeJob((*self.method.arguments(), *light, "--output", str(output), "--force"))
+
+
+@dataclass
+class ObjectBake(Bake):
+    """A bake for an object.
+
+    Attributes
+    ----------
+    item : int
+        The object's `session_uid`.
+    folder : TemporaryDirectory
+        Holds what the bake reads.
+    """
+
+    item: int = 0
+    folder: tempfile.TemporaryDirectory[str] | None = field(default=None, repr=False)
+
+    def tidy(self) -> None:
+        """Remove what it has read, once it has ended."""
+        if self.folder is not None:
+            self.folder.cleanup()
+
+
+def order_for(scene: Any, item: Any) -> Order:
+    """Read the settings for an object.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        Holds `ui.bake_properties.RSIBR_PG_bake`.
+    item : bpy.types.Object or None
+
+    Returns
+    -------
+    Order
+
+    Raises
+    ------
+    SceneError, InputFileError
+        Something is missing; says what to do.
+    """
+    check_object(item)
+    chosen = getattr(scene.rsibr_bake, scene.rsibr_bake.kind)
+    source = getattr(chosen, "source", None)
+    own = own_material(item).name if source == "OWN" else None
+    measured = existing(chosen.path, "measured material", "its file") if source == "FILE" else None
+    environment = chosen_environment(scene)
+    return Order(environment, METHODS[scene.rsibr_bake.kind](chosen, own or measured or ""), own, measured)
+
+
+def output_for(order: Order, scene: Any, item: Any) -> Path:
+    """The file that an order makes: the same order has the same file, a different one another.
+
+    Parameters
+    ----------
+    order : Order
+        Of `scene` and `item`.
+    scene : bpy.types.Scene
+    item : bpy.types.Object
+
+    Returns
+    -------
+    Path
+        Its name tells what it depends on, by a hash: method, light, material, version.
+
+    Raises
+    ------
+    OutputFileError
+        Its folder cannot be made.
+    """
+    content = {
+        "method": order.method.arguments(),
+        "light": fingerprint(world_of(scene)) if order.environment is None else _digest(order.environment),
+        "material": fingerprint(own_material(item)) if order.own_material else None,
+        "measured": _digest(order.measured) if order.measured else None,
+        "software": software(),
+    }
+    letters = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:HASH_LETTERS]
+    words = re.sub(r"[^\w.-]+", "-", order.title.lower())[:NAME_LETTERS]
+    return baked_folder() / f"{words}-{letters}.rsibr.exr"
+
+
+def is_baked(output: Path) -> bool:
+    """Whether a file is there, and a map set."""
+    try:
+        read_map_set_header(output)
+    except MapSetError:
+        return False
+    return True
+
+
+def bake_of(order: Order, item: Any, output: Path) -> ObjectBake:
+    """Make everything ready that a background Blender needs.
+
+    Parameters
+    ----------
+    order : Order
+    item : bpy.types.Object
+        That is to be shaded from the map set.
+    output : Path
+
+    Returns
+    -------
+    ObjectBake
+        To be added to a queue.
+
+    Raises
+    ------
+    SceneError
+        This is no Blender that could be started again.
+    OutputFileError
+        The open file cannot be copied.
+    """
+    program = blender_program()
+    if not program:
+        raise SceneError("There is no Blender to bake in: bake with the command rsibr instead.")
+    folder = tempfile.TemporaryDirectory(prefix="rsibr-", ignore_cleanup_errors=True)
+    try:
+        job = Path(folder.name) / "job.json"
+        job.write_text(order.job(output).to_json(), encoding="utf-8")
+        blend = Path(folder.name) / "open.blend" if order.needs_file else None
+        if blend is not None:
+            save_copy(blend)
+    except BaseException:
+        folder.cleanup()
+        raise
+    return ObjectBake(
+        title=f"{item.name}: {order.title}",
+        output=output,
+        command=blender_command(program, EXTENSION, blend, job),
+        variables={ORIGINAL: open_file()},
+        item=item.session_uid,
+        folder=folder,
+    )
+
+
+def _digest(path: str) -> str:
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()

@@ -1,0 +1,29 @@
+"""Which light is baked."""
+
+import bpy
+
+
+class RSIBR_PT_environment(bpy.types.Panel):
+    """The light that is baked"""  # noqa: D400  (a tooltip)
+
+    bl_label = "Environment"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "RSIBR"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Show where light comes from, and of that source the rest."""
+        chosen, layout = context.scene.rsibr_bake, self.layout
+        layout.row().prop(chosen, "light", expand=True)
+        match chosen.light:
+            case "WORLD":
+                layout.template_ID(context.scene, "world", new="world.new")
+            case "STUDIO":
+                layout.template_icon_view(chosen, "studio", show_labels=True, scale=4.0)
+                layout.prop(chosen, "studio", text="")
+            case _:
+                layout.prop(chosen, "picture", text="")
+        capture = layout.operator(
+            "rsibr.capture_environment", text="Capture from Scene...", icon="RENDER_STILL"
+        )
+        capture.source, capture.use = "OBJECT" if context.object else "CURSOR", True

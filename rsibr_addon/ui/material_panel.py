@@ -1,0 +1,59 @@
+"""Which material is baked."""
+
+import bpy
+
+from ..core.brdf.gallery import GALLERY
+
+
+class RSIBR_MT_models(bpy.types.Menu):
+    """Choose a reflectance model"""  # noqa: D400  (a tooltip)
+
+    bl_label = "Models"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Show what comes with the extension, by groups."""
+        row = self.layout.row()
+        for group, models in GALLERY.items():
+            column = row.column()
+            column.label(text=group)
+            column.separator()
+            for name, spec in models.items():
+                choose = column.operator("wm.context_set_string", text=name)
+                choose.data_path, choose.value = "scene.rsibr_bake.lobe_stack.brdf", spec
+
+
+class RSIBR_PT_material(bpy.types.Panel):
+    """The material that is baked"""  # noqa: D400  (a tooltip)
+
+    bl_label = "Material"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "RSIBR"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Show what the method can take."""
+        chosen = getattr(context.scene.rsibr_bake, context.scene.rsibr_bake.kind)
+        layout = self.layout
+        match context.scene.rsibr_bake.kind:
+            case "mip_chain":
+                layout.label(text="Mips hold light alone:", icon="INFO")
+                layout.label(text="choose colours in Preview.", icon="BLANK1")
+            case "reflection_tables":
+                layout.prop(chosen, "preset", text="")
+            case _:
+                layout.row().prop(chosen, "source", expand=True)
+                _draw_source(layout, chosen, context.object)
+
+
+def _draw_source(layout: bpy.types.UILayout, chosen: bpy.types.PropertyGroup, item: bpy.types.Object) -> None:
+    match chosen.source:
+        case "OWN":
+            if item is not None:
+                layout.template_ID(item, "active_material", new="material.new")
+        case "PRESET":
+            layout.prop(chosen, "preset", text="")
+        case "MODEL":
+            layout.menu("RSIBR_MT_models", text="Choose...", icon="MATERIAL")
+            layout.prop(chosen, "brdf", text="")
+        case "FILE":
+            layout.prop(chosen, "path", text="")

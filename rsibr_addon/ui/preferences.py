@@ -1,0 +1,24 @@
+"""What a user sets once for all files."""
+
+import bpy
+
+from ..host.bake_settings import EXTENSION, FOLDER
+
+
+class RSIBR_AP_preferences(bpy.types.AddonPreferences):
+    """Where files go."""
+
+    bl_idname = EXTENSION
+
+    folder: bpy.props.StringProperty(
+        name="Baked Files",
+        description="Folder for baked map sets; // is that of the open file. For files that are not saved "
+        "yet, a folder of the user's own is taken",
+        subtype="DIR_PATH",
+        default=FOLDER,
+    )
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Show it."""
+        self.layout.use_property_split = True
+        self.layout.prop(self, "folder")

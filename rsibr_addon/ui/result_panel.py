@@ -1,0 +1,41 @@
+"""What the active object is shaded from."""
+
+from pathlib import Path
+
+import bpy
+
+from ..core.errors import MapSetError
+from ..tasks.map_set_facts import map_set_facts
+from .sentences import tell
+
+
+class RSIBR_PT_result(bpy.types.Panel):
+    """The active object's map set"""  # noqa: D400  (a tooltip)
+
+    bl_label = "Result"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "RSIBR"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Whether there is a map set."""
+        return context.object is not None and bool(context.object.rsibr.map_set)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Show its file, what it is, the errors that it promises; and open its report."""
+        layout = self.layout
+        path = Path(bpy.path.abspath(context.object.rsibr.map_set))
+        try:
+            facts = map_set_facts(path)
+        except MapSetError as error:
+            tell(layout, str(error), context.region.width)
+            layout.operator("rsibr.assign", text="Find...", icon="FILEBROWSER")
+            return
+        column = layout.column(align=True)
+        for what, which in {"File": path.name, **facts}.items():
+            row = column.split(factor=0.4)
+            row.alignment = "RIGHT"
+            row.label(text=what)
+            row.label(text=which)
+        layout.operator("rsibr.open_report", icon="URL")

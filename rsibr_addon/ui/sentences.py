@@ -1,0 +1,55 @@
+"""Words in panels."""
+
+import bpy
+
+LETTER_WIDTH, MARGIN = 7, 60
+"""Of a panel's text, the mean, and of a region, with an icon; pixels at Blender's own scale."""
+
+
+def tell(layout: bpy.types.UILayout, message: str, width: int, icon: str = "ERROR") -> None:
+    """A sentence, broken into lines; Blender would cut it off.
+
+    Parameters
+    ----------
+    layout : bpy.types.UILayout
+    message : str
+    width : int
+        Of the region in pixels.
+    icon : str
+        Before the first line.
+    """
+    column = layout.column(align=True)
+    letters = max(20, (width - MARGIN) // LETTER_WIDTH)
+    words, line = message.split(), ""
+    lines = []
+    for word in words:
+        if line and len(line) + len(word) >= letters:
+            lines.append(line)
+            line = ""
+        line = f"{line} {word}".strip()
+    for number, text in enumerate([*lines, line]):
+        column.label(text=text, icon=icon if number == 0 else "BLANK1")
+
+
+def duration(seconds: float) -> str:
+    """A time as one says it."""
+    if seconds < 10:
+        return "some seconds"
+    if seconds < 90:
+        return f"about {10 * round(seconds / 10)} seconds"
+    if seconds < 5400:
+        return f"about {round(seconds / 60)} minutes"
+    return f"about {seconds / 3600:.1f} hours"
+
+
+def amount(size: float) -> str:
+    """A number of bytes as one says it."""
+    megabytes = size / 1e6
+    if megabytes >= 1000:
+        return f"{megabytes / 1000:.1f} GB"
+    return f"{megabytes:.0f} MB" if megabytes >= 10 else f"{megabytes:.1f} MB"
+
+
+def capital(words: str) -> str:
+    """The same with a capital letter first."""
+    return words[:1].upper() + words[1:]

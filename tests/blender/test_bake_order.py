@@ -1,0 +1,193 @@
+"""What the panel's settings ask for: a job that the command line takes, a name that tells bakes apart."""
+
+import itertools
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+import bpy
+import pytest
+import rsibr
+from rsibr.rsibr_addon.command_line.main import parsed, run
+from rsibr.rsibr_addon.core.errors import InputFileError, RsibrError, SceneError
+from rsibr.rsibr_addon.tasks.bake_order import Order, bake_of, is_baked, order_for, output_for
+from rsibr.rsibr_addon.tasks.methods import QUALITIES
+from rsibr.tests.open_file import open_file_state
+
+
+@pytest.fixture(autouse=True)
+def _registered(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[None]:
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.bake_order.baked_folder", lambda: tmp_path)
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.environments.WORLD_HEIGHT", 16)
+    rsibr.register()
+    yield
+    rsibr.unregister()
+
+
+def order() -> Order:
+    return order_for(bpy.context.scene, bpy.context.object)
+
+
+def output() -> Path:
+    return output_for(order(), bpy.context.scene, bpy.context.object)
+
+
+KINDS = sorted(QUALITIES["GOOD"])
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("quality", QUALITIES)
+def test_every_quality_is_what_the_command_takes(kind: str, quality: str) -> None:
+    chosen = bpy.context.scene.rsibr_bake
+    chosen.kind = kind
+    assert bpy.ops.rsibr.apply_quality(quality=quality) == {"FINISHED"}
+    settings = getattr(chosen, kind)
+    for name, value in QUALITIES[quality][kind].items():
+        assert getattr(settings, name) == value
+    job = order().job(Path("out.rsibr.exr"))
+    asked = parsed(job.arguments)
+    assert asked.output == Path("out.rsibr.exr")
+    assert asked.environment is None
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_better_costs_more(kind: str) -> None:
+    chosen = bpy.context.scene.rsibr_bake
+    chosen.kind = kind
+    costs = []
+    for quality in QUALITIES:
+        bpy.ops.rsibr.apply_quality(quality=quality)
+        costs.append(order().method.cost())
+    for less, more in itertools.pairwise(costs):
+        assert less.processor_seconds < more.processor_seconds
+        assert less.memory < more.memory
+        assert less.disk < more.disk
+
+
+def test_the_file_is_as_large_as_was_said() -> None:
+    chosen = bpy.context.scene.rsibr_bake
+    chosen.kind, chosen.light, chosen.studio = "mip_chain", "STUDIO", "forest"
+    for size in ("64", "256"):
+        chosen.mip_chain.size = size
+        path = output()
+        assert run([*order().job(path).arguments, "--progress", "none"]) == 0
+        # Said for any light; how well a picture is compressed depends on it
+        assert 0.4 < path.stat().st_size / order().method.cost().disk < 1.6
+        assert is_baked(path)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "sentence"),
+    [
+        ("bpy.context.view_layer.objects.active = None", "There is no object to bake for: select one."),
+        ("bpy.context.view_layer.objects.active = bpy.data.objects['Light']", "Object Light has no surface"),
+        ("bpy.context.object.active_material = None", "Object Cube has no material: give it one"),
+        ("bpy.context.object.active_material.node_tree.nodes.clear()", "Material Material has no surface"),
+        ("bpy.context.scene.world = None", "Scene Scene has no world: add one"),
+        ("chosen.light = 'PICTURE'", "No environment is chosen: give a latitude-longitude picture."),
+        ("chosen.light, chosen.picture = 'PICTURE', '/no.exr'", "There is no file /no.exr: choose another."),
+        ("chosen.kind, chosen.lobe_stack.source = 'lobe_stack', 'FILE'", "No measured material is chosen"),
+    ],
+)
+def test_what_is_missing_is_told_before_the_button_is_pressed(spoil: str, sentence: str) -> None:
+    assert bpy.ops.rsibr.bake.poll()
+    exec(spoil, {"bpy": bpy, "chosen": bpy.context.scene.rsibr_bake})
+    assert not bpy.ops.rsibr.bake.poll()
+    with pytest.raises(RsibrError, match=sentence):
+        order()
+
+
+def test_a_picture_is_no_measured_material(tmp_path: Path) -> None:
+    chosen = bpy.context.scene.rsibr_bake
+    path = tmp_path / "wood.png"
+    path.touch()
+    chosen.kind, chosen.lobe_stack.source, chosen.lobe_stack.path = "lobe_stack", "FILE", str(path)
+    with pytest.raises(InputFileError, match=r"wood\.png is no measured material: give a MERL \.binary"):
+        order()
+
+
+def test_equal_bakes_have_one_file_and_others_another(tmp_path: Path) -> None:
+    chosen = bpy.context.scene.rsibr_bake
+    cube = bpy.data.objects["Cube"]
+    first = output()
+    assert output() == first
+    assert first.name.startswith("material-in-the-world-")
+    names = {first}
+
+    def differs() -> None:
+        names.add(output())
+
+    chosen.radiance_views.samples = 7
+    differs()
+    bpy.context.scene.world.node_tree.nodes["Background"].inputs["Strength"].default_value = 2.0
+    differs()
+    cube.active_material.node_tree.nodes["Principled BSDF"].inputs["Roughness"].default_value = 0.1
+    differs()
+    picture = tmp_path / "light.exr"
+    chosen.light, chosen.picture = "PICTURE", str(picture)
+    for content in (b"a", b"b"):
+        picture.write_bytes(content)
+        differs()
+    chosen.kind = "mip_chain"
+    differs()
+    assert len(names) == 7
+    cube.active_material.name = cube.name = "Renamed"
+    before = output()
+    cube.location.x += 3.0
+    assert output() == before
+
+
+def test_a_bake_gets_a_copy_of_the_file_as_it_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.bake_order.blender_program", lambda: "blender")
+    bpy.context.scene.rsibr_bake.radiance_views.samples = 5
+    before = open_file_state()
+    bake = bake_of(order(), bpy.context.object, tmp_path / "out.rsibr.exr")
+    assert open_file_state() == before
+    assert bake.variables == {"RSIBR_ORIGINAL": ""}
+    blend, job = Path(bake.command[2]), Path(bake.command[8])
+    assert json.loads(job.read_text())["arguments"][:3] == ["capture", "--material", ":Material"]
+    with bpy.data.libraries.load(str(blend)) as (found, _):
+        assert "Material" in found.materials
+    bake.tidy()
+    assert not blend.parent.exists()
+
+
+def test_without_a_blender_there_is_a_sentence(tmp_path: Path) -> None:
+    with pytest.raises(
+        SceneError, match="There is no Blender to bake in: bake with the command rsibr instead"
+    ):
+        bake_of(order(), bpy.context.object, tmp_path / "out.rsibr.exr")
+    with pytest.raises(RuntimeError, match="There is no Blender to bake in"):
+        bpy.ops.rsibr.bake()
+
+
+def test_what_was_baked_before_is_taken_at_once() -> None:
+    chosen = bpy.context.scene.rsibr_bake
+    chosen.kind, chosen.mip_chain.size, chosen.mip_chain.filter = "mip_chain", "64", "box"
+    cube = bpy.context.object
+    path = output()
+    assert run([*order().job(path).arguments, "--progress", "none"]) == 0
+    assert bpy.ops.rsibr.bake() == {"FINISHED"}
+    assert Path(cube.rsibr.map_set) == path
+    cube.rsibr.map_set = ""
+    path.write_bytes(b"damaged")
+    assert not is_baked(path)
+    with pytest.raises(RuntimeError, match="There is no Blender to bake in"):
+        bpy.ops.rsibr.bake()
+    assert cube.rsibr.map_set == ""
+
+
+def test_only_map_sets_are_assigned(tmp_path: Path) -> None:
+    path = tmp_path / "no.rsibr.exr"
+    with pytest.raises(RuntimeError, match=r"no\.rsibr\.exr"):
+        bpy.ops.rsibr.assign(filepath=str(path))
+    assert bpy.context.object.rsibr.map_set == ""
+
+
+def test_the_material_is_recorded_as_the_original_has_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    from rsibr.rsibr_addon.host.materials import ORIGINAL, lasting_spec
+
+    monkeypatch.setenv(ORIGINAL, "/work/car.blend")
+    assert lasting_spec(":Paint") == "/work/car.blend:Paint"
+    monkeypatch.setenv(ORIGINAL, "")
+    assert lasting_spec(":Paint") == ":Paint"

@@ -17,6 +17,9 @@ SMALLEST, LARGEST = 0.25, 0.75
 COARSE = 96
 """Longer side of the smallest picture, in which all circles are tried."""
 
+FINEST = 2048
+"""Longer side of the largest picture: half a pixel of it is enough."""
+
 KEPT = 6
 """Circles that are followed into larger pictures: reflections near the outline are nearly circles, too."""
 
@@ -85,7 +88,10 @@ def find_circle(photograph: Array) -> tuple[Circle, float]:
     likelier it meets with edges by chance: the mean is weighted with the root of the diameter over
     the photograph's shorter side.
     """
-    grey = photograph.astype(np.float64).mean(axis=-1)
+    grey: Array = photograph.astype(np.float64).mean(axis=-1)
+    shrunk = 1.0
+    while max(grey.shape) > FINEST:
+        grey, shrunk = _halved(grey), 2.0 * shrunk
     pyramid: list[Array] = [grey]
     while max(pyramid[-1].shape) > COARSE:
         pyramid.append(_halved(pyramid[-1]))
@@ -102,7 +108,7 @@ def find_circle(photograph: Array) -> tuple[Circle, float]:
         raise RangeError(
             "There is no ball to be found: let it fill most of the photograph, in focus, or give its circle."
         )
-    return Circle(*(float(number) for number in circle)), score
+    return Circle(*(float(number) for number in shrunk * circle)), score
 
 
 def _halved(picture: Array) -> Array:

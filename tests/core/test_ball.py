@@ -53,6 +53,15 @@ def test_a_balls_outline_is_found(circle: Circle, width: int, height: int) -> No
     assert 0.32 < score <= 1.0
 
 
+@pytest.mark.slow
+def test_large_photographs_are_looked_at_smaller() -> None:
+    circle = Circle(1063.0, 811.0, 590.0)
+    found, _ = find_circle(ball_photograph(BallSide(NOTHING, distance=12.0), circle, 2112, 1500))
+    error = np.array([found.x - circle.x, found.y - circle.y, found.radius - circle.radius])
+    # A pixel of the picture half as large
+    assert np.abs(error).max() < 2.0
+
+
 def test_no_ball_is_found_where_there_is_none() -> None:
     noise = RNG.random((96, 128, 3))
     ramp = np.linspace(0.0, 1.0, 128)[:, None] * np.ones((96, 128, 3))

@@ -1,9 +1,13 @@
 """`rsibr fit`: the figures, the file, and what bad input says."""
 
 import json
+from collections.abc import Iterator
 from pathlib import Path
 
+import bpy
+import numpy as np
 import pytest
+import rsibr
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import RangeError
 from rsibr.rsibr_addon.files.fits import read_fit
@@ -26,6 +30,29 @@ def test_the_command_writes_a_fit_and_tells_its_figures(
     assert 1.0 < told["amplification"] < 8.0
     assert json.loads(path.read_text())["report"]["E"] == told["E"]
     assert read_fit(path).brdf == "phong:n=40,ks=0.5"
+
+
+def test_plots_are_written_whole_or_not_at_all(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    path, plots = tmp_path / "FIT.json", tmp_path / "plots"
+    assert run([*COMMAND, "--method", "single", "--plot", str(plots), "-o", str(path)]) == 0
+    assert sorted(plot.name for plot in plots.iterdir()) == [
+        "error.svg",
+        "lobes-20.svg",
+        "lobes-50.svg",
+        "lobes-80.svg",
+    ]
+    assert read_fit(path).method == "single"
+    # Somebody's own folder is left alone, and nothing is fitted for it
+    assert run([*COMMAND, "--plot", str(tmp_path), "-o", str(tmp_path / "other.json")]) == 1
+    assert "holds other things: give the name of a new folder" in capfd.readouterr().err
+    assert not (tmp_path / "other.json").exists()
+
+
+@pytest.mark.parametrize("method", ["greedy", "single-2d"])
+def test_every_method_fits(tmp_path: Path, method: str) -> None:
+    path = tmp_path / "FIT.json"
+    assert run([*COMMAND, "--method", method, "-o", str(path)]) == 0
+    assert read_fit(path).method == method
 
 
 @pytest.mark.parametrize(
@@ -58,8 +85,30 @@ def test_existing_fits_are_kept(tmp_path: Path, capfd: pytest.CaptureFixture[str
     assert path.read_text() == "kept"
 
 
+@pytest.fixture
+def _registered() -> Iterator[None]:
+    rsibr.register()
+    yield
+    rsibr.unregister()
+
+
+@pytest.mark.usefixtures("_registered")
+def test_the_operator_writes_what_the_command_writes(tmp_path: Path) -> None:
+    path, other = tmp_path / "FIT.json", tmp_path / "other.json"
+    spec = "phong:n=40,ks=0.5"
+    assert bpy.ops.rsibr.fit_lobes(filepath=str(path), brdf=spec, lobes=2, slices=3) == {"FINISHED"}
+    assert run([*COMMAND, "-o", str(other)]) == 0
+    np.testing.assert_array_equal(read_fit(path).weights, read_fit(other).weights)
+    with pytest.raises(RuntimeError, match="--force to replace it"):
+        bpy.ops.rsibr.fit_lobes(filepath=str(path), brdf=spec, lobes=2, slices=3)
+
+
 def test_methods_have_no_use_for_what_is_anothers() -> None:
     with pytest.raises(RangeError, match="are for the method joint, not single"):
         FitSettings(method="single", taps=3)
     with pytest.raises(RangeError, match="There is no method exact: choose one of joint"):
         FitSettings(method="exact")
+    with pytest.raises(RangeError, match="is for the method greedy, not joint"):
+        FitSettings(seek="search")
+    with pytest.raises(RangeError, match="choose one of peaks, places, search"):
+        FitSettings(method="greedy", seek="luck")

@@ -94,6 +94,10 @@ def test_one_map_with_five_taps_does_what_four_lobes_do() -> None:
     assert errors.error < 0.19
     assert np.all(errors.amplification <= 2.001)
     np.testing.assert_allclose(np.abs(fit.taps).sum(axis=2), 1.0, rtol=1e-12)
+    # Between two elevations the fit is as good as between them on average, and a little
+    between = fit_errors(fit, WARD, np.arange(1, 16) / 16.0).shape
+    mean = 0.5 * (errors.shape[1:] + errors.shape[:-1])
+    assert np.all(between <= mean + 0.01)
 
 
 def test_kernels_stay_positive_on_request() -> None:

@@ -187,7 +187,9 @@ def _fit(slices: Sequence[TargetSlice], bank: KernelBank, states: Sequence[State
     taps = np.stack([state.lookups.taps for state in states], axis=1)
     tilts = [_tilts(target, state.lookups.angles) for target, state in zip(slices, states, strict=True)]
     offsets = np.stack([np.stack(tilts, axis=1), np.zeros_like(taps)], axis=-1)
-    total = np.abs(taps).sum(axis=2, keepdims=True)
+    # The same sign at all elevations, or interpolation between them would cancel
+    sign = np.where(taps.sum(axis=2, keepdims=True) < 0.0, -1.0, 1.0)
+    total = sign * np.abs(taps).sum(axis=2, keepdims=True)
     return Fit(
         brdf=brdf,
         method="joint",

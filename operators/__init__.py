@@ -8,6 +8,7 @@ from .bake_tables import RSIBR_OT_bake_tables
 from .cancel_bake import RSIBR_OT_cancel_bake
 from .capture_environment import RSIBR_OT_capture_environment
 from .capture_views import RSIBR_OT_capture_views
+from .drag_split import RSIBR_OT_drag_split
 from .fit_lobes import RSIBR_OT_fit_lobes
 from .open_report import RSIBR_OT_open_report
 from .reload_map_sets import RSIBR_OT_reload_map_sets
@@ -24,5 +25,6 @@ CLASSES: tuple[type, ...] = (
     RSIBR_OT_assign,
     RSIBR_OT_open_report,
     RSIBR_OT_reload_map_sets,
+    RSIBR_OT_drag_split,
 )
 """Every operator's class, in the order of registration."""

@@ -127,13 +127,40 @@ class RSIBR_PG_preview(bpy.types.PropertyGroup):
     mip_chain: bpy.props.PointerProperty(type=RSIBR_PG_mip_chain)
 
 
+def _redraw(group: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            area.tag_redraw()
+
+
+class RSIBR_PG_view(bpy.types.PropertyGroup):
+    """How viewports show previews, for as long as Blender runs."""
+
+    split: bpy.props.BoolProperty(
+        name="Split", description="Show Blender's own shading right of a line", update=_redraw
+    )
+    line: bpy.props.FloatProperty(
+        name="Line",
+        description="Where previews end and Blender's own shading begins",
+        update=_redraw,
+        subtype="FACTOR",
+        default=0.5,
+        min=0.0,
+        max=1.0,
+    )
+
+
 CLASSES = (
     RSIBR_PG_radiance_views,
     RSIBR_PG_reflection_tables,
     RSIBR_PG_mip_chain,
     RSIBR_PG_preview,
+    RSIBR_PG_view,
 )
 """In the order of registration."""
 
-POINTERS = {"rsibr": (bpy.types.Object, RSIBR_PG_preview)}
+POINTERS = {
+    "rsibr": (bpy.types.Object, RSIBR_PG_preview),
+    "rsibr_view": (bpy.types.WindowManager, RSIBR_PG_view),
+}
 """Name of a property -> what has it, and the group it points to."""

@@ -67,6 +67,12 @@ class View:
         """Whether Blender leaves its surfaces' depths to those who draw later."""
         return self.space.shading.type == "SOLID" or self.space.overlay.show_overlays
 
+    @property
+    def share(self) -> float:
+        """The part of the width, from the left, in which previews are shown."""
+        settings = bpy.context.window_manager.rsibr_view
+        return settings.line if settings.split else 1.0
+
     def light_of(self, item: bpy.types.Object) -> WorldLight:
         """What the world makes of the environment of an object's map set: nothing, unless it is followed."""
         followed = world_light(self.scene.world) if item.rsibr.follow_world else None

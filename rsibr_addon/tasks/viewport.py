@@ -149,7 +149,7 @@ class Previews:
                 for each in group:
                     self._draw_one(each, view)
             scale = strength * scale_before_display(view.scene)
-            self._stage.show(display, scale, among_others=view.has_depth)
+            self._stage.show(display, scale, view.share, among_others=view.has_depth)
         return True
 
     def _hide(self, behind: list[Surface]) -> None:

@@ -49,3 +49,7 @@ class RSIBR_PT_preview(bpy.types.Panel):
         for setting in settings.bl_rna.properties if settings else ():
             if setting.identifier not in bpy.types.PropertyGroup.bl_rna.properties:
                 layout.prop(settings, setting.identifier)
+        row = layout.row(heading="Split")
+        row.prop(context.window_manager.rsibr_view, "split", text="")
+        row.prop(context.window_manager.rsibr_view, "line", text="", slider=True)
+        row.operator("rsibr.drag_split", text="", icon="ARROW_LEFTRIGHT")

@@ -204,3 +204,43 @@ def test_two_viewports(told: Told) -> None:
     assert left != right
     assert answer["local view on nothing"] == [left, 0]
     assert answer["meshes kept"]
+
+
+SPLIT = """
+def scenario(told):
+    previewed_cube()
+    yield from drawn()
+    whole = like(pixels(), (188, 0, 188))
+    part, settings = region(view()), bpy.context.window_manager.rsibr_view
+    settings.split, settings.line = True, 0.5
+    yield from drawn()
+    columns = np.flatnonzero(like(pixels(), (188, 0, 188)).any(axis=0))
+    first = np.flatnonzero(whole.any(axis=0))[0]
+    told["shown"] = [int(columns[0] - first), int(columns[-1] - part.width // 2)]
+    with bpy.context.temp_override(window=window(), area=view(), region=part):
+        told["invoked"] = list(bpy.ops.rsibr.drag_split("INVOKE_DEFAULT"))
+    yield
+    for fraction in (0.3, 0.45):
+        x, y = part.x + int(fraction * part.width), part.y + part.height // 2
+        window().event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y)
+        yield
+    window().event_simulate(type="LEFTMOUSE", value="PRESS", x=x, y=y)
+    yield
+    window().event_simulate(type="LEFTMOUSE", value="RELEASE", x=x, y=y)
+    yield from drawn()
+    told["modal"] = len(window().modal_operators)
+    told["line"] = settings.line
+    columns = np.flatnonzero(like(pixels(), (188, 0, 188)).any(axis=0))
+    told["dragged"] = int(columns[-1] - (x - part.x))
+"""
+
+
+def test_a_line_parts_previews_from_blender_s_shading(told: Told) -> None:
+    answer = told(PRELUDE + SPLIT)
+    # The line itself is two pixels wide
+    assert answer["shown"][0] == 0
+    assert -4 <= answer["shown"][1] <= 0
+    assert answer["invoked"] == ["RUNNING_MODAL"]
+    assert answer["modal"] == 0
+    assert abs(answer["line"] - 0.45) < 2e-3
+    assert -4 <= answer["dragged"] <= 0

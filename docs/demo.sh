@@ -1,25 +1,46 @@
 #!/bin/bash
-# The main job from start to end, with plain rsibr commands: demo.sh FOLDER
+# The main job from start to end, and each of the four systems once, with plain rsibr commands: demo.sh FOLDER
 set -euo pipefail
+docs=$(cd "$(dirname "$0")" && pwd)
 folder=${1:-demo}
 mkdir -p "$folder"
 cd "$folder"
 : >errors.txt
 
+# Cabral, Olano & Nemec 1999: what Cycles sees of a material, turned and held against Cycles
 for material in copper plastic; do
     rsibr capture --environment forest --material "$material" --views 12 --size 256 --samples 16 --denoise \
         -o "$material.rsibr.exr" --force
     rsibr info "$material.rsibr.exr"
-    for mesh in monkey sphere; do
-        rsibr preview "$material.rsibr.exr" --mesh "$mesh" --view 0.3,-1,0.3 --size 256 --turntable 24 \
-            -o "$material-$mesh.png" --force
-    done
+    rsibr preview "$material.rsibr.exr" --mesh monkey --view 0.3,-1,0.3 --size 256 --turntable 24 \
+        -o "$material-monkey.png" --force
     rsibr compare "$material.rsibr.exr" --views 3 --samples 64 -o "$material-compare" --force >>errors.txt
 done
 
+# Kautz & McCool 2000: a BRDF as three lobes, held against the BRDF itself
+rsibr bake --environment forest --brdf ggx:alpha=0.3,metal=copper --lobes 3 -o lobes.rsibr.exr --force
+rsibr compare lobes.rsibr.exr --views 2 -o lobes-compare --force >>errors.txt
+rsibr report lobes.rsibr.exr -o lobes.html --force
+
+# Miller & Hoffman 1984 and Kautz, Daubert & Seidel 2004
+rsibr tables --environment forest --material varnished -o tables.rsibr.exr --force
+rsibr mips --environment forest --size 128 -o mips.rsibr.exr --force
+
+for mesh in monkey sphere; do
+    for map_set in plastic lobes tables mips; do
+        look=()
+        if [ "$map_set" = mips ]; then look=(--k-d 0.05,0.2,0.1 --f-lambda 0.08 --roughness 0.2); fi
+        rsibr preview "$map_set.rsibr.exr" --mesh "$mesh" --view 0.3,-1,0.3 --size 256 "${look[@]}" \
+            -o "$map_set-$mesh.exr" --force
+    done
+done
+python "$docs/contact_sheet.py" systems.png 4 {plastic,lobes,tables,mips}-monkey.exr {plastic,lobes,tables,mips}-sphere.exr
+
 echo
 echo "Pictures in $PWD:"
+echo "  systems.png: captured plastic, copper from lobes, varnish from reflection tables, a glossy green from mips"
 echo "  copper-monkey.png, plastic-monkey.png and their .mp4: a turn around Suzanne"
-echo "  copper-sphere.png, plastic-sphere.png and their .mp4: a turn around the sphere"
-echo "  copper-compare/index.html, plastic-compare/index.html: previews beside Cycles' own pictures, and the errors:"
+echo "  lobes.html: all of a map set on one page"
+echo "  copper-compare/index.html, plastic-compare/index.html: previews beside Cycles' own pictures, and the errors;"
+echo "  lobes-compare/index.html: beside the BRDF itself:"
 sed 's/^/    /' errors.txt

@@ -4,6 +4,7 @@ from .apply_quality import RSIBR_OT_apply_quality
 from .assign import RSIBR_OT_assign
 from .bake_in_background import RSIBR_OT_bake
 from .bake_mips import RSIBR_OT_bake_mips
+from .bake_stack import RSIBR_OT_bake_stack
 from .bake_tables import RSIBR_OT_bake_tables
 from .cancel_bake import RSIBR_OT_cancel_bake
 from .capture_environment import RSIBR_OT_capture_environment
@@ -18,6 +19,7 @@ CLASSES: tuple[type, ...] = (
     RSIBR_OT_capture_environment,
     RSIBR_OT_bake_mips,
     RSIBR_OT_bake_tables,
+    RSIBR_OT_bake_stack,
     RSIBR_OT_fit_lobes,
     RSIBR_OT_apply_quality,
     RSIBR_OT_bake,

@@ -67,7 +67,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     -------
     dict
         "environment", the path of the map; "circles", of each photograph its path and x, y and radius of
-        the outline from its bottom left corner; "gains", what each side was multiplied by.
+        the outline from its top left corner; "gains", what each side was multiplied by.
 
     Raises
     ------
@@ -90,12 +90,12 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
         math.radians(arguments.camera),
     )
     found = report.steps(illuminate_from_ball(settings, arguments.output, arguments.force))
-    for path, circle in found.circles:
-        report.say(f"{path}: ball of radius {circle.radius:.1f} at {circle.x:.1f}, {circle.y:.1f} from below")
+    for path, (x, y, radius) in found.circles:
+        report.say(f"{path}: ball {x:.1f},{y:.1f},{radius:.1f}")
     report.say(f"{arguments.output}")
     return {
         "environment": str(arguments.output),
-        "circles": [[str(path), circle.x, circle.y, circle.radius] for path, circle in found.circles],
+        "circles": [[str(path), *circle] for path, circle in found.circles],
         "gains": list(found.gains),
     }
 

@@ -84,13 +84,13 @@ class BallReport:
 
     Attributes
     ----------
-    circles : tuple of (Path, Circle)
-        The outline in each, from the bottom left corner.
+    circles : tuple of (Path, (float, float, float))
+        x, y and radius of the outline in each, in pixels from its top left corner.
     gains : tuple of float
         Of each side: see `environment_from_balls`.
     """
 
-    circles: tuple[tuple[Path, Circle], ...]
+    circles: tuple[tuple[Path, tuple[float, float, float]], ...]
     gains: tuple[float, ...]
 
 
@@ -130,20 +130,34 @@ def illuminate_from_ball(settings: BallSettings, output: Path, force: bool = Fal
     check_radiance_target(output, force)
     sides, circles = [], []
     for side in settings.sides:
-        picture, found, longer = yield from _picture(side)
+        picture, found = yield from _picture(side)
         distance = settings.distance or np.inf
         if settings.field_of_view is not None:
-            distance = distance_from_view(found[0][1], longer, settings.field_of_view)
+            longer = max(found[0].width, found[0].height)
+            distance = distance_from_view(found[0].circle, longer, settings.field_of_view)
         sides.append(BallSide(picture, side.turn, settings.elevation, distance))
-        circles += found
+        circles += [outline.from_top_left() for outline in found]
     yield Progress(1, 2, f"unwrapping into {output.name}")
     radiance, gains = environment_from_balls(sides, settings.size, settings.camera_angle)
     write_radiance(output, radiance, force)
     return BallReport(tuple(circles), tuple(float(gain) for gain in gains))
 
 
-def _picture(side: SideSettings) -> Steps[tuple[Array, list[tuple[Path, Circle]], int]]:
-    """Radiance in the square around the ball, the outlines, and the longer side of the first photograph."""
+@dataclass(frozen=True)
+class _Outline:
+    """A ball found in a photograph of some size."""
+
+    path: Path
+    circle: Circle
+    width: int
+    height: int
+
+    def from_top_left(self) -> tuple[Path, tuple[float, float, float]]:
+        return self.path, (self.circle.x, self.height - self.circle.y, self.circle.radius)
+
+
+def _picture(side: SideSettings) -> Steps[tuple[Array, list[_Outline]]]:
+    """Radiance in the square around the ball, and the outlines."""
     alone = len(side.bracket.photographs) == 1
     if alone:
         paths, times = list(side.bracket.photographs), [1.0]
@@ -152,15 +166,15 @@ def _picture(side: SideSettings) -> Steps[tuple[Array, list[tuple[Path, Circle]]
     else:
         paths, times = side.bracket.in_order()
         pictures = yield from read_photographs(paths)
-    circles = []
+    outlines = []
     for path, picture in zip(paths, pictures, strict=True):
         yield Progress(0, 2, f"looking for the ball in {path.name}")
-        circles.append(_circle(path, picture, side))
+        height, width = picture.shape[:2]
+        outlines.append(_Outline(path, _circle(path, picture, side), width, height))
+    circles = [outline.circle for outline in outlines]
     size = max(round(2.0 * circle.radius) for circle in circles)
     squares = [cut_ball(picture, circle, size) for picture, circle in zip(pictures, circles, strict=True)]
-    found = list(zip(paths, circles, strict=True))
-    longer = max(pictures[0].shape[:2])
-    return squares[0] if alone else merged(side.bracket, squares, times).radiance, found, longer
+    return squares[0] if alone else merged(side.bracket, squares, times).radiance, outlines
 
 
 def _circle(path: Path, picture: Array, side: SideSettings) -> Circle:

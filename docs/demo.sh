@@ -34,7 +34,7 @@ for mesh in monkey sphere; do
             -o "$map_set-$mesh.exr" --force
     done
 done
-python "$docs/contact_sheet.py" systems.png 4 {plastic,lobes,tables,mips}-monkey.exr {plastic,lobes,tables,mips}-sphere.exr
+python "$docs/../.ci/contact_sheet.py" systems.png 4 {plastic,lobes,tables,mips}-monkey.exr {plastic,lobes,tables,mips}-sphere.exr
 
 echo
 echo "Pictures in $PWD:"

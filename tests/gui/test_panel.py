@@ -1,0 +1,242 @@
+"""An artist's way through the panel in Blender's window: bake, cancel, go on, and what goes wrong."""
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+type Told = Callable[[str], dict]
+
+
+@pytest.fixture(autouse=True)
+def _nothing_baked(job: Path) -> None:
+    for folder in [job / "rsibr", *job.glob("user/extensions/.user/*/rsibr/baked")]:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+PRELUDE = """
+import importlib, os, pathlib, signal
+background = importlib.import_module(ROOT + ".operators.background")
+
+def settings():
+    chosen = bpy.context.scene.rsibr_bake
+    chosen.light, chosen.studio = "STUDIO", "forest"
+    views = chosen.radiance_views
+    views.size, views.samples, views.denoise = 16, 2, False
+    return chosen
+
+def sidebar():
+    area = view()
+    area.spaces.active.show_region_ui = True
+    return area, next(each for each in area.regions if each.type == "UI")
+
+def command_at(x, y):
+    # What the button under the mouse does; empty where there is none
+    wm = bpy.context.window_manager
+    wm.clipboard = ""
+    window().event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y)
+    yield
+    yield
+    area, region = sidebar()
+    with bpy.context.temp_override(window=window(), area=area, region=region):
+        if bpy.ops.ui.copy_python_command_button.poll():
+            bpy.ops.ui.copy_python_command_button()
+    return wm.clipboard
+
+def press(command):
+    # Find the button that runs a command, by moving the mouse down the panel, and click it
+    area, region = sidebar()
+    x = region.x + region.width // 2 - 20
+    for y in range(region.y + region.height - 10, region.y, -12):
+        found = yield from command_at(x, y)
+        if found.startswith(command):
+            window().event_simulate(type="LEFTMOUSE", value="PRESS", x=x, y=y)
+            yield
+            window().event_simulate(type="LEFTMOUSE", value="RELEASE", x=x, y=y)
+            yield
+            return True
+    return False
+
+def done(until=lambda: not background.queue.busy):
+    while not until():
+        yield
+
+def finished_views(bake):
+    return len(list(pathlib.Path(f"{bake.output}.partial").glob("view*.exr")))
+
+def bake():
+    with bpy.context.temp_override(window=window()):
+        return list(bpy.ops.rsibr.bake("INVOKE_DEFAULT"))
+"""
+
+WAY = """
+def scenario(told):
+    bare(view())
+    bpy.context.scene.view_settings.view_transform = "Standard"
+    bpy.data.objects.remove(bpy.data.objects["Cube"])
+    with bpy.context.temp_override(window=window(), area=view(), region=region(view())):
+        bpy.ops.mesh.primitive_monkey_add(size=3.0)
+    monkey = bpy.context.object
+    chosen = settings()
+    chosen.kind, chosen.mip_chain.size, chosen.mip_chain.filter = "mip_chain", "64", "box"
+    sidebar()
+    yield from drawn()
+    sidebar()[1].active_panel_category = "RSIBR"
+    for _ in range(5):
+        yield from drawn()
+    before = pixels()
+    told["pressed"] = yield from press("bpy.ops.rsibr.bake(")
+    told["bakes"] = len(background.queue.bakes)
+    told["file"] = bpy.data.filepath
+    yield from done()
+    told["state"] = [str(each.state) for each in background.queue.bakes]
+    told["message"] = [each.message for each in background.queue.bakes]
+    told["map set"] = os.path.basename(monkey.rsibr.map_set)
+    folders = [each.folder.name for each in background.queue.bakes]
+    told["left behind"] = [each for each in folders if os.path.exists(each)]
+    for _ in range(3):
+        yield from drawn()
+    # Only the monkey's own pixels become others, and most of them do: it was of one colour
+    after = pixels()
+    changed = (abs(after - before).max(axis=-1) > 3)[:, :sidebar()[1].x - 60]
+    told["drawn"] = int(changed.sum())
+    told["colours"] = len({tuple(colour) for colour in after[:, :changed.shape[1]][changed]})
+    path = monkey.rsibr.map_set
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.ed.undo()
+        told["undone"] = bpy.context.object.rsibr.map_set
+        bpy.ops.ed.redo()
+        told["redone"] = bpy.context.object.rsibr.map_set == path
+    bpy.context.object.rsibr.map_set = ""
+    told["again"] = bake()
+    told["bakes again"], told["taken"] = len(background.queue.bakes), bpy.context.object.rsibr.map_set == path
+"""
+
+CANCEL = """
+def scenario(told):
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.wm.save_as_mainfile(filepath="/job/artist.blend")
+    chosen, cube = settings(), bpy.data.objects["Cube"]
+    bpy.ops.ed.undo_push(message="Changed")
+    told["baked"] = bake()
+    told["file"] = bpy.data.filepath, bpy.data.is_dirty
+    first = background.queue.bakes[0]
+    yield from done(lambda: finished_views(first) >= 3)
+    told["cancelled"] = list(bpy.ops.rsibr.cancel_bake(number=0))
+    told["state"], told["process"] = str(first.state), first._process.poll() is not None
+    kept = finished_views(first)
+    told["kept"] = 3 <= kept < 12
+    yield from done()
+    told["assigned"] = cube.rsibr.map_set
+    told["forgotten"] = list(bpy.ops.rsibr.cancel_bake(number=0)), len(background.queue.bakes)
+    bake()
+    second = background.queue.bakes[0]
+    yield from done(lambda: second.progress is not None and second.progress.done >= kept)
+    yield from done()
+    told["warnings"] = [each for each in second.warnings if "negative" not in each]
+    told["then"] = str(second.state), second.message
+    told["relative"] = cube.rsibr.map_set
+    told["folder"] = sorted(os.listdir("/job/rsibr"))
+"""
+
+FAILURES = """
+def scenario(told):
+    settings()
+    cube = bpy.data.objects["Cube"]
+    bake()
+    killed = background.queue.bakes[0]
+    yield from done(lambda: killed.progress is not None)
+    os.kill(killed._process.pid, signal.SIGKILL)
+    yield from done()
+    told["killed"] = str(killed.state), killed.message
+    told["assigned"] = cube.rsibr.map_set
+    bpy.data.worlds.remove(bpy.context.scene.world)
+    bpy.context.scene.rsibr_bake.light = "WORLD"
+    told["without a world"] = bpy.ops.rsibr.bake.poll()
+    bpy.context.scene.rsibr_bake.light = "STUDIO"
+    bake()
+    gone = background.queue.bakes[1]
+    bpy.data.objects.remove(cube)
+    yield from done()
+    told["object gone"] = str(gone.state), gone.message
+    told["others"] = [each.name for each in bpy.data.objects if each.rsibr.map_set]
+"""
+
+DISABLE = """
+def scenario(told):
+    import addon_utils
+    settings()
+    bake()
+    running = background.queue.bakes[0]
+    yield from done(lambda: finished_views(running) >= 1)
+    addon_utils.disable(ROOT)
+    told["ended"], told["state"] = running._process.poll() is not None, str(running.state)
+    told["folder"] = os.path.exists(running.folder.name)
+    told["timer"] = bpy.app.timers.is_registered(background._look)
+    told["queue"] = len(background.queue.bakes)
+    yield
+"""
+
+
+def test_from_the_button_to_the_preview(told: Told) -> None:
+    answer = told(PRELUDE + WAY)
+    assert answer.pop("drawn") > 3000
+    assert answer.pop("colours") > 20
+    assert answer.pop("map set").startswith("mip-chain-in-forest-")
+    assert answer == {
+        "pressed": True,
+        "bakes": 1,
+        "file": "",
+        "state": ["done"],
+        "message": [""],
+        "left behind": [],
+        "undone": "",
+        "redone": True,
+        "again": ["FINISHED"],
+        "bakes again": 1,
+        "taken": True,
+    }
+
+
+def test_a_cancelled_bake_goes_on_when_it_is_baked_again(told: Told, job: Path) -> None:
+    answer = told(PRELUDE + CANCEL)
+    relative = answer.pop("relative")
+    assert relative.startswith("//rsibr/material-in-forest-")
+    assert (job / relative.removeprefix("//")).is_file()
+    assert answer == {
+        "baked": ["FINISHED"],
+        "file": ["/job/artist.blend", True],
+        "cancelled": ["FINISHED"],
+        "state": "cancelled",
+        "process": True,
+        "kept": True,
+        "assigned": "",
+        "forgotten": [["FINISHED"], 0],
+        "warnings": [],
+        "then": ["done", ""],
+        "folder": [relative.removeprefix("//rsibr/")],
+    }
+
+
+def test_what_goes_wrong_is_told_and_nothing_is_assigned(told: Told) -> None:
+    answer = told(PRELUDE + FAILURES)
+    state, message = answer.pop("killed")
+    assert state == "failed"
+    assert message.startswith("The background Blender ended with code -9 and no result")
+    assert answer == {
+        "assigned": "",
+        "without a world": False,
+        "object gone": ["done", ""],
+        "others": [],
+    }
+
+
+def test_disabling_the_extension_ends_its_bakes(told: Told) -> None:
+    assert told(PRELUDE + DISABLE) == {
+        "ended": True,
+        "state": "cancelled",
+        "folder": False,
+        "timer": False,
+        "queue": 0,
+    }

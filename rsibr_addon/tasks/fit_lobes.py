@@ -1,6 +1,7 @@
 """A reflectance model to lobes, in a file."""
 
 import time
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -8,7 +9,7 @@ from typing import Any
 
 from ..core.brdf.model import Brdf
 from ..core.brdf.spec import spec_from_brdf
-from ..core.errors import RangeError
+from ..core.errors import RangeError, RsibrWarning
 from ..core.lobes.accuracy import FitErrors, fit_errors
 from ..core.lobes.fit import Fit
 from ..core.lobes.kautz_mccool import greedy_fit, single_2d_fit, single_fit
@@ -143,7 +144,7 @@ def fit_lobes(
     Warns
     -----
     RsibrWarning
-        See `load_brdf`.
+        The error asked for takes more lobes; or see `load_brdf`.
     """
     check_target(output, force)
     if plots is not None:
@@ -154,6 +155,13 @@ def fit_lobes(
     seconds = time.process_time() - started
     yield Progress(1, 2, "measuring the fit")
     result = FitResult(fit, fit_errors(fit, brdf), seconds)
+    if settings.error is not None and result.errors.error > settings.error:
+        warnings.warn(
+            f"{settings.lobes} lobes for each layer leave an error of {result.errors.error:.3g}, not "
+            f"{settings.error:g}: allow more lobes.",
+            RsibrWarning,
+            stacklevel=2,
+        )
     if plots is not None:
         write_plots(plots, result.fit, brdf, result.errors, force)
     write_fit(output, fit, result.report(), force)

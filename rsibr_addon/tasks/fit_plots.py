@@ -15,7 +15,7 @@ ELEVATIONS = (0.2, 0.5, 0.8)
 """n.v of the polar plots."""
 
 _ERROR = "error.svg"
-_ANGLES = np.linspace(-np.pi, np.pi, 1441)
+_ANGLES = np.linspace(-np.pi, np.pi, 721)
 _BETWEEN = 4
 
 
@@ -57,11 +57,11 @@ def write_plots(folder: Path, fit: Fit, brdf: Brdf, errors: FitErrors, force: bo
     """
     with folder_written_aside(folder, _ERROR, force) as aside:
         for mu in ELEVATIONS:
-            (aside / f"lobes-{100 * mu:.0f}.svg").write_text(_lobes(fit, brdf, mu), encoding="utf-8")
+            (aside / f"lobes-{100 * mu:.0f}.svg").write_text(lobe_plot(fit, brdf, mu), encoding="utf-8")
         (aside / _ERROR).write_text(_error(fit, brdf, errors), encoding="utf-8")
 
 
-def _lobes(fit: Fit, brdf: Brdf, mu: float) -> str:
+def lobe_plot(fit: Fit, brdf: Brdf, mu: float) -> str:
     """Green, which is most of luminance, in the plane of incidence."""
     directions = np.stack([np.sin(_ANGLES), np.zeros_like(_ANGLES), np.cos(_ANGLES)], axis=-1)
     view_dir = np.array([-np.sqrt(1.0 - mu**2), 0.0, mu])

@@ -77,6 +77,15 @@ def test_bad_input_is_told_in_a_sentence_and_writes_nothing(
     assert not list(tmp_path.iterdir())
 
 
+def test_an_error_out_of_reach_is_told(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "FIT.json"
+    assert run([*COMMAND, "--error", "0.0001", "-o", str(path)]) == 0
+    err = capfd.readouterr().err
+    assert "2 lobes for each layer leave an error of 0.0" in err
+    assert "not 0.0001: allow more lobes." in err
+    assert len(read_fit(path).weights) == 2
+
+
 def test_existing_fits_are_kept(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "FIT.json"
     path.write_text("kept")

@@ -85,6 +85,8 @@ def test_copper_and_ward_reach_their_errors() -> None:
             assert error.albedo_error < 1e-4
             assert np.all(error.amplification <= 8.001)
         assert errors[0].error > errors[1].error > errors[2].error
+        between = fit_errors(fitted(brdf, 3, mu), brdf, np.arange(1, 16) / 16.0).shape
+        assert np.all(between <= 0.5 * (errors[2].shape[1:] + errors[2].shape[:-1]) + 0.005)
 
 
 def test_one_map_with_five_taps_does_what_four_lobes_do() -> None:

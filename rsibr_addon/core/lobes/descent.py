@@ -12,7 +12,9 @@ _LARGEST_TURN = 0.3
 _FLATTEST = 1e-9
 
 
-def descend(projector: Projector, lookups: Lookups, with_taps: bool) -> tuple[Lookups, Projection]:
+def descend(
+    projector: Projector, lookups: Lookups, with_taps: bool, tie: float = 0.0
+) -> tuple[Lookups, Projection]:
     """Move axes, and the weights of taps, to where the error is least nearby.
 
     Parameters
@@ -22,6 +24,9 @@ def descend(projector: Projector, lookups: Lookups, with_taps: bool) -> tuple[Lo
         Where to start.
     with_taps : bool
         Whether the taps' weights move too.
+    tie : float
+        Share of the error at the start that must be gained for every squared radian that an axis moves: axes
+        on which next to nothing depends stay where they are.
 
     Returns
     -------
@@ -32,20 +37,27 @@ def descend(projector: Projector, lookups: Lookups, with_taps: bool) -> tuple[Lo
     count = lookups.angles.size
     free = slice(None) if with_taps else slice(count)
     here, damping = projector.project(lookups), _DAMPING
+    start, price = lookups.angles, tie * here.objective
+    ties = np.diag(np.repeat([2.0 * price, 0.0], count))[free, free]
+
+    def paid(lookups: Lookups) -> float:
+        return price * float(np.sum((lookups.angles - start) ** 2))
+
     for _ in range(_ITERATIONS):
-        gradient, hessian = here.gradient[free], here.hessian[free, free]
+        gradient, hessian = here.gradient[free].copy(), here.hessian[free, free] + ties
+        gradient[:count] += 2.0 * price * (lookups.angles - start).ravel()
         diagonal = np.maximum(hessian.diagonal(), _FLATTEST)
         for _ in range(_TRIALS):
             step = np.zeros(2 * count)
             step[free] = -np.linalg.solve(hessian + damping * np.diag(diagonal), gradient)
             moved = _moved(lookups, step, projector.non_negative)
             there = projector.project(moved)
-            if there.objective < here.objective:
+            gain = here.objective + paid(lookups) - there.objective - paid(moved)
+            if gain > 0.0:
                 break
             damping *= 10.0
         else:
             break
-        gain = here.objective - there.objective
         lookups, here, damping = moved, there, damping / 10.0
         if gain < _CONVERGED * here.objective:
             break

@@ -23,7 +23,8 @@ MOST_AMPLIFICATION, MOST_OF_ONE = 8.0, 2.0
 _SHARPNESS = 20.0
 _START = 0.25
 _ANGLES = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 33)
-_STIFFER, _STIFFEST = 3.0, 1e4
+_TIE = 1.0
+_STIFFER, _STIFFEST = 1.4, 1e4
 
 
 @dataclass(frozen=True)
@@ -169,7 +170,8 @@ def _settled(target: TargetSlice, bank: KernelBank, lookups: Lookups, non_negati
     stiffness = 1.0
     while True:
         projector = Projector(target, bank, stiffness, non_negative)
-        lookups, projection = descend(projector, lookups, with_taps=lookups.taps.shape[1] > 1)
+        with_taps = lookups.taps.shape[1] > 1
+        lookups, projection = descend(projector, lookups, with_taps, _TIE)
         state = State(lookups, projection.weights)
         if amplification(bank, state, target) <= most or stiffness > _STIFFEST:
             return state

@@ -20,7 +20,7 @@ from .target import TargetSlice
 MOST_AMPLIFICATION, MOST_OF_ONE = 8.0, 2.0
 """Ridges grow until several lobes, or the taps of one, keep these: see `amplification`."""
 
-_SHARPNESS = 20.0
+_SHARPNESS, _THINNEST = 20.0, 3.0
 _START = 0.25
 _ANGLES = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 33)
 _TIE = 1.0
@@ -43,8 +43,12 @@ class State:
 
 
 def bank_for(slices: Sequence[TargetSlice]) -> KernelBank:
-    """Kernels for targets in ascending order of elevation: down to a 20th of the last one's width."""
-    return octaves((_SHARPNESS / slices[-1].radius) ** 2)
+    """Kernels for targets in ascending order of elevation.
+
+    Down to a 20th of the last lobe's width, for its peak, or a third of the thinnest one's.
+    """
+    thinnest = min(target.radius for target in slices)
+    return octaves(max(_SHARPNESS / slices[-1].radius, _THINNEST / thinnest) ** 2)
 
 
 class JointFitter:

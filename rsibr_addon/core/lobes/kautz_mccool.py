@@ -249,7 +249,7 @@ def _in_plane(axis: Array) -> Array:
 def _fit(
     brdf: BrdfFunction, spec: str, method: str, mu: Array, found: Sequence[Sequence[RadialProfile]]
 ) -> Fit:
-    bank = bank_for(target_slices(brdf, mu[-1:]))
+    bank = bank_for(target_slices(brdf, mu))
     mirror = np.stack([np.sqrt(1.0 - mu**2), np.zeros_like(mu), mu], axis=-1)
     axes = np.array([[lobe.axis for lobe in lobes] for lobes in found])
     offsets = offsets_from_axes(_NORMAL, mirror[:, None], axes)

@@ -178,6 +178,8 @@ class Previews:
                 continue
             if surface.mesh not in self._meshes:
                 mesh = mesh_from_object(evaluated, view.depsgraph)
+                if not mesh.triangles.size:
+                    continue
                 self._meshes[surface.mesh] = mesh_batch(mesh.positions, mesh.normals, mesh.triangles)
             if path:
                 contents.previews.append(_Preview(surface, path))

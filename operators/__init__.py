@@ -1,6 +1,7 @@
 """Operators, one per file; thin: properties to settings, then a task."""
 
 from .apply_quality import RSIBR_OT_apply_quality
+from .assemble_faces import RSIBR_OT_assemble_faces
 from .assign import RSIBR_OT_assign
 from .bake_in_background import RSIBR_OT_bake
 from .bake_mips import RSIBR_OT_bake_mips
@@ -11,12 +12,19 @@ from .capture_environment import RSIBR_OT_capture_environment
 from .capture_views import RSIBR_OT_capture_views
 from .drag_split import RSIBR_OT_drag_split
 from .fit_lobes import RSIBR_OT_fit_lobes
+from .lift_painting import RSIBR_OT_lift_painting
+from .merge_brackets import RSIBR_OT_merge_brackets
 from .open_report import RSIBR_OT_open_report
 from .reload_map_sets import RSIBR_OT_reload_map_sets
+from .unwrap_ball import RSIBR_OT_unwrap_ball
 
 CLASSES: tuple[type, ...] = (
     RSIBR_OT_capture_views,
     RSIBR_OT_capture_environment,
+    RSIBR_OT_merge_brackets,
+    RSIBR_OT_unwrap_ball,
+    RSIBR_OT_assemble_faces,
+    RSIBR_OT_lift_painting,
     RSIBR_OT_bake_mips,
     RSIBR_OT_bake_tables,
     RSIBR_OT_bake_stack,

@@ -6,10 +6,10 @@ import bpy
 
 from ..rsibr_addon.core.errors import SceneError
 from ..rsibr_addon.core.progress import Steps
-from ..rsibr_addon.host.bake_settings import stored_path
 from ..rsibr_addon.tasks.illuminate_scene import LARGEST, SMALLEST, SceneLight, illuminate_from_scene
 from ..rsibr_addon.tasks.illuminate_world import illuminate_from_world
 from .stepwise import Stepwise
+from .taking import take_picture
 
 
 class RSIBR_OT_capture_environment(Stepwise, bpy.types.Operator):
@@ -73,11 +73,7 @@ class RSIBR_OT_capture_environment(Stepwise, bpy.types.Operator):
 
     def finish(self, result: Path) -> None:
         """Load the picture and choose it, if so wished, and say where it is."""
-        if self.load_image:
-            bpy.data.images.load(str(result), check_existing=True).reload()
-        if self.use:
-            chosen = bpy.context.scene.rsibr_bake
-            chosen.light, chosen.picture = "PICTURE", stored_path(result)
+        take_picture(result, self.load_image, self.use)
         self.report({"INFO"}, f"Captured {result}")
 
     def _light(self, context: bpy.types.Context) -> SceneLight:

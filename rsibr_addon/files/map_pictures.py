@@ -83,6 +83,23 @@ class Layout:
             return [path]
         return [path.with_name(f"{path.stem}-{sheet}{path.suffix}") for sheet in self.representation.sheets]
 
+    def whole(self, path: Path) -> Path:
+        """The map that a file belongs to.
+
+        Parameters
+        ----------
+        path : Path
+            One of `paths`, as NAME-SHEET.exr; or of the map as a whole already.
+
+        Returns
+        -------
+        Path
+            What `paths` takes: NAME.exr.
+        """
+        name, _, sheet = path.stem.rpartition("-")
+        is_sheet = len(self.paths(path)) > 1 and name and sheet in self.representation.sheets
+        return path.with_name(name + path.suffix) if is_sheet else path
+
 
 CUBES: dict[str, tuple[Grid, ...]] = {"cube_faces": (), "cube_cross": CROSSES, "cube_strip": STRIPS}
 

@@ -60,6 +60,14 @@ def test_from_a_latlong_to_every_layout_and_back(tmp_path: Path, name: str) -> N
     assert np.abs(found - expected).max() < (0.5 if name in ("sphere_map", "mirror_ball") else 0.15)
 
 
+@pytest.mark.parametrize("name", LAYOUTS)
+def test_the_map_that_a_file_belongs_to(name: str) -> None:
+    for path in (Path("some", "room-1.exr"), Path("-.exr")):
+        files = layout(name).paths(path)
+        assert [layout(name).whole(file) for file in (path, *files)] == [path] * (len(files) + 1)
+    assert layout(name).whole(Path("-px.exr")) == Path("-px.exr")
+
+
 def face_pictures(folder: Path) -> dict[str, np.ndarray]:
     write_radiance(folder / "room.exr", direction_picture(64))
     arguments = ["--from", "equirect", "--to", "cube_faces", "--size", 8]

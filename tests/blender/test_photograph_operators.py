@@ -1,0 +1,201 @@
+"""The operators that make light from photographs do what the commands do, and tell what they cannot do."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+import rsibr
+from rsibr.operators.lift_painting import LAYOUTS
+from rsibr.rsibr_addon.command_line import convert
+from rsibr.rsibr_addon.command_line.main import run
+from rsibr.rsibr_addon.core.ball_circle import Circle
+from rsibr.rsibr_addon.core.ball_photograph import BallSide
+from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.files.map_pictures import layout, write_map
+from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
+from rsibr.rsibr_addon.tasks.brackets import BracketSettings
+from rsibr.rsibr_addon.tasks.illuminate_ball import BallSettings, SideSettings, illuminate_from_ball
+from rsibr.tests.open_file import open_file_state
+from rsibr.tests.synthetic_ball import ball_photograph
+
+from .test_host_photographs import write_png
+
+RNG = np.random.default_rng(11)
+TIMES = (2.0, 0.1, 0.5)
+
+
+@pytest.fixture(autouse=True)
+def _registered() -> Iterator[None]:
+    rsibr.register()
+    yield
+    rsibr.unregister()
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder to work in."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def by_command(*arguments: object) -> bytes:
+    out = Path("command.exr")
+    assert run(["illuminate", *map(str, arguments), "-o", str(out), "--force"]) == 0
+    return out.read_bytes()
+
+
+def by_operator(name: str, **properties: object) -> bytes:
+    before = open_file_state()
+    given = {"output": "operator.exr", "force": True, "load_image": False, **properties}
+    assert getattr(bpy.ops.rsibr, name)(**given) == {"FINISHED"}
+    assert open_file_state() == before
+    return Path("operator.exr").read_bytes()
+
+
+def several(folder: Path, *names: str) -> dict[str, object]:
+    """What the file browser sets."""
+    return {
+        "directory": f"{folder}/",
+        "filepath": str(folder / names[0]),
+        "files": [{"name": name} for name in names],
+    }
+
+
+def write_brackets(folder: Path) -> list[str]:
+    radiance = np.geomspace(0.02, 8.0, 600).reshape(20, 30)[..., None] * np.array([1.0, 0.5, 0.8])
+    for i, time in enumerate(TIMES):
+        write_radiance(folder / f"{i}.exr", np.minimum(radiance * time, 1.0))
+    return [f"{i}.exr" for i in range(len(TIMES))]
+
+
+def write_ball(path: Path, turn: float = 0.0) -> None:
+    side = BallSide(np.zeros((2, 2, 3)), np.radians(turn), 0.0, np.inf)
+    write_radiance(path, ball_photograph(side, Circle(101.0, 92.0, 80.0), 200, 180, camera=0.2))
+
+
+def write_faces(path: Path) -> None:
+    write_map(path, layout("cube_faces"), RNG.uniform(0.5, 2.0, (6, 16, 16, 3)))
+
+
+def write_painting(path: Path) -> None:
+    write_png(path, RNG.integers(0, 255, (8, 16, 3), dtype=np.uint8, endpoint=True))
+
+
+def test_brackets(folder: Path) -> None:
+    names = write_brackets(folder)
+    expected = by_command("brackets", *names, "--times", "2,1/10,0.5", "--no-align")
+    chosen = several(folder, *names)
+    assert by_operator("merge_brackets", **chosen, times="2, 1/10 0.5", align=False) == expected
+    names = [f"{i}.png" for i in range(len(TIMES))]
+    for name in names:
+        write_png(folder / name, RNG.integers(20, 230, (20, 30, 3), dtype=np.uint8))
+    expected = by_command("brackets", *names, "--times", "4,2,1", "--curve", "srgb")
+    assert by_operator("merge_brackets", **several(folder, *names), times="4 2 1", curve="srgb") == expected
+
+
+def test_a_ball(folder: Path) -> None:
+    write_ball(folder / "a.exr")
+    expected = by_command("ball", "a.exr", "--size", 32)
+    assert by_operator("unwrap_ball", filepath=str(folder / "a.exr"), size=32) == expected
+    expected = by_command("ball", "a.exr", "--circle", "101,88,80", "--distance", 5, "--size", 32)
+    given = {"filepath": str(folder / "a.exr"), "size": 32, "circle": (101.0, 88.0, 80.0)}
+    assert by_operator("unwrap_ball", **given, distance=5.0) == expected
+
+
+def test_a_ball_from_two_sides(folder: Path) -> None:
+    write_ball(folder / "a.exr")
+    write_ball(folder / "b.exr", turn=90.0)
+    # Numbers that Blender's single precision holds
+    turn, angles = 1.5, {"field_of_view": 0.5, "elevation": 0.125}
+    circles = ((101.0, 88.0, 80.0), (100.0, 89.0, 80.0))
+    first = SideSettings(BracketSettings((folder / "a.exr",)), circles[0])
+    second = SideSettings(BracketSettings((folder / "b.exr",)), circles[1], turn)
+    settings = BallSettings((first, second), 32, camera_angle=0.25, **angles)
+    drain(illuminate_from_ball(settings, folder / "task.exr"))
+    expected = (folder / "task.exr").read_bytes()
+    given = {"size": 32, "circle": circles[0], "second_circle": circles[1], "turn": turn, "camera": 0.25}
+    given |= angles
+    assert by_operator("unwrap_ball", **several(folder, "a.exr", "b.exr"), **given) == expected
+    # Not so by one of them alone
+    assert by_operator("unwrap_ball", **several(folder, "a.exr"), **given) != expected
+
+
+@pytest.mark.parametrize("balance", [False, True])
+def test_faces_by_any_of_them(folder: Path, balance: bool) -> None:
+    write_faces(folder / "a.exr")
+    expected = by_command("faces", "a.exr", "--size", 32, *(["--balance"] if balance else []))
+    for name in ("a-px.exr", "a-nz.exr", "a.exr"):
+        path = str(folder / name)
+        assert by_operator("assemble_faces", filepath=path, balance=balance, size=32) == expected
+
+
+def test_a_painting(folder: Path) -> None:
+    write_painting(folder / "a.png")
+    expected = by_command("painted", "a.png", "--white", "50,40,30", "--knee", 0.5, "--size", 16)
+    given = {"filepath": str(folder / "a.png"), "white": (50.0, 40.0, 30.0), "knee": 0.5, "size": 16}
+    assert by_operator("lift_painting", **given) == expected
+    for sheet in layout("cube_faces").representation.sheets:
+        write_png(folder / f"b-{sheet}.png", RNG.integers(0, 255, (8, 8, 3), dtype=np.uint8, endpoint=True))
+    command = ["painted", "b.png", "--from", "cube_faces", "--white", 10, "--knee", 0.5, "--size", 16]
+    given = {"filepath": str(folder / "b-ny.png"), "source_layout": "cube_faces", "knee": 0.5, "size": 16}
+    assert by_operator("lift_painting", **given) == by_command(*command)
+
+
+def test_the_result_lies_beside_and_can_be_loaded_and_used(folder: Path) -> None:
+    write_faces(folder / "room.exr")
+    given = {"filepath": str(folder / "room-px.exr"), "size": 16}
+    assert bpy.ops.rsibr.assemble_faces(**given, use=True) == {"FINISHED"}
+    light = folder / "room-light.exr"
+    assert light.is_file()
+    (image,) = (image for image in bpy.data.images if image.name == "room-light.exr")
+    try:
+        assert tuple(image.size) == (16, 8)
+        chosen = bpy.context.scene.rsibr_bake
+        assert (chosen.light, Path(bpy.path.abspath(chosen.picture))) == ("PICTURE", light)
+    finally:
+        bpy.data.images.remove(image)
+
+
+def test_errors_are_reports(folder: Path) -> None:
+    names = write_brackets(folder)
+    write_ball(folder / "ball.exr")
+    write_faces(folder / "a.exr")
+    write_radiance(folder / "flat.exr", np.ones((60, 60, 3)))
+    there = sorted(folder.iterdir())
+    before = open_file_state()
+
+    def refused(complaint: str, name: str, **properties: object) -> None:
+        with pytest.raises(RuntimeError, match=complaint):
+            getattr(bpy.ops.rsibr, name)(**properties)
+
+    for operator in ("merge_brackets", "unwrap_ball", "assemble_faces", "lift_painting"):
+        refused("No picture is chosen: select one", operator)
+    # As of a browser in which none is selected
+    refused("No picture is chosen", "merge_brackets", directory=f"{folder}/", files=[{"name": ""}])
+    bracket, ball = several(folder, *names), str(folder / "ball.exr")
+    refused(r"0\.exr does not tell its exposure time: give", "merge_brackets", **bracket)
+    refused("There are 3 photographs, but 2 exposure times", "merge_brackets", **bracket, times="1,2")
+    refused("soon.*: write 1/125 or 0.5, one for each photograph", "merge_brackets", **bracket, times="soon")
+    refused("One photograph is no bracket", "merge_brackets", **several(folder, "0.exr"), times="1")
+    refused("There are 3 photographs of the ball: select one or two", "unwrap_ball", **bracket)
+    refused(
+        "both tell where the camera was: set one to 0",
+        "unwrap_ball",
+        filepath=ball,
+        distance=5,
+        field_of_view=0.2,
+    )
+    refused("the circle 500,500,80 is not in it", "unwrap_ball", filepath=ball, circle=(500, 500, 80))
+    refused(r"flat\.exr: ", "unwrap_ball", filepath=str(folder / "flat.exr"))
+    refused(r"absent\.exr as cube_faces is 6 files", "assemble_faces", filepath=str(folder / "absent-px.exr"))
+    refused("cannot be 17 texels wide", "assemble_faces", filepath=str(folder / "a-px.exr"), size=17)
+    refused("holds radiance already", "lift_painting", filepath=ball)
+    refused(r"a-px\.exr exists", "assemble_faces", filepath=str(folder / "a-px.exr"), output="a-px.exr")
+    assert open_file_state() == before
+    assert sorted(folder.iterdir()) == there
+
+
+def test_paintings_may_be_laid_out_as_in_the_command() -> None:
+    assert set(LAYOUTS) == set(convert.LAYOUTS)

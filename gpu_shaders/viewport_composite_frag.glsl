@@ -9,14 +9,14 @@ const float DEPTH_TOLERANCE = 8.0 / 16777216.0;
 
 void main()
 {
-  if (abs(gl_FragCoord.x - line) < 1.0) {
+  if (abs(gl_FragCoord.x - left) < 1.0 || abs(gl_FragCoord.x - right) < 1.0) {
     gl_FragDepth = 0.0;
     colour = vec4(1.0);
     return;
   }
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec4 seen = texelFetch(previews, pixel, 0);
-  if (seen.a == 0.0 || gl_FragCoord.x > line) {
+  if (seen.a == 0.0 || gl_FragCoord.x < left || gl_FragCoord.x > right) {
     discard;
   }
   gl_FragDepth = max(texelFetch(depths, pixel, 0).r - DEPTH_TOLERANCE, 0.0);

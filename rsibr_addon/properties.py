@@ -104,6 +104,14 @@ class RSIBR_PG_mip_chain(bpy.types.PropertyGroup):
     )
 
 
+class RSIBR_PG_looks(bpy.types.PropertyGroup):
+    """How an object is shaded, for each kind of map set."""
+
+    radiance_views: bpy.props.PointerProperty(type=RSIBR_PG_radiance_views)
+    reflection_tables: bpy.props.PointerProperty(type=RSIBR_PG_reflection_tables)
+    mip_chain: bpy.props.PointerProperty(type=RSIBR_PG_mip_chain)
+
+
 class RSIBR_PG_preview(bpy.types.PropertyGroup):
     """What shades an object in the viewport."""
 
@@ -122,6 +130,7 @@ class RSIBR_PG_preview(bpy.types.PropertyGroup):
         "Texture; for map sets that were made in the bare environment",
         update=_notice,
     )
+    other: bpy.props.PointerProperty(type=RSIBR_PG_looks)
     radiance_views: bpy.props.PointerProperty(type=RSIBR_PG_radiance_views)
     reflection_tables: bpy.props.PointerProperty(type=RSIBR_PG_reflection_tables)
     mip_chain: bpy.props.PointerProperty(type=RSIBR_PG_mip_chain)
@@ -137,11 +146,19 @@ class RSIBR_PG_view(bpy.types.PropertyGroup):
     """How viewports show previews, for as long as Blender runs."""
 
     split: bpy.props.BoolProperty(
-        name="Split", description="Show Blender's own shading right of a line", update=_redraw
+        name="Split", description="Show something else right of a line", update=_redraw
+    )
+    beyond: bpy.props.EnumProperty(
+        name="Right of It",
+        update=_redraw,
+        items=[
+            ("blender", "Blender's Shading", "What the viewport shows without previews"),
+            ("other", "Another Look", "The same map sets, shaded in another way"),
+        ],
     )
     line: bpy.props.FloatProperty(
         name="Line",
-        description="Where previews end and Blender's own shading begins",
+        description="Where the one ends and the other begins",
         update=_redraw,
         subtype="FACTOR",
         default=0.5,
@@ -154,6 +171,7 @@ CLASSES = (
     RSIBR_PG_radiance_views,
     RSIBR_PG_reflection_tables,
     RSIBR_PG_mip_chain,
+    RSIBR_PG_looks,
     RSIBR_PG_preview,
     RSIBR_PG_view,
 )

@@ -96,7 +96,9 @@ class Stage:
             with _depth_test("LESS_EQUAL"):
                 yield
 
-    def show(self, display: gpu.types.GPUTexture, scale: float, share: float, among_others: bool) -> None:
+    def show(
+        self, display: gpu.types.GPUTexture, scale: float, span: tuple[float, float], among_others: bool
+    ) -> None:
         """Bring what was drawn to the active frame buffer.
 
         Parameters
@@ -105,8 +107,8 @@ class Stage:
             A display's colours, see `core.display`, from `buffers.table_texture`.
         scale : float
             What radiance is multiplied by.
-        share : float
-            The part of the width, from the left, that is shown; below 1, a line marks where it ends.
+        span : (float, float)
+            The part of the width that is shown, from 0 to 1; lines mark where it begins and ends.
         among_others : bool
             Whether the frame buffer holds the depths of what else is to be seen.
         """
@@ -114,7 +116,9 @@ class Stage:
         shader.bind()
         x, _, width, _ = gpu.state.active_framebuffer_get().viewport_get()
         shader.uniform_float("scale", scale)
-        shader.uniform_float("line", x + share * width if share < 1.0 else np.inf)
+        left, right = span
+        shader.uniform_float("left", x + left * width if left > 0.0 else -np.inf)
+        shader.uniform_float("right", x + right * width if right < 1.0 else np.inf)
         shader.uniform_sampler("previews", self._radiance)
         shader.uniform_sampler("depths", self._depth)
         shader.uniform_sampler("display", display)

@@ -22,7 +22,8 @@ def composite_shader() -> gpu.types.GPUShader:
     """Brings a frame's previews to the display."""
     info = gpu.types.GPUShaderCreateInfo()
     info.push_constant("FLOAT", "scale")
-    info.push_constant("FLOAT", "line")
+    info.push_constant("FLOAT", "left")
+    info.push_constant("FLOAT", "right")
     info.sampler(0, "FLOAT_2D", "previews")
     info.sampler(1, "DEPTH_2D", "depths")
     info.sampler(2, "FLOAT_3D", "display")

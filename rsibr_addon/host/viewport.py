@@ -39,6 +39,23 @@ class Surface:
 
 
 @dataclass(frozen=True)
+class Side:
+    """A part of a viewport that shows previews.
+
+    Attributes
+    ----------
+    other : bool
+        Whether objects show their other look.
+    left, right : float
+        Where it begins and ends, as parts of the width.
+    """
+
+    other: bool
+    left: float
+    right: float
+
+
+@dataclass(frozen=True)
 class View:
     """What is looked at, and through which area.
 
@@ -68,10 +85,14 @@ class View:
         return self.space.shading.type == "SOLID" or self.space.overlay.show_overlays
 
     @property
-    def share(self) -> float:
-        """The part of the width, from the left, in which previews are shown."""
+    def sides(self) -> tuple[Side, ...]:
+        """What is shown from left to right; the rest is Blender's."""
         settings = bpy.context.window_manager.rsibr_view
-        return settings.line if settings.split else 1.0
+        if not settings.split:
+            return (Side(other=False, left=0.0, right=1.0),)
+        first = Side(other=False, left=0.0, right=settings.line)
+        second = Side(other=True, left=settings.line, right=1.0)
+        return (first, second) if settings.beyond == "other" else (first,)
 
     def light_of(self, item: bpy.types.Object) -> WorldLight:
         """What the world makes of the environment of an object's map set: nothing, unless it is followed."""

@@ -4,6 +4,7 @@ import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, fields
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ from ..device.drawing import OnDevice, mesh_batch
 from ..device.viewport import Stage, current_sight, draw_occluder
 from ..host.display import Display, display_of, displayed_colours, scale_before_display
 from ..host.meshes import mesh_from_object
-from ..host.viewport import Layer, Surface, View, is_wanted, map_set_of, shown_layers, surfaces
+from ..host.viewport import Layer, Side, Surface, View, is_wanted, map_set_of, shown_layers, surfaces
 from ..host.world_light import AS_IT_IS
 from .kinds import KINDS, open_map_set
 
@@ -142,14 +143,14 @@ class Previews:
         if display is None:
             return False
         hidden_by = [each for each in contents.others or () if _is_seen(each, view)]
-        for strength, group in _by_strength(seen, view).items():
+        for side, (strength, group) in product(view.sides, _by_strength(seen, view).items()):
             with self._stage.drawing():
                 if not view.has_depth:
                     self._hide(hidden_by + [each.surface for each in seen if each not in group])
                 for each in group:
-                    self._draw_one(each, view)
+                    self._draw_one(each, view, side)
             scale = strength * scale_before_display(view.scene)
-            self._stage.show(display, scale, view.share, among_others=view.has_depth)
+            self._stage.show(display, scale, (side.left, side.right), among_others=view.has_depth)
         return True
 
     def _hide(self, behind: list[Surface]) -> None:
@@ -210,10 +211,11 @@ class Previews:
                 self._map_sets[preview.path] = _MapSet(opened.kind, opened.upload())
         return preview.path in self._map_sets
 
-    def _draw_one(self, preview: _Preview, view: View) -> None:
+    def _draw_one(self, preview: _Preview, view: View, side: Side) -> None:
         map_set, surface = self._map_sets[preview.path], preview.surface
         with self._faults_noted(surface.item):
-            look = KINDS[map_set.kind].look(**_look_settings(surface.item, map_set.kind))
+            looks = surface.item.rsibr.other if side.other else surface.item.rsibr
+            look = KINDS[map_set.kind].look(**_look_settings(looks, map_set.kind))
             placed = current_sight().on(surface.matrix, view.light_of(surface.item).turn)
             map_set.on_device.draw(self._meshes[surface.mesh], placed, look)
 
@@ -247,15 +249,16 @@ def _by_strength(previews: list[_Preview], view: View) -> dict[float, list[_Prev
 
 def _settings(item: Any) -> object:
     """All that an object says of its preview."""
-    return map_set_of(item), {kind: _look_settings(item, kind) for kind in KINDS}
+    both = (item.rsibr, item.rsibr.other)
+    return map_set_of(item), [{kind: _look_settings(looks, kind) for kind in KINDS} for looks in both]
 
 
-def _look_settings(item: Any, kind: str) -> dict[str, Any]:
+def _look_settings(looks: Any, kind: str) -> dict[str, Any]:
     """What an object says of how a kind of map set is shaded: fields of the kind's look.
 
     A field `name` may have a switch `use_name`.
     """
-    group = getattr(item.rsibr, kind, None)
+    group = getattr(looks, kind, None)
     names = [field.name for field in fields(KINDS[kind].look) if hasattr(group, field.name)]
     return {name: _plain(getattr(group, name)) for name in names if getattr(group, f"use_{name}", True)}
 

@@ -45,11 +45,20 @@ class RSIBR_PT_preview(bpy.types.Panel):
         if kind is None:
             return
         layout.label(text=kind.replace("_", " ").capitalize())
-        settings = getattr(item.rsibr, kind, None)
-        for setting in settings.bl_rna.properties if settings else ():
-            if setting.identifier not in bpy.types.PropertyGroup.bl_rna.properties:
-                layout.prop(settings, setting.identifier)
+        _show_look(layout, getattr(item.rsibr, kind, None))
+        view = context.window_manager.rsibr_view
         row = layout.row(heading="Split")
-        row.prop(context.window_manager.rsibr_view, "split", text="")
-        row.prop(context.window_manager.rsibr_view, "line", text="", slider=True)
+        row.prop(view, "split", text="")
+        row.prop(view, "line", text="", slider=True)
         row.operator("rsibr.drag_split", text="", icon="ARROW_LEFTRIGHT")
+        if view.split:
+            layout.prop(view, "beyond")
+        if view.split and view.beyond == "other":
+            _show_look(layout, getattr(item.rsibr.other, kind, None))
+
+
+def _show_look(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup | None) -> None:
+    """Every setting of how a kind of map set is shaded; there are kinds without."""
+    for setting in settings.bl_rna.properties if settings else ():
+        if setting.identifier not in bpy.types.PropertyGroup.bl_rna.properties:
+            layout.prop(settings, setting.identifier)

@@ -26,7 +26,7 @@ def settings_of(group: bpy.types.PropertyGroup) -> set[str]:
 @pytest.mark.parametrize("kind", KINDS)
 def test_an_untouched_object_is_shaded_by_its_kind_s_defaults(kind: str) -> None:
     cube = bpy.data.objects["Cube"]
-    look, default = KINDS[kind].look(**_look_settings(cube, kind)), KINDS[kind].look()
+    look, default = KINDS[kind].look(**_look_settings(cube.rsibr, kind)), KINDS[kind].look()
     for field in fields(default):
         found, expected = getattr(look, field.name), getattr(default, field.name)
         if isinstance(expected, tuple) and expected and isinstance(expected[0], float):
@@ -51,13 +51,13 @@ def test_settings_reach_the_look_and_are_told_apart() -> None:
     before = _settings(cube)
     assert _settings(cube) == before
     cube.rsibr.mip_chain.k_d = (0.25, 0.5, 1.0)
-    assert _look_settings(cube, "mip_chain")["k_d"] == (0.25, 0.5, 1.0)
+    assert _look_settings(cube.rsibr, "mip_chain")["k_d"] == (0.25, 0.5, 1.0)
     assert _settings(cube) != before
-    assert "roughness" not in _look_settings(cube, "mip_chain")
+    assert "roughness" not in _look_settings(cube.rsibr, "mip_chain")
     cube.rsibr.mip_chain.use_roughness = True
-    assert _look_settings(cube, "mip_chain")["roughness"] == pytest.approx(0.3)
+    assert _look_settings(cube.rsibr, "mip_chain")["roughness"] == pytest.approx(0.3)
     cube.rsibr.reflection_tables.shown = {"retro"}
-    assert _look_settings(cube, "reflection_tables")["shown"] == {"retro"}
+    assert _look_settings(cube.rsibr, "reflection_tables")["shown"] == {"retro"}
 
 
 def test_nothing_is_wanted_until_a_file_is_named_and_shown() -> None:

@@ -232,6 +232,21 @@ def scenario(told):
     told["line"] = settings.line
     columns = np.flatnonzero(like(pixels(), (188, 0, 188)).any(axis=0))
     told["dragged"] = int(columns[-1] - (x - part.x))
+    # The other side in another look
+    on_device = next(iter(module.previews._map_sets.values())).on_device
+    draw, looks = on_device.draw, []
+
+    def recorded(mesh, placed, look):
+        looks.append(str(look.mode))
+        draw(mesh, placed, look)
+
+    on_device.draw = recorded
+    settings.beyond = "other"
+    bpy.data.objects["Cube"].rsibr.other.radiance_views.mode = "paper"
+    yield from drawn()
+    told["looks"] = looks[-2:]
+    shown = like(pixels(), (188, 0, 188))
+    told["missing"] = int((whole & ~shown).any(axis=0).sum())
 """
 
 
@@ -244,6 +259,9 @@ def test_a_line_parts_previews_from_blender_s_shading(told: Told) -> None:
     assert answer["modal"] == 0
     assert abs(answer["line"] - 0.45) < 2e-3
     assert -4 <= answer["dragged"] <= 0
+    assert answer["looks"] == ["fragment", "paper"]
+    # Columns of the line, of which each side draws its two
+    assert 2 <= answer["missing"] <= 4
 
 
 RENDER = """

@@ -3,10 +3,14 @@
 import os
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import ceil, log2
 from pathlib import Path
 from typing import Any, ClassVar, Protocol
 
+from ..core.brdf.lambert import Lambert
+from ..core.brdf.spec import MEASURED, brdf_from_spec
 from ..core.errors import InputFileError
+from ..core.lobes.bake import SIZES
 
 BLENDER_MEMORY = 350e6
 """Bytes that a background Blender takes with a small file, before any work."""
@@ -25,6 +29,15 @@ STORED = 0.7
 
 RGB = 3 * 4
 """Bytes of a texel."""
+
+TEXELS_BY_ALPHA = 38.0
+"""Width of a map times its lobe's width alpha, as bakes choose it: of Blender's `forest`."""
+
+LOBE_SIZE = 128
+"""Of a map, where nothing is known of the lobes."""
+
+MATERIAL = "blend:"
+"""Begins the text of a model that is a material of Blender."""
 
 MEASURED_FORMATS = {".binary": "merl", ".brdf": "cornell", ".bsdf": "rgl"}
 """Suffix of a measured material's file -> the model that it is of."""
@@ -135,6 +148,11 @@ class Lobes:
     size : int
         Of a map in texels; 0 for what the lobes need.
     half : bool
+
+    Raises
+    ------
+    RangeError
+        The text describes no model.
     """
 
     kind: ClassVar[str] = "lobe_stack"
@@ -145,10 +163,13 @@ class Lobes:
     size: int
     half: bool
 
+    def __post_init__(self) -> None:
+        _layers_and_size(self.brdf)
+
     @property
     def subject(self) -> str:
         """See `Method`."""
-        return self.brdf.removeprefix("blend::") if "path=" not in self.brdf else Path(self.brdf).stem
+        return self.brdf.removeprefix(f"{MATERIAL}:") if "path=" not in self.brdf else Path(self.brdf).stem
 
     def arguments(self) -> tuple[str, ...]:
         """See `Method`."""
@@ -157,16 +178,27 @@ class Lobes:
         return "bake", "--brdf", self.brdf, *numbers, *size, *(("--half",) if self.half else ())
 
     def cost(self) -> Cost:
-        """See `Method`; two paraboloids, of 128 texels where the size is left open."""
-        maps = self.lobes * self.slices * 2 * (self.size or 128) ** 2 * RGB
-        measuring = 12.0 * self.brdf.startswith("blend:")
-        fitting = 0.05 * self.lobes * self.slices
-        filtering = 2.0 + 6e-8 * maps
+        """See `Method`; two paraboloids."""
+        layers, size = _layers_and_size(self.brdf)
+        maps = layers * self.lobes * self.slices * 2 * (self.size or size) ** 2 * RGB
+        measuring = 12.0 * self.brdf.startswith(MATERIAL)
+        fitting = 0.01 * layers * self.lobes * self.slices
+        filtering = 1.0 + 4e-8 * maps
+        stored = 0.2 if self.half else STORED
         return Cost(
             BLENDER_SECONDS + measuring + fitting + filtering,
-            BLENDER_MEMORY + 200e6 + 4 * maps,
-            STORED * (maps / (2 if self.half else 1) + ENVIRONMENT_TEXELS * RGB),
+            BLENDER_MEMORY + 100e6 + 4 * maps,
+            stored * maps + STORED * ENVIRONMENT_TEXELS * RGB,
         )
+
+
+def _layers_and_size(spec: str) -> tuple[int, int]:
+    """How many layers a model has, and how large its maps will be: roughly, by its sharpest lobe."""
+    if spec.startswith((MATERIAL, *MEASURED)):
+        return 1, LOBE_SIZE
+    layers = brdf_from_spec(spec, lambda name, path: Lambert(kd=0.5)).layers
+    alpha = min(getattr(layer, "alpha", 1.0) for layer in layers)
+    return len(layers), min(2 ** ceil(log2(TEXELS_BY_ALPHA / alpha)), SIZES[-1])
 
 
 @dataclass(frozen=True)
@@ -256,7 +288,7 @@ def _views(chosen: Any, source: str) -> Views:
 def _lobes(chosen: Any, source: str) -> Lobes:
     match chosen.source:
         case "OWN":
-            brdf = f"blend::{source}"
+            brdf = f"{MATERIAL}:{source}"
         case "MODEL":
             brdf = chosen.brdf
         case _:

@@ -9,7 +9,7 @@ import bpy
 import pytest
 import rsibr
 from rsibr.rsibr_addon.command_line.main import parsed, run
-from rsibr.rsibr_addon.core.errors import InputFileError, RsibrError, SceneError
+from rsibr.rsibr_addon.core.errors import InputFileError, OutputFileError, RsibrError, SceneError
 from rsibr.rsibr_addon.tasks.bake_order import Order, bake_of, is_baked, order_for, output_for
 from rsibr.rsibr_addon.tasks.methods import QUALITIES
 from rsibr.tests.open_file import open_file_state
@@ -87,6 +87,7 @@ def test_the_file_is_as_large_as_was_said() -> None:
         ("chosen.light = 'PICTURE'", "No environment is chosen: give a latitude-longitude picture."),
         ("chosen.light, chosen.picture = 'PICTURE', '/no.exr'", "There is no file /no.exr: choose another."),
         ("chosen.kind, chosen.lobe_stack.source = 'lobe_stack', 'FILE'", "No measured material is chosen"),
+        ("chosen.kind, chosen.lobe_stack.brdf = 'lobe_stack', 'gold'", 'There is no BRDF model "gold"'),
     ],
 )
 def test_what_is_missing_is_told_before_the_button_is_pressed(spoil: str, sentence: str) -> None:
@@ -191,3 +192,26 @@ def test_the_material_is_recorded_as_the_original_has_it(monkeypatch: pytest.Mon
     assert lasting_spec(":Paint") == "/work/car.blend:Paint"
     monkeypatch.setenv(ORIGINAL, "")
     assert lasting_spec(":Paint") == ":Paint"
+
+
+def test_sharper_and_layered_models_cost_more() -> None:
+    chosen = bpy.context.scene.rsibr_bake
+    chosen.kind = "lobe_stack"
+    costs = []
+    for spec in ("ggx:alpha=0.3,metal=copper", "ggx:alpha=0.1,metal=copper", "car_paint:name=bmw_339"):
+        chosen.lobe_stack.brdf = spec
+        costs.append(order().method.cost())
+    for less, more in itertools.pairwise(costs):
+        assert less.processor_seconds < more.processor_seconds
+        assert less.disk < more.disk
+
+
+def test_folders_that_cannot_be_made_are_named(tmp_path: Path) -> None:
+    from rsibr.rsibr_addon.host import bake_settings
+
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "artist.blend"))
+    assert bake_settings.baked_folder() == tmp_path / "rsibr"
+    (tmp_path / "rsibr").rmdir()
+    (tmp_path / "rsibr").touch()
+    with pytest.raises(OutputFileError, match=r"rsibr cannot be made \(File exists\): choose another folder"):
+        bake_settings.baked_folder()

@@ -1,0 +1,134 @@
+"""Previews among what a frame buffer holds already: their colours, what hides them, and a turned world."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import gpu
+import numpy as np
+import pytest
+from mathutils import Matrix
+from rsibr.rsibr_addon.core.camera import Camera
+from rsibr.rsibr_addon.core.display import TABLE_SIZE, displayed
+from rsibr.rsibr_addon.core.shading.radiance_views import ViewsLook, views_fragment
+from rsibr.rsibr_addon.core.transfer_curve import linear_from_srgb
+from rsibr.rsibr_addon.device import buffers
+from rsibr.rsibr_addon.device.context import ensure_context
+from rsibr.rsibr_addon.device.drawing import mesh_batch
+from rsibr.rsibr_addon.device.radiance_views import RadianceViewsOnDevice
+from rsibr.rsibr_addon.device.viewport import Stage, current_sight, draw_occluder
+from rsibr.tests.synthetic_views import smooth_views, visible_points
+
+SIZE = 64
+CAMERA = Camera((0.3, -0.8, 0.45), field_of_view=np.radians(40.0))
+STRAIGHT = np.eye(3)
+QUARTER = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+VIEWS = smooth_views(12, 64)
+LOOK = ViewsLook(warping="split")
+
+
+def table() -> np.ndarray:
+    """A display of six stops about radiance 1, other colours for each channel."""
+    part = np.clip((np.arange(TABLE_SIZE) - 40.0) / 30.0, 0.0, 1.0)
+    blue, green, red = np.meshgrid(part, part, part, indexing="ij")
+    return np.stack([red, 0.6 * green + 0.4 * blue, 1.0 - blue], axis=-1)
+
+
+def sphere(radius: float = 1.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """A sphere's positions, normals and triangles."""
+    from rsibr.rsibr_addon.host.meshes import load_mesh
+
+    mesh = load_mesh("sphere")
+    return radius * mesh.positions, mesh.normals, mesh.triangles
+
+
+@contextmanager
+def screen() -> Iterator[gpu.types.GPUFrameBuffer]:
+    """A frame buffer of floats in Blender's stead, empty and far away, seen through `CAMERA`."""
+    ensure_context()
+    colour = gpu.types.GPUTexture((SIZE, SIZE), format="RGBA32F")
+    depth = gpu.types.GPUTexture((SIZE, SIZE), format="DEPTH_COMPONENT32F")
+    target = gpu.types.GPUFrameBuffer(depth_slot=depth, color_slots=(colour,))
+    with target.bind(), gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
+        target.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
+        gpu.matrix.load_matrix(Matrix(np.linalg.inv(CAMERA.world_from_camera)))
+        gpu.matrix.load_projection_matrix(Matrix(CAMERA.projection))
+        yield target
+
+
+def shown(
+    turn: np.ndarray = STRAIGHT,
+    scale: float = 1.0,
+    span: tuple[float, float] = (0.0, 1.0),
+    in_front: float | None = None,
+    among_others: bool = True,
+) -> np.ndarray:
+    """A sphere, previewed; perhaps within another of radius `in_front`; shape (SIZE, SIZE, 4)."""
+    with screen() as target:
+        stage, sight = Stage(), current_sight()
+        subject = RadianceViewsOnDevice(VIEWS)
+        if in_front is not None:
+            gpu.state.depth_test_set("LESS_EQUAL")
+            gpu.state.depth_mask_set(True)
+            draw_occluder(mesh_batch(*sphere(in_front)), sight.on(np.eye(4), STRAIGHT))
+            gpu.state.depth_test_set("NONE")
+        with stage.drawing():
+            subject.draw(mesh_batch(*sphere()), sight.on(np.eye(4), turn), LOOK)
+        stage.show(buffers.table_texture(table()), scale, span, among_others)
+        return buffers.pixels(target, SIZE)
+
+
+def expected(turn: np.ndarray, scale: float) -> tuple[np.ndarray, np.ndarray]:
+    """Colours within 0.9 of the silhouette, and which pixels these are."""
+    points = 2.0 * (np.arange(SIZE) + 0.5) / SIZE - 1.0
+    inside = np.hypot(points[None, :], points[:, None]) < 0.9
+    normal, view_dir = visible_points(CAMERA, SIZE, radius=0.9)
+    radiance = scale * views_fragment(VIEWS, normal @ turn.T, view_dir @ turn.T, LOOK.warping)
+    return linear_from_srgb(displayed(table(), radiance)), inside
+
+
+@pytest.mark.parametrize("turn", [STRAIGHT, QUARTER], ids=["straight", "turned"])
+@pytest.mark.parametrize("scale", [1.0, 0.5])
+def test_colours_are_those_of_the_display(turn: np.ndarray, scale: float) -> None:
+    picture = shown(turn, scale)
+    colours, inside = expected(turn, scale)
+    error = np.abs(picture[inside, :3] - colours)
+    # The mesh's facets tilt normals by up to 1/400, and mirrored radiance changes by up to 6 of it a radian:
+    # 0.02 of a stop. The display has 1/6 a stop, its curve a slope of up to 2.3, half floats add 1e-3.
+    assert error.max() < 0.01
+    assert np.all(picture[inside, 3] == 1.0)
+    assert picture[0, 0, 3] == 0.0
+
+
+def test_a_turn_shows() -> None:
+    straight, turned = (expected(turn, 1.0)[0] for turn in (STRAIGHT, QUARTER))
+    assert np.abs(straight - turned).max() > 0.1
+
+
+def test_what_lies_in_front_hides_and_what_lies_behind_does_not() -> None:
+    whole = shown()[..., 3] == 1.0
+    assert whole.sum() > 2000
+    assert not shown(in_front=1.01)[..., 3].any()
+    np.testing.assert_array_equal(shown(in_front=0.99)[..., 3] == 1.0, whole)
+    # The same surface: depths agree, and the preview is shown
+    np.testing.assert_array_equal(shown(in_front=1.0)[..., 3] == 1.0, whole)
+    np.testing.assert_array_equal(shown(in_front=1.01, among_others=False)[..., 3] == 1.0, whole)
+
+
+def test_a_span_ends_in_lines() -> None:
+    whole, part = shown(), shown(span=(0.25, 0.75))
+    white = np.all(part == 1.0, axis=(0, 2))
+    assert np.flatnonzero(white).tolist() == [15, 16, 47, 48]
+    np.testing.assert_array_equal(part[:, 17:47], whole[:, 17:47])
+    assert not part[:, :15].any()
+    assert not part[:, 49:].any()
+
+
+def test_the_state_is_as_before() -> None:
+    with screen() as target:
+        stage = Stage()
+        state = gpu.state.depth_test_get(), gpu.state.depth_mask_get(), gpu.state.blend_get()
+        with stage.drawing():
+            pass
+        stage.show(buffers.table_texture(table()), 1.0, (0.0, 1.0), among_others=True)
+        assert (gpu.state.depth_test_get(), gpu.state.depth_mask_get(), gpu.state.blend_get()) == state
+        assert not buffers.pixels(target, SIZE).any()

@@ -10,6 +10,7 @@ from .bake_tables import RSIBR_OT_bake_tables
 from .cancel_bake import RSIBR_OT_cancel_bake
 from .capture_environment import RSIBR_OT_capture_environment
 from .capture_views import RSIBR_OT_capture_views
+from .compare import RSIBR_OT_compare
 from .drag_split import RSIBR_OT_drag_split
 from .fit_lobes import RSIBR_OT_fit_lobes
 from .lift_painting import RSIBR_OT_lift_painting
@@ -34,6 +35,7 @@ CLASSES: tuple[type, ...] = (
     RSIBR_OT_cancel_bake,
     RSIBR_OT_assign,
     RSIBR_OT_open_report,
+    RSIBR_OT_compare,
     RSIBR_OT_reload_map_sets,
     RSIBR_OT_drag_split,
 )

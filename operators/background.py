@@ -37,8 +37,10 @@ def look() -> None:
     """Notice what has happened to the bakes, assign what is done, and have the panel show it."""
     for bake in queue.update():
         bake.tidy()
+        if bake.output.suffix == ".html":
+            _open(bake)
         # Another Blender may have made the same file meanwhile, so that ours was refused.
-        if bake.state is not State.CANCELLED and is_baked(bake.output) and assign(bake.item, bake.output):
+        elif bake.state is not State.CANCELLED and is_baked(bake.output) and assign(bake.item, bake.output):
             _push_undo("Assign Map Set")
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
@@ -51,6 +53,11 @@ def look() -> None:
 def _look() -> float | None:
     look()
     return SECONDS if queue.busy else None
+
+
+def _open(page: ObjectBake) -> None:
+    if page.state is State.DONE:
+        bpy.ops.wm.url_open(url=page.output.resolve().as_uri())
 
 
 def _push_undo(message: str) -> None:

@@ -71,7 +71,7 @@ def material_name(spec: str) -> str:
 
 def lasting_spec(spec: str) -> str:
     """What names the same material also when another file is open, as far as this one has a name."""
-    return f"{os.environ.get(ORIGINAL, bpy.data.filepath)}{spec}" if spec.startswith(":") else spec
+    return f"{_open_path()}{spec}" if spec.startswith(":") else spec
 
 
 def fingerprint(material: bpy.types.Material | bpy.types.World) -> str:
@@ -105,7 +105,11 @@ def _parsed(spec: str) -> tuple[str | None, str]:
 
 
 def _is_open(path: Path) -> bool:
-    return bool(bpy.data.filepath) and path.exists() and path.samefile(bpy.data.filepath)
+    return bool(_open_path()) and path.exists() and path.samefile(_open_path())
+
+
+def _open_path() -> str:
+    return os.environ.get(ORIGINAL, bpy.data.filepath)
 
 
 def _appended(path: Path, name: str) -> bpy.types.Material:

@@ -26,13 +26,17 @@ from ..host.version import software
 from ..host.worlds import world_of
 from ..job import BakeJob
 from .background import Bake, blender_command
-from .methods import METHODS, Method
+from .map_set_page import page_beside
+from .methods import METHODS, Lobes, Method, Views
 
 HASH_LETTERS = 10
 """Of a file's name: enough to tell a million bakes apart."""
 
 NAME_LETTERS = 60
 """Of a file's name at most, for people."""
+
+COMPARED, COMPARED_VIEWS = (Views.kind, Lobes.kind), 6
+"""Kinds that can be compared with the truth; and from how many sides."""
 
 
 @dataclass(frozen=True)
@@ -162,7 +166,7 @@ def is_baked(output: Path) -> bool:
 
 
 def bake_of(order: Order, item: Any, output: Path) -> ObjectBake:
-    """Make everything ready that a background Blender needs.
+    """Make everything ready that a background Blender needs to bake.
 
     Parameters
     ----------
@@ -183,23 +187,56 @@ def bake_of(order: Order, item: Any, output: Path) -> ObjectBake:
     OutputFileError
         The open file cannot be copied.
     """
+    return _in_background(f"{item.name}: {order.title}", order.job(output), item, output, order.needs_file)
+
+
+def comparison_of(item: Any, map_set: Path) -> ObjectBake:
+    """Make everything ready to compare an object's map set with the truth.
+
+    Parameters
+    ----------
+    item : bpy.types.Object
+    map_set : Path
+
+    Returns
+    -------
+    ObjectBake
+        Whose output is a page in the folder NAME-compared beside NAME.rsibr.exr.
+
+    Raises
+    ------
+    MapSetError
+        The file is none, or of a kind that nothing is compared with.
+    SceneError, OutputFileError
+        See `bake_of`.
+    """
+    kind = read_map_set_header(map_set)["kind"]
+    if kind not in COMPARED:
+        raise MapSetError(f"{map_set} is of a kind without a truth to compare with: bake views or a stack.")
+    page = page_beside(map_set)
+    folder = page.with_name(f"{page.stem}-compared")
+    arguments = ("compare", str(map_set), "--views", str(COMPARED_VIEWS), "--output", str(folder), "--force")
+    return _in_background(f"{item.name}: comparison", BakeJob(arguments), item, folder / "index.html", True)
+
+
+def _in_background(title: str, job: BakeJob, item: Any, output: Path, needs_file: bool) -> ObjectBake:
     program = blender_program()
     if not program:
         raise SceneError("There is no Blender to bake in: bake with the command rsibr instead.")
     folder = tempfile.TemporaryDirectory(prefix="rsibr-", ignore_cleanup_errors=True)
     try:
-        job = Path(folder.name) / "job.json"
-        job.write_text(order.job(output).to_json(), encoding="utf-8")
-        blend = Path(folder.name) / "open.blend" if order.needs_file else None
+        path = Path(folder.name) / "job.json"
+        path.write_text(job.to_json(), encoding="utf-8")
+        blend = Path(folder.name) / "open.blend" if needs_file else None
         if blend is not None:
             save_copy(blend)
     except BaseException:
         folder.cleanup()
         raise
     return ObjectBake(
-        title=f"{item.name}: {order.title}",
+        title=title,
         output=output,
-        command=blender_command(program, EXTENSION, blend, job),
+        command=blender_command(program, EXTENSION, blend, path),
         variables={ORIGINAL: open_file()},
         item=item.session_uid,
         folder=folder,

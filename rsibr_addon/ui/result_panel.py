@@ -38,4 +38,6 @@ class RSIBR_PT_result(bpy.types.Panel):
             row.alignment = "RIGHT"
             row.label(text=what)
             row.label(text=which)
-        layout.operator("rsibr.open_report", icon="URL")
+        row = layout.row(align=True)
+        row.operator("rsibr.open_report", icon="URL")
+        row.operator("rsibr.compare", icon="MOD_DATA_TRANSFER")

@@ -9,9 +9,11 @@ import bpy
 import pytest
 import rsibr
 from rsibr.rsibr_addon.command_line.main import parsed, run
-from rsibr.rsibr_addon.core.errors import InputFileError, OutputFileError, RsibrError, SceneError
-from rsibr.rsibr_addon.tasks.bake_order import Order, bake_of, is_baked, order_for, output_for
+from rsibr.rsibr_addon.core.errors import InputFileError, MapSetError, OutputFileError, RsibrError, SceneError
+from rsibr.rsibr_addon.job import BakeJob
+from rsibr.rsibr_addon.tasks.bake_order import Order, bake_of, comparison_of, is_baked, order_for, output_for
 from rsibr.rsibr_addon.tasks.methods import QUALITIES
+from rsibr.tests.flat_capture import write_flat_capture
 from rsibr.tests.open_file import open_file_state
 
 
@@ -215,3 +217,31 @@ def test_folders_that_cannot_be_made_are_named(tmp_path: Path) -> None:
     (tmp_path / "rsibr").touch()
     with pytest.raises(OutputFileError, match=r"rsibr cannot be made \(File exists\): choose another folder"):
         bake_settings.baked_folder()
+
+
+def test_a_comparison_is_a_job_with_a_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.bake_order.blender_program", lambda: "blender")
+    path = tmp_path / "flat.rsibr.exr"
+    write_flat_capture(path, (0.5, 0.0, 0.5))
+    comparison = comparison_of(bpy.context.object, path)
+    job = BakeJob.from_json(Path(comparison.command[8]).read_text(), "job")
+    comparison.tidy()
+    assert comparison.output == tmp_path / "flat-compared" / "index.html"
+    assert parsed(job.arguments).output == comparison.output.parent
+    chosen = bpy.context.scene.rsibr_bake
+    chosen.kind, chosen.mip_chain.size, chosen.mip_chain.filter = "mip_chain", "64", "box"
+    mips = output()
+    assert run([*order().job(mips).arguments, "--progress", "none"]) == 0
+    with pytest.raises(MapSetError, match="is of a kind without a truth to compare with"):
+        comparison_of(bpy.context.object, mips)
+
+
+def test_the_original_counts_as_open(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from rsibr.rsibr_addon.host.materials import ORIGINAL, load_material
+
+    original, copy = tmp_path / "artist.blend", tmp_path / "copy.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(original))
+    bpy.data.materials["Material"].name = "Changed"
+    bpy.ops.wm.save_as_mainfile(filepath=str(copy))
+    monkeypatch.setenv(ORIGINAL, str(original))
+    assert load_material(f"{original}:Changed") == bpy.data.materials["Changed"]

@@ -1,0 +1,29 @@
+"""Compare the active object's map set with the truth."""
+
+from pathlib import Path
+
+import bpy
+
+from ..rsibr_addon.tasks.bake_order import comparison_of
+from . import background
+from .reporting import reporting
+
+
+class RSIBR_OT_compare(bpy.types.Operator):
+    """Measure in the background how far the preview is from what Cycles shows, and open a page that tells"""  # noqa: D400  (a tooltip)
+
+    bl_idname = "rsibr.compare"
+    bl_label = "Compare"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Whether there is a map set."""
+        return context.object is not None and bool(context.object.rsibr.map_set)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Queue the comparison."""
+        with reporting(self):
+            item = context.object
+            background.submit(comparison_of(item, Path(bpy.path.abspath(item.rsibr.map_set))))
+            return {"FINISHED"}
+        return {"CANCELLED"}

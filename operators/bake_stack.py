@@ -36,7 +36,7 @@ class RSIBR_OT_bake_stack(bpy.types.Operator):
         items=[("dual_paraboloid", "Dual Paraboloid", ""), ("octahedral", "Octahedral", "")],
     )
     size: bpy.props.IntProperty(
-        name="Size", description="Width of a map in texels; 0 for what the lobes need", min=0, max=2048
+        name="Size", description="Width of a map in texels; 0 for what the lobes need", min=0, max=1024
     )
     half: bpy.props.BoolProperty(name="Half Floats", description="Half the space, 11 significant bits")
     force: bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")

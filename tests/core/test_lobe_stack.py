@@ -211,8 +211,8 @@ def test_too_narrow_lobes_are_refused_with_the_remedy() -> None:
     ("layout", "size", "complaint"),
     [
         ("sphere_map", 64, "cannot be laid out as sphere_map: choose one of dual_paraboloid, octahedral"),
-        ("octahedral", 1, "cannot be 1 texels wide: choose 2 to 2048"),
-        ("octahedral", 4096, "cannot be 4096 texels wide: choose 2 to 2048"),
+        ("octahedral", 1, "cannot be 1 texels wide: choose 2 to 1024"),
+        ("octahedral", 4096, "cannot be 4096 texels wide: choose 2 to 1024"),
     ],
 )
 def test_layouts_and_sizes_have_limits(layout: str, size: int, complaint: str) -> None:

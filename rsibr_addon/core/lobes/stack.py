@@ -11,8 +11,8 @@ from ..maps.representation import Representation, representation
 LAYOUTS = ("dual_paraboloid", "octahedral")
 """Map representations that a stack can be laid out in: continuous over the sphere, of square sheets."""
 
-LARGEST = 2048
-"""Width of the largest maps."""
+LARGEST = 1024
+"""Width of the largest maps: with a border, a 3D texture of every driver holds them."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,6 +10,7 @@ _CONVERGED = 1e-5
 _DAMPING = 1e-3
 _LARGEST_TURN = 0.3
 _FLATTEST = 1e-9
+_ENOUGH = 1e-4
 
 
 def descend(
@@ -25,8 +26,8 @@ def descend(
     with_taps : bool
         Whether the taps' weights move too.
     tie : float
-        Share of the error at the start that must be gained for every squared radian that an axis moves: axes
-        on which next to nothing depends stay where they are.
+        What must be gained for every squared radian that axes move, and every squared unit that taps do,
+        over the error at the start or, where that is less, `_ENOUGH`: what little depends on stays as it is.
 
     Returns
     -------
@@ -37,22 +38,20 @@ def descend(
     count = lookups.angles.size
     free = slice(None) if with_taps else slice(count)
     here, damping = projector.project(lookups), _DAMPING
-    start, price = lookups.angles, tie * here.objective
-    ties = np.diag(np.repeat([2.0 * price, 0.0], count))[free, free]
-
-    def paid(lookups: Lookups) -> float:
-        return price * float(np.sum((lookups.angles - start) ** 2))
+    start = lookups
+    price = tie * max(here.objective, _ENOUGH)
 
     for _ in range(_ITERATIONS):
-        gradient, hessian = here.gradient[free].copy(), here.hessian[free, free] + ties
-        gradient[:count] += 2.0 * price * (lookups.angles - start).ravel()
+        gradient = (here.gradient + 2.0 * price * _change(start, lookups))[free]
+        hessian = here.hessian[free, free] + 2.0 * price * np.eye(len(gradient))
         diagonal = np.maximum(hessian.diagonal(), _FLATTEST)
         for _ in range(_TRIALS):
             step = np.zeros(2 * count)
             step[free] = -np.linalg.solve(hessian + damping * np.diag(diagonal), gradient)
             moved = _moved(lookups, step, projector.non_negative)
             there = projector.project(moved)
-            gain = here.objective + paid(lookups) - there.objective - paid(moved)
+            paid = price * np.sum(_change(start, moved) ** 2 - _change(start, lookups) ** 2)
+            gain = here.objective - there.objective - paid
             if gain > 0.0:
                 break
             damping *= 10.0
@@ -62,6 +61,11 @@ def descend(
         if gain < _CONVERGED * here.objective:
             break
     return lookups, here
+
+
+def _change(start: Lookups, end: Lookups) -> Array:
+    """Of all angles, then of all taps."""
+    return np.concatenate([(end.angles - start.angles).ravel(), (end.taps - start.taps).ravel()])
 
 
 def _moved(lookups: Lookups, step: Array, non_negative: bool) -> Lookups:

@@ -1,14 +1,25 @@
 // Brings the previews of one frame to the display, at the depths that they were drawn at. What is
 // written here is encoded as sRGB on its way to the window, hence the curve undone.
 #include "lib/display_lib.glsl"
+#include "lib/false_colour_lib.glsl"
 #include "lib/transfer_curve_lib.glsl"
 
 // Eight steps of a depth in single precision beside 1: where Blender subdivides on the GPU, vertices
 // differ in their last bits from those that it hands out, and depths by up to six.
 const float DEPTH_TOLERANCE = 8.0 / 16777216.0;
 
+// The scale of differences: its corner beside the line, and its size, in pixels.
+const vec2 SCALE_PLACE = vec2(24.0, 24.0);
+const vec2 SCALE_SIZE = vec2(192.0, 12.0);
+
 void main()
 {
+  vec2 on_scale = (gl_FragCoord.xy - vec2(max(left, 0.0), 0.0) - SCALE_PLACE) / SCALE_SIZE;
+  if (full > 0.0 && on_scale == clamp(on_scale, 0.0, 1.0)) {
+    gl_FragDepth = 0.0;
+    colour = vec4(linear_from_srgb(heat(on_scale.x)), 1.0);
+    return;
+  }
   if (abs(gl_FragCoord.x - left) < 1.0 || abs(gl_FragCoord.x - right) < 1.0) {
     gl_FragDepth = 0.0;
     colour = vec4(1.0);
@@ -20,5 +31,10 @@ void main()
     discard;
   }
   gl_FragDepth = max(texelFetch(depths, pixel, 0).r - DEPTH_TOLERANCE, 0.0);
-  colour = vec4(linear_from_srgb(displayed(display, scale * seen.rgb)), 1.0);
+  vec3 shown = displayed(display, scale * seen.rgb);
+  if (full > 0.0) {
+    vec3 apart = abs(displayed(display, scale * texelFetch(others, pixel, 0).rgb) - shown);
+    shown = heat(max(apart.r, max(apart.g, apart.b)) / full);
+  }
+  colour = vec4(linear_from_srgb(shown), 1.0);
 }

@@ -154,7 +154,16 @@ class RSIBR_PG_view(bpy.types.PropertyGroup):
         items=[
             ("blender", "Blender's Shading", "What the viewport shows without previews"),
             ("other", "Another Look", "The same map sets, shaded in another way"),
+            ("difference", "Difference", "How far both looks are apart, from black over red to white"),
         ],
+    )
+    difference: bpy.props.FloatProperty(
+        name="Full Scale",
+        description="The difference that is white, as a part of what the display shows",
+        update=_redraw,
+        default=0.1,
+        min=0.001,
+        max=1.0,
     )
     line: bpy.props.FloatProperty(
         name="Line",

@@ -97,7 +97,12 @@ class Stage:
                 yield
 
     def show(
-        self, display: gpu.types.GPUTexture, scale: float, span: tuple[float, float], among_others: bool
+        self,
+        display: gpu.types.GPUTexture,
+        scale: float,
+        span: tuple[float, float],
+        among_others: bool,
+        difference: "tuple[Stage, float] | None" = None,
     ) -> None:
         """Bring what was drawn to the active frame buffer.
 
@@ -111,7 +116,11 @@ class Stage:
             The part of the width that is shown, from 0 to 1; lines mark where it begins and ends.
         among_others : bool
             Whether the frame buffer holds the depths of what else is to be seen.
+        difference : (Stage, float), optional
+            Instead of what was drawn, how far it is from what was drawn on another stage: the largest of the
+            channels' differences on the display, as heat, white at that number; with a scale.
         """
+        others, full = difference or (self, 0.0)
         shader = composite_shader()
         shader.bind()
         x, _, width, _ = gpu.state.active_framebuffer_get().viewport_get()
@@ -121,7 +130,9 @@ class Stage:
         shader.uniform_float("right", x + right * width if right < 1.0 else np.inf)
         shader.uniform_sampler("previews", self._radiance)
         shader.uniform_sampler("depths", self._depth)
+        shader.uniform_float("full", full)
         shader.uniform_sampler("display", display)
+        shader.uniform_sampler("others", others._radiance)
         with _depth_test("LESS_EQUAL" if among_others else "ALWAYS"):
             self._screen.draw(shader)
 

@@ -48,11 +48,14 @@ class Side:
         Whether objects show their other look.
     left, right : float
         Where it begins and ends, as parts of the width.
+    difference : float
+        Where it is not 0, the difference of both looks is shown, as bright as can be at that number.
     """
 
     other: bool
     left: float
     right: float
+    difference: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -91,8 +94,9 @@ class View:
         if not settings.split:
             return (Side(other=False, left=0.0, right=1.0),)
         first = Side(other=False, left=0.0, right=settings.line)
-        second = Side(other=True, left=settings.line, right=1.0)
-        return (first, second) if settings.beyond == "other" else (first,)
+        difference = settings.difference if settings.beyond == "difference" else 0.0
+        second = Side(other=True, left=settings.line, right=1.0, difference=difference)
+        return (first,) if settings.beyond == "blender" else (first, second)
 
     def light_of(self, item: bpy.types.Object) -> WorldLight:
         """What the world makes of the environment of an object's map set: nothing, unless it is followed."""

@@ -16,7 +16,7 @@ from ..device.drawing import OnDevice, mesh_batch
 from ..device.viewport import Stage, current_sight, draw_occluder
 from ..host.display import Display, display_of, displayed_colours, scale_before_display
 from ..host.meshes import mesh_from_object
-from ..host.viewport import Layer, Side, Surface, View, is_wanted, map_set_of, shown_layers, surfaces
+from ..host.viewport import Layer, Surface, View, is_wanted, map_set_of, shown_layers, surfaces
 from ..host.world_light import AS_IT_IS
 from .kinds import KINDS, open_map_set
 
@@ -67,7 +67,7 @@ class Previews:
 
     def release(self) -> None:
         """Let go of everything: the file is closed, or the extension leaves."""
-        self._stage = Stage()
+        self._stage, self._other_stage = Stage(), Stage()
         self._contents: dict[Layer, _Contents] = {}
         self._meshes: dict[int, Any] = {}
         self._map_sets: dict[str, _MapSet] = {}
@@ -144,14 +144,23 @@ class Previews:
             return False
         hidden_by = [each for each in contents.others or () if _is_seen(each, view)]
         for side, (strength, group) in product(view.sides, _by_strength(seen, view).items()):
-            with self._stage.drawing():
-                if not view.has_depth:
-                    self._hide(hidden_by + [each.surface for each in seen if each not in group])
-                for each in group:
-                    self._draw_one(each, view, side)
+            behind = [] if view.has_depth else hidden_by + [each.surface for each in seen if each not in group]
+            self._set(self._stage, behind, group, view, side.other)
+            difference = (self._other_stage, side.difference) if side.difference else None
+            if difference:
+                self._set(self._other_stage, behind, group, view, not side.other)
             scale = strength * scale_before_display(view.scene)
-            self._stage.show(display, scale, (side.left, side.right), among_others=view.has_depth)
+            self._stage.show(display, scale, (side.left, side.right), view.has_depth, difference)
         return True
+
+    def _set(
+        self, stage: Stage, behind: list[Surface], group: list[_Preview], view: View, other: bool
+    ) -> None:
+        """Draw previews, in their first or their other look, onto a stage."""
+        with stage.drawing():
+            self._hide(behind)
+            for each in group:
+                self._draw_one(each, view, other)
 
     def _hide(self, behind: list[Surface]) -> None:
         """Let surfaces hide what is drawn after them."""
@@ -211,10 +220,10 @@ class Previews:
                 self._map_sets[preview.path] = _MapSet(opened.kind, opened.upload())
         return preview.path in self._map_sets
 
-    def _draw_one(self, preview: _Preview, view: View, side: Side) -> None:
+    def _draw_one(self, preview: _Preview, view: View, other: bool) -> None:
         map_set, surface = self._map_sets[preview.path], preview.surface
         with self._faults_noted(surface.item):
-            looks = surface.item.rsibr.other if side.other else surface.item.rsibr
+            looks = surface.item.rsibr.other if other else surface.item.rsibr
             look = KINDS[map_set.kind].look(**_look_settings(looks, map_set.kind))
             placed = current_sight().on(surface.matrix, view.light_of(surface.item).turn)
             map_set.on_device.draw(self._meshes[surface.mesh], placed, look)

@@ -53,7 +53,9 @@ class RSIBR_PT_preview(bpy.types.Panel):
         row.operator("rsibr.drag_split", text="", icon="ARROW_LEFTRIGHT")
         if view.split:
             layout.prop(view, "beyond")
-        if view.split and view.beyond == "other":
+        if view.split and view.beyond == "difference":
+            layout.prop(view, "difference")
+        if view.split and view.beyond != "blender":
             _show_look(layout, getattr(item.rsibr.other, kind, None))
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.display import TABLE_SIZE, displayed, node_from_radiance, node_radiance
+from rsibr.rsibr_addon.core.false_colour import heat
 from rsibr.rsibr_addon.core.transfer_curve import linear_from_srgb
 from rsibr.rsibr_addon.device import buffers
 from rsibr.tests.glsl.evaluation import Samplers
@@ -45,6 +46,13 @@ TWINS = {
         # The node's error times the steepest slope: 1/16 a node, along each of three axes.
         3.0 / 16.0 * (5.0 * 4.0 * 16.0 + 128.0) * ULP + 8.0 * ULP,
         samplers=samplers,
+    ),
+    "heat": Twin(
+        "false_colour_lib.glsl",
+        "result_0.rgb = heat(in_0.x);",
+        lambda: [single(np.random.default_rng(4).uniform(-0.5, 1.5, (COUNT, 1)))],
+        lambda number: heat(number[:, 0]),
+        16.0 * ULP,
     ),
     "linear_from_srgb": Twin(
         "transfer_curve_lib.glsl",

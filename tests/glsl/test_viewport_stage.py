@@ -9,6 +9,7 @@ import pytest
 from mathutils import Matrix
 from rsibr.rsibr_addon.core.camera import Camera
 from rsibr.rsibr_addon.core.display import TABLE_SIZE, displayed
+from rsibr.rsibr_addon.core.false_colour import heat
 from rsibr.rsibr_addon.core.shading.radiance_views import ViewsLook, views_fragment
 from rsibr.rsibr_addon.core.transfer_curve import linear_from_srgb
 from rsibr.rsibr_addon.device import buffers
@@ -132,3 +133,27 @@ def test_the_state_is_as_before() -> None:
         stage.show(buffers.table_texture(table()), 1.0, (0.0, 1.0), among_others=True)
         assert (gpu.state.depth_test_get(), gpu.state.depth_mask_get(), gpu.state.blend_get()) == state
         assert not buffers.pixels(target, SIZE).any()
+
+
+def test_a_difference_is_that_on_the_display() -> None:
+    normal, view_dir = visible_points(CAMERA, SIZE, radius=0.9)
+    straight, turned = (
+        displayed(table(), views_fragment(VIEWS, normal @ turn.T, view_dir @ turn.T, LOOK.warping))
+        for turn in (STRAIGHT, QUARTER)
+    )
+    with screen() as target:
+        first, second, sight, subject = Stage(), Stage(), current_sight(), RadianceViewsOnDevice(VIEWS)
+        for stage, turn in ((first, STRAIGHT), (second, QUARTER)):
+            with stage.drawing():
+                subject.draw(mesh_batch(*sphere()), sight.on(np.eye(4), turn), LOOK)
+        first.show(buffers.table_texture(table()), 1.0, (0.0, 1.0), True, (second, 0.25))
+        picture = buffers.pixels(target, SIZE)
+    _, inside = expected(STRAIGHT, 1.0)
+    # The scale lies over the lower part.
+    free = np.arange(SIZE)[:, None] > 40
+    apart = np.abs(straight - turned).max(axis=-1) / 0.25
+    assert apart.max() > 0.5
+    colours = linear_from_srgb(heat(apart))[(inside & free)[inside]]
+    # Twice the error of colours, 0.003 before the curve, times 3 / 0.25 for the heat, times the curve's 2.3
+    error = np.abs(picture[inside & free, :3] - colours)
+    assert error.max() < 2.0 * 0.003 * 12.0 * 2.3

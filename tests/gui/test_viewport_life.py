@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 from rsibr.tests.flat_capture import write_flat_capture
 
@@ -247,6 +248,12 @@ def scenario(told):
     told["looks"] = looks[-2:]
     shown = like(pixels(), (188, 0, 188))
     told["missing"] = int((whole & ~shown).any(axis=0).sum())
+    # How far both are apart: not at all, so black, above a scale that ends white
+    settings.beyond = "difference"
+    yield from drawn()
+    picture, line = pixels(), round(settings.line * part.width)
+    told["difference"] = int(picture[whole & (np.arange(part.width) > line + 2)].max())
+    told["scale"] = picture[30, [line + 25, line + 24 + 64, line + 24 + 128, line + 24 + 190]].tolist()
 """
 
 
@@ -262,6 +269,12 @@ def test_a_line_parts_previews_from_blender_s_shading(told: Told) -> None:
     assert answer["looks"] == ["fragment", "paper"]
     # Columns of the line, of which each side draws its two
     assert 2 <= answer["missing"] <= 4
+    assert answer["difference"] <= 9  # black, as Mesa encodes it
+    black, red, yellow, white = np.array(answer["scale"])
+    assert black.max() < 30
+    np.testing.assert_allclose(red, (255, 0, 0), atol=15)
+    np.testing.assert_allclose(yellow, (255, 255, 0), atol=15)
+    assert white.min() > 240
 
 
 RENDER = """

@@ -144,7 +144,9 @@ class Previews:
             return False
         hidden_by = [each for each in contents.others or () if _is_seen(each, view)]
         for side, (strength, group) in product(view.sides, _by_strength(seen, view).items()):
-            behind = [] if view.has_depth else hidden_by + [each.surface for each in seen if each not in group]
+            behind = (
+                [] if view.has_depth else hidden_by + [each.surface for each in seen if each not in group]
+            )
             self._set(self._stage, behind, group, view, side.other)
             difference = (self._other_stage, side.difference) if side.difference else None
             if difference:

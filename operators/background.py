@@ -39,8 +39,7 @@ def look() -> None:
         bake.tidy()
         if bake.output.suffix == ".html":
             _open(bake)
-        # Another Blender may have made the same file meanwhile, so that ours was refused.
-        elif bake.state is not State.CANCELLED and is_baked(bake.output) and assign(bake.item, bake.output):
+        elif _is_made(bake) and assign(bake.item, bake.output):
             _push_undo("Assign Map Set")
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
@@ -53,6 +52,11 @@ def look() -> None:
 def _look() -> float | None:
     look()
     return SECONDS if queue.busy else None
+
+
+def _is_made(bake: ObjectBake) -> bool:
+    """Whether its file is there: it may have failed because another Blender was making the same."""
+    return bake.state is State.DONE or (bake.state is State.FAILED and is_baked(bake.output))
 
 
 def _open(page: ObjectBake) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..core.errors import MapSetError, SceneError
-from ..files.map_set import read_map_set_header
+from ..files.map_set import read_map_set, read_map_set_header
 from ..host.bake_settings import (
     EXTENSION,
     baked_folder,
@@ -157,9 +157,9 @@ def output_for(order: Order, scene: Any, item: Any) -> Path:
 
 
 def is_baked(output: Path) -> bool:
-    """Whether a file is there, and a map set."""
+    """Whether a file is there, and a map set that is whole."""
     try:
-        read_map_set_header(output)
+        read_map_set(output)
     except MapSetError:
         return False
     return True

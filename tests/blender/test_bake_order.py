@@ -173,7 +173,8 @@ def test_what_was_baked_before_is_taken_at_once() -> None:
     assert bpy.ops.rsibr.bake() == {"FINISHED"}
     assert Path(cube.rsibr.map_set) == path
     cube.rsibr.map_set = ""
-    path.write_bytes(b"damaged")
+    whole = path.read_bytes()
+    path.write_bytes(whole[:-9] + bytes(9))
     assert not is_baked(path)
     with pytest.raises(RuntimeError, match="There is no Blender to bake in"):
         bpy.ops.rsibr.bake()
@@ -245,3 +246,14 @@ def test_the_original_counts_as_open(tmp_path: Path, monkeypatch: pytest.MonkeyP
     bpy.ops.wm.save_as_mainfile(filepath=str(copy))
     monkeypatch.setenv(ORIGINAL, str(original))
     assert load_material(f"{original}:Changed") == bpy.data.materials["Changed"]
+
+
+def test_a_linked_object_is_not_baked_for(tmp_path: Path) -> None:
+    library = tmp_path / "library.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(library))
+    bpy.ops.wm.read_homefile(use_empty=True)
+    with bpy.data.libraries.load(str(library), link=True) as (_, wanted):
+        wanted.objects = ["Cube"]
+    (cube,) = wanted.objects
+    with pytest.raises(SceneError, match="Object Cube is of another file: make it local, or an override"):
+        order_for(bpy.context.scene, cube)

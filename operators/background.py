@@ -27,7 +27,8 @@ def start(undo: ExitStack) -> None:
 
 
 def submit(bake: ObjectBake) -> None:
-    """Start a bake, or have it wait for those before it."""
+    """Start a bake, or have it wait for those before it; what has ended is put away."""
+    queue.forget_ended()
     queue.add(bake)
     if not bpy.app.timers.is_registered(_look):
         bpy.app.timers.register(_look, first_interval=SECONDS, persistent=True)
@@ -39,7 +40,9 @@ def look() -> None:
         bake.tidy()
         if bake.output.suffix == ".html":
             _open(bake)
-        elif _is_made(bake) and assign(bake.item, bake.output):
+        elif _is_made(bake):
+            for item in bake.items:
+                assign(item, bake.output)
             _push_undo("Assign Map Set")
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:

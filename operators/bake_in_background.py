@@ -31,11 +31,12 @@ class RSIBR_OT_bake(bpy.types.Operator):
         with reporting(self):
             order = order_for(context.scene, context.object)
             output = output_for(order, context.scene, context.object)
-            if is_baked(output):
+            if (unfinished := background.queue.unfinished(output)) is not None:
+                unfinished.items.append(context.object.session_uid)
+                self.report({"INFO"}, f"Being baked already: {output.name}")
+            elif is_baked(output):
                 assign(context.object.session_uid, output)
                 self.report({"INFO"}, f"Baked before: {output.name}")
-            elif background.queue.is_baking(output):
-                self.report({"INFO"}, f"Being baked already: {output.name}")
             else:
                 background.submit(bake_of(order, context.object, output))
             return {"FINISHED"}

@@ -226,9 +226,9 @@ class BakeQueue:
             active[0].start()
         return [bake for bake in running if bake.ended]
 
-    def is_baking(self, output: Path) -> bool:
-        """Whether a bake of this file runs or waits."""
-        return any(bake.output == output and not bake.ended for bake in self.bakes)
+    def unfinished(self, output: Path) -> Bake | None:
+        """The bake that will write a file; None where none runs or waits."""
+        return next((bake for bake in self.bakes if bake.output == output and not bake.ended), None)
 
     @property
     def busy(self) -> bool:

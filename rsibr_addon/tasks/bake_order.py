@@ -78,17 +78,17 @@ class Order:
 
 @dataclass
 class ObjectBake(Bake):
-    """A bake for an object.
+    """A bake for objects.
 
     Attributes
     ----------
-    item : int
-        The object's `session_uid`.
+    items : list of int
+        The objects' `session_uid`.
     folder : TemporaryDirectory
         Holds what the bake reads.
     """
 
-    item: int = 0
+    items: list[int] = field(default_factory=list)
     folder: tempfile.TemporaryDirectory[str] | None = field(default=None, repr=False)
 
     def tidy(self) -> None:
@@ -238,7 +238,7 @@ def _in_background(title: str, job: BakeJob, item: Any, output: Path, needs_file
         output=output,
         command=blender_command(program, EXTENSION, blend, path),
         variables={ORIGINAL: open_file()},
-        item=item.session_uid,
+        items=[item.session_uid],
         folder=folder,
     )
 

@@ -43,11 +43,13 @@ def test_one_after_another() -> None:
     queue.add(first)
     queue.add(second)
     assert (first.state, second.state) == (State.RUNNING, State.WAITING)
+    assert queue.unfinished(first.output) is first
     assert wait(queue, lambda: not queue.busy) == [first, second]
     assert first.state is second.state is State.DONE
     assert first.fraction == 0.25
     assert first.progress == Progress(1, 4, "view 2")
     assert first.warnings == ["dark"]
+    assert queue.unfinished(first.output) is None
     queue.forget_ended()
     assert queue.bakes == []
 

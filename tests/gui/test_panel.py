@@ -156,7 +156,7 @@ def scenario(told):
     told["without a world"] = bpy.ops.rsibr.bake.poll()
     bpy.context.scene.rsibr_bake.light = "STUDIO"
     bake()
-    gone = background.queue.bakes[1]
+    gone = background.queue.bakes[0]
     bpy.data.objects.remove(cube)
     yield from done()
     told["object gone"] = str(gone.state), gone.message

@@ -104,8 +104,8 @@ def test_where_surfaces_meet(told: Told) -> None:
     blenders, ours, differing = told(PRELUDE + CUT)["cut by another"]
     assert blenders > 2000
     # Where another surface is nearer by less than eight steps of depth, 3 mm here, ours wins: part of
-    # the pixels along a seam that is some hundred pixels long.
-    assert 0 <= ours - blenders == differing <= 20
+    # the pixels along a seam that is some hundred pixels long. 16 were seen.
+    assert 0 <= ours - blenders == differing <= 40
 
 
 def check_exact(answer: dict[str, list[int]]) -> None:

@@ -21,6 +21,8 @@ class Stepwise:
     """
 
     interrupted: str
+    _asks = False
+    _steps: Steps[Any] | None = None
 
     def work(self, context: bpy.types.Context) -> Steps[Any]:
         """The work, from the operator's properties; may raise our errors at once."""
@@ -31,7 +33,9 @@ class Stepwise:
         raise NotImplementedError
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Work at a stretch."""
+        """Work at a stretch; or, when the file has been asked for, step by step."""
+        if self._asks:
+            return self._start(context)
         with reporting(self):
             self.finish(drain(self.work(context)))
             return {"FINISHED"}
@@ -39,15 +43,11 @@ class Stepwise:
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Ask for a file, or take one step per tick of a timer when it is given."""
-        if not self.filepath:
-            context.window_manager.fileselect_add(self)
-            return {"RUNNING_MODAL"}
-        with reporting(self):
-            self._steps = self.work(context)
-            self._timer = context.window_manager.event_timer_add(0.01, window=context.window)
-            context.window_manager.modal_handler_add(self)
-            return {"RUNNING_MODAL"}
-        return {"CANCELLED"}
+        if self.filepath:
+            return self._start(context)
+        self._asks = True
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Take a step; Escape ends the work."""
@@ -67,10 +67,20 @@ class Stepwise:
         return result
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """Stop; Blender calls this too, when it closes the window or the file."""
+        """Stop; Blender calls this too, when it closes the window or the file, or no file is chosen."""
+        if self._steps is None:
+            return
         self._steps.close()
         context.window_manager.event_timer_remove(self._timer)
         context.workspace.status_text_set(None)
+
+    def _start(self, context: bpy.types.Context) -> set[str]:
+        with reporting(self):
+            self._steps = self.work(context)
+            self._timer = context.window_manager.event_timer_add(0.01, window=context.window)
+            context.window_manager.modal_handler_add(self)
+            return {"RUNNING_MODAL"}
+        return {"CANCELLED"}
 
     def _step(self, context: bpy.types.Context) -> set[str]:
         try:

@@ -2,10 +2,12 @@
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from ..files.exposure_times import exposure_time, read_times
-from ..tasks.brackets import BracketSettings, Curve
 from .options import add_output, positive
+
+if TYPE_CHECKING:  # for the help alone, neither numpy nor Blender is to be loaded
+    from ..tasks.brackets import BracketSettings
 
 
 def add_environment_output(parser: argparse.ArgumentParser) -> None:
@@ -33,8 +35,8 @@ def add_bracket(parser: argparse.ArgumentParser, description: str) -> None:
     times.add_argument("--times-file", metavar="FILE", type=Path, help="a text file with the exposure times")
     parser.add_argument(
         "--curve",
-        choices=[curve.value for curve in Curve],
-        default=Curve.RECOVERED.value,
+        choices=["recovered", "srgb", "linear"],
+        default="recovered",
         help="how the camera encodes light: found from the photographs, or known (default: %(default)s); "
         "OpenEXR and Radiance HDR are linear",
     )
@@ -43,7 +45,7 @@ def add_bracket(parser: argparse.ArgumentParser, description: str) -> None:
     )
 
 
-def bracket_settings(arguments: argparse.Namespace) -> BracketSettings:
+def bracket_settings(arguments: argparse.Namespace) -> "BracketSettings":
     """The bracket that `add_bracket` declared.
 
     Raises
@@ -51,6 +53,9 @@ def bracket_settings(arguments: argparse.Namespace) -> BracketSettings:
     InputFileError, RangeError
         See `read_times` and `BracketSettings`.
     """
+    from ..files.exposure_times import read_times
+    from ..tasks.brackets import BracketSettings, Curve
+
     times = arguments.times
     if arguments.times_file is not None:
         times = read_times(arguments.times_file)
@@ -59,6 +64,8 @@ def bracket_settings(arguments: argparse.Namespace) -> BracketSettings:
 
 def exposure_times(text: str) -> tuple[float, ...]:
     """Exposure times, T,T,...: 1/125 or 0.5."""
+    from ..files.exposure_times import exposure_time
+
     try:
         return tuple(exposure_time(part) for part in text.split(","))
     except ValueError:

@@ -104,6 +104,31 @@ class RSIBR_PG_mip_chain(bpy.types.PropertyGroup):
     )
 
 
+class RSIBR_PG_live(bpy.types.PropertyGroup):
+    """Light rendered around the object while one looks."""
+
+    on: bpy.props.BoolProperty(
+        name="Live Light",
+        description="Shade the object from its surroundings as the viewport shows them, without a map set",
+        update=_notice,
+    )
+    size: bpy.props.EnumProperty(
+        name="Size",
+        description="Of each of the six faces, in pixels",
+        update=_notice,
+        items=[(str(size), str(size), "") for size in (32, 64, 128, 256)],
+        default="64",
+    )
+    faces: bpy.props.IntProperty(
+        name="Faces per Frame",
+        description="How many of the six a frame may render after a change",
+        update=_notice,
+        default=6,
+        min=1,
+        max=6,
+    )
+
+
 class RSIBR_PG_looks(bpy.types.PropertyGroup):
     """How an object is shaded, for each kind of map set."""
 
@@ -134,6 +159,7 @@ class RSIBR_PG_preview(bpy.types.PropertyGroup):
     radiance_views: bpy.props.PointerProperty(type=RSIBR_PG_radiance_views)
     reflection_tables: bpy.props.PointerProperty(type=RSIBR_PG_reflection_tables)
     mip_chain: bpy.props.PointerProperty(type=RSIBR_PG_mip_chain)
+    live: bpy.props.PointerProperty(type=RSIBR_PG_live)
 
 
 def _redraw(group: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
@@ -180,6 +206,7 @@ CLASSES = (
     RSIBR_PG_radiance_views,
     RSIBR_PG_reflection_tables,
     RSIBR_PG_mip_chain,
+    RSIBR_PG_live,
     RSIBR_PG_looks,
     RSIBR_PG_preview,
     RSIBR_PG_view,

@@ -17,6 +17,15 @@ from .mips.texture_space import filtered_mips
 
 FACE_COUNT = 6
 
+FLATNESS = 1e-4
+"""Of an object's reach: vertices that are no deeper below its outermost make a flat side."""
+
+LARGEST_TIP = 0.05
+"""Of an object's reach: outermost vertices that lie closer together are a tip, not a side."""
+
+TIP_SHOWN = 1e-5
+"""Of an object's reach: what of a round object is seen from its middle is a cap of a quarter degree."""
+
 _CUBE = representation("cube_map")
 
 
@@ -139,3 +148,46 @@ def face_projection(near: float, far: float) -> Array:
             [0.0, 0.0, -1.0, 0.0],
         ]
     )
+
+
+def near_distances(points: Array) -> Array:
+    """How far from an object's middle what surrounds it begins, on each face.
+
+    Parameters
+    ----------
+    points : ndarray, shape (n, 3)
+        The object's vertices, relative to the middle of their bounding box; world axes.
+
+    Returns
+    -------
+    ndarray, shape (6,), float64
+        So that the object itself is cut off. On a side that is flat, just beyond it. On others just
+        before the outermost point, so that a floor which the object touches is seen.
+    """
+    near = np.empty(FACE_COUNT)
+    for face, (s, t, forward) in enumerate(cube_map.FACES):
+        depth = points @ forward
+        reach = depth.max()
+        outermost = points[depth >= reach * (1.0 - FLATNESS)] @ np.array([s, t]).T
+        is_flat = np.ptp(outermost, axis=0).max() > LARGEST_TIP * reach
+        near[face] = reach * (1.0 + FLATNESS if is_flat else 1.0 - TIP_SHOWN)
+    return near
+
+
+def faces_due(due: int, next_face: int, budget: int) -> tuple[int, ...]:
+    """The faces that a frame renders: in turn, as many as are due and as the budget allows.
+
+    Parameters
+    ----------
+    due : int
+        How many faces are older than the scene.
+    next_face : int
+        The oldest of them.
+    budget : int
+        How many a frame may render.
+
+    Returns
+    -------
+    tuple of int
+    """
+    return tuple((next_face + number) % FACE_COUNT for number in range(min(due, budget)))

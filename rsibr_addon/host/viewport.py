@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from ..core.conventions import Array
+from .live_light import live_name
 from .world_light import AS_IT_IS, WorldLight, world_light
 
 UNSHADED = ("WIRE", "BOUNDS")
@@ -100,7 +101,8 @@ class View:
 
     def light_of(self, item: bpy.types.Object) -> WorldLight:
         """What the world makes of the environment of an object's map set: nothing, unless it is followed."""
-        followed = world_light(self.scene.world) if item.rsibr.follow_world else None
+        follows = item.rsibr.follow_world and not item.rsibr.live.on
+        followed = world_light(self.scene.world) if follows else None
         return followed or AS_IT_IS
 
 
@@ -118,8 +120,13 @@ def shown_layers() -> set[Layer]:
 
 
 def map_set_of(item: bpy.types.Object) -> str:
-    """Path of the file that is to shade an object; empty for none, also when it is not to be shown."""
+    """Path of the file that is to shade an object; empty for none, also when it is not to be shown.
+
+    In live light, `live_light.live_name` instead.
+    """
     settings = item.rsibr
+    if settings.show and settings.live.on:
+        return live_name(item)
     if not (settings.map_set and settings.show):
         return ""
     return bpy.path.abspath(settings.map_set, library=item.library)

@@ -15,10 +15,12 @@ from ..device import buffers
 from ..device.drawing import OnDevice, mesh_batch
 from ..device.viewport import Stage, current_sight, draw_occluder
 from ..host.display import Display, display_of, displayed_colours, scale_before_display
+from ..host.live_light import is_live_name, shows_surroundings
 from ..host.meshes import mesh_from_object
 from ..host.viewport import Layer, Surface, View, is_wanted, map_set_of, shown_layers, surfaces
 from ..host.world_light import AS_IT_IS
 from .kinds import KINDS, open_map_set
+from .live_light import LiveLight
 
 DISPLAYS_KEPT = 4
 """Tables of 7 MB each, so that one can switch between view transforms."""
@@ -71,6 +73,7 @@ class Previews:
         self._contents: dict[Layer, _Contents] = {}
         self._meshes: dict[int, Any] = {}
         self._map_sets: dict[str, _MapSet] = {}
+        self._live: dict[str, LiveLight] = {}
         self._displays: dict[Display, Any] = {}
         self._learnt: dict[Display, Array] = {}
         self._faults: dict[int, _Fault] = {}
@@ -80,14 +83,18 @@ class Previews:
         """Look at each scene anew when it is drawn next; what is the same stays uploaded."""
         for contents in self._contents.values():
             contents.changed = True
+        for light in self._live.values():
+            light.scene_changed()
 
     def data_replaced(self) -> None:
         """Forget Blender's data: after an undo, they are others."""
+        self.scene_changed()
         self._contents.clear()
 
     def reload(self) -> None:
         """Read the map sets' files anew, and try again what failed."""
         self._map_sets.clear()
+        self._live.clear()
         self._faults.clear()
         self.trouble = None
 
@@ -121,6 +128,30 @@ class Previews:
         except Exception as error:
             self.trouble = _told(error)
             return True
+
+    def render_surroundings(self, view: View) -> bool:
+        """Render the light around objects that are in live light, as far as the scene has changed.
+
+        Parameters
+        ----------
+        view : View
+            That whose pixels Blender is drawing.
+
+        Returns
+        -------
+        bool
+            Whether any light has changed, and what shows it has to be drawn again.
+        """
+        if self.trouble or not (self._live and shows_surroundings(view.space)):
+            return False
+        changed = False
+        try:
+            for name, surface in self._in_live_light(view).items():
+                with self._faults_noted(surface.item):
+                    changed |= self._live[name].render(view, surface)
+        except Exception as error:
+            self.trouble = _told(error)
+        return changed
 
     def add_display(self, scene: Any) -> None:
         """Learn how a scene shows radiance; not while a view is being drawn, as data come and go for it.
@@ -181,6 +212,7 @@ class Previews:
         """Find what a view layer shows, and upload the meshes that are new."""
         contents = _Contents([], None if view.has_depth else [])
         if not is_wanted():
+            self._faults.clear()
             return contents
         for surface, evaluated in surfaces(view.depsgraph):
             path = map_set_of(surface.item)
@@ -208,6 +240,16 @@ class Previews:
         paths = {each.path for each in previews}
         self._meshes = {key: mesh for key, mesh in self._meshes.items() if key in meshes}
         self._map_sets = {path: map_set for path, map_set in self._map_sets.items() if path in paths}
+        self._live = {name: light for name, light in self._live.items() if name in paths}
+
+    def _in_live_light(self, view: View) -> dict[str, Surface]:
+        """The first of the surfaces in each light; instances share their object's."""
+        contents = self._contents.get(view.layer)
+        found: dict[str, Surface] = {}
+        for each in contents.previews if contents else ():
+            if each.path in self._live and _is_seen(each.surface, view):
+                found.setdefault(each.path, each.surface)
+        return found
 
     def _is_ready(self, preview: _Preview) -> bool:
         """Whether an object can be drawn: its map set is uploaded, and nothing has gone wrong."""
@@ -218,9 +260,16 @@ class Previews:
         self._faults.pop(item.session_uid, None)
         if preview.path not in self._map_sets:
             with self._faults_noted(item):
-                opened = open_map_set(Path(preview.path))
-                self._map_sets[preview.path] = _MapSet(opened.kind, opened.upload())
-        return preview.path in self._map_sets
+                self._map_sets[preview.path] = self._opened(preview)
+        light = self._live.get(preview.path)
+        return preview.path in self._map_sets and (light is None or light.is_ready)
+
+    def _opened(self, preview: _Preview) -> _MapSet:
+        if is_live_name(preview.path):
+            light = self._live[preview.path] = LiveLight(int(preview.surface.item.rsibr.live.size))
+            return _MapSet("mip_chain", light.on_device)
+        opened = open_map_set(Path(preview.path))
+        return _MapSet(opened.kind, opened.upload())
 
     def _draw_one(self, preview: _Preview, view: View, other: bool) -> None:
         map_set, surface = self._map_sets[preview.path], preview.surface

@@ -3,6 +3,7 @@
 from . import bake_properties
 from .bake_panel import RSIBR_PT_bake
 from .environment_panel import RSIBR_PT_environment
+from .live_panel import RSIBR_PT_live
 from .material_panel import RSIBR_MT_models, RSIBR_PT_material
 from .method_panel import RSIBR_PT_method
 from .panel import RSIBR_PT_preview
@@ -18,6 +19,7 @@ CLASSES: tuple[type, ...] = (
     RSIBR_PT_method,
     RSIBR_PT_bake,
     RSIBR_PT_preview,
+    RSIBR_PT_live,
     RSIBR_PT_result,
 )
 """Every class, in the order of registration, which is that of the panels."""

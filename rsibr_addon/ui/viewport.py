@@ -26,9 +26,10 @@ def start(undo: ExitStack) -> None:
         return
     undo.callback(release_programs)
     undo.callback(previews.release)
-    handle = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW")
-    undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handle, "WINDOW")
-    undo.callback(_stop_timer)
+    for function, when in ((_draw, "POST_VIEW"), (_render_surroundings, "POST_PIXEL")):
+        handle = bpy.types.SpaceView3D.draw_handler_add(function, (), "WINDOW", when)
+        undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handle, "WINDOW")
+    undo.callback(_stop_timers)
     for name, function in _HANDLERS.items():
         handlers = getattr(bpy.app.handlers, name)
         handlers.append(function)
@@ -40,23 +41,32 @@ def _draw() -> None:
         bpy.app.timers.register(_add_displays, first_interval=0.0)
 
 
+def _render_surroundings() -> None:
+    """Blender renders no view while it draws another, but when it comes to what lies over it."""
+    if previews.render_surroundings(current_view()) and not bpy.app.timers.is_registered(_draw_again):
+        bpy.app.timers.register(_draw_again, first_interval=0.0)
+
+
+def _draw_again() -> None:
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
+
+
 def _add_displays() -> float | None:
     """Learn how the scenes in the windows show radiance, and have them drawn again."""
     if bpy.app.is_job_running("RENDER"):
         return RETRY_SECONDS
-    windows = bpy.context.window_manager.windows
-    for scene in {window.scene for window in windows}:
+    for scene in {window.scene for window in bpy.context.window_manager.windows}:
         previews.add_display(scene)
-    for window in windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
+    _draw_again()
     return None
 
 
-def _stop_timer() -> None:
-    if bpy.app.timers.is_registered(_add_displays):
-        bpy.app.timers.unregister(_add_displays)
+def _stop_timers() -> None:
+    for timer in filter(bpy.app.timers.is_registered, (_add_displays, _draw_again)):
+        bpy.app.timers.unregister(timer)
 
 
 @persistent

@@ -8,7 +8,9 @@ from rsibr.rsibr_addon.core.live_environment import (
     chain_of_faces,
     face_projection,
     face_view,
+    faces_due,
     harmonics_of_faces,
+    near_distances,
     solid_angle_texels,
 )
 from rsibr.rsibr_addon.core.maps import cube_map
@@ -83,3 +85,31 @@ def test_a_view_is_a_rotation(face: int) -> None:
     rotation = face_view(face, (1.0, 2.0, 3.0))[:3, :3]
     np.testing.assert_array_equal(rotation @ rotation.T, np.eye(3))
     assert np.linalg.det(rotation) == pytest.approx(1.0)
+
+
+def test_an_object_is_cut_off_and_its_floor_is_not() -> None:
+    half = np.array([1.0, 2.0, 3.0])
+    corners = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * half
+    assert np.all(near_distances(corners) > np.repeat(half, 2))
+    np.testing.assert_allclose(near_distances(corners), np.repeat(half, 2), rtol=2e-3)
+    polar, azimuth = np.meshgrid(np.linspace(0.0, np.pi, 257), np.linspace(0.0, 2.0 * np.pi, 513))
+    ring = np.sin(polar)
+    sphere = np.stack([ring * np.cos(azimuth), ring * np.sin(azimuth), np.cos(polar)], axis=-1).reshape(-1, 3)
+    near = near_distances(sphere)
+    assert np.all(near < 1.0)
+    # What sticks out spans less than half a texel of a face of 128: two right angles over 256.
+    assert np.all(np.arccos(near) < np.pi / 2.0 / 256.0)
+
+
+def test_a_cone_is_flat_below_and_a_tip_above() -> None:
+    angle = np.linspace(0.0, 2.0 * np.pi, 64, endpoint=False)
+    base = np.stack([np.cos(angle), np.sin(angle), np.full_like(angle, -1.0)], axis=-1)
+    near = near_distances(np.concatenate([base, [(0.0, 0.0, 1.0)]]))
+    assert near[4] < 1.0 < near[5]
+
+
+def test_faces_take_turns() -> None:
+    assert faces_due(6, 0, 6) == (0, 1, 2, 3, 4, 5)
+    assert faces_due(6, 4, 3) == (4, 5, 0)
+    assert faces_due(1, 2, 3) == (2,)
+    assert faces_due(0, 2, 3) == ()

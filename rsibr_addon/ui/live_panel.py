@@ -1,0 +1,24 @@
+"""Live light, below what shades the active object."""
+
+import bpy
+
+
+class RSIBR_PT_live(bpy.types.Panel):
+    """Shade the active object from its surroundings, as the viewport shows them"""  # noqa: D400  (a tooltip)
+
+    bl_label = "Live Light"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "RSIBR"
+    bl_parent_id = "RSIBR_PT_preview"
+    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012  (Blender reads the class)
+
+    def draw_header(self, context: bpy.types.Context) -> None:
+        """Show the switch."""
+        self.layout.prop(context.object.rsibr.live, "on", text="")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Show how fine the light is, and what a frame may spend on it."""
+        self.layout.use_property_split = True
+        self.layout.prop(context.object.rsibr.live, "size")
+        self.layout.prop(context.object.rsibr.live, "faces")

@@ -1,0 +1,176 @@
+"""Live light in Blender's window: objects mirror what surrounds them, and follow it."""
+
+from collections.abc import Callable
+
+type Told = Callable[[str], dict]
+
+PRELUDE = """
+import importlib
+from bpy_extras.view3d_utils import location_3d_to_region_2d
+from mathutils import Matrix
+previews = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport").previews
+
+SIDES = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+
+def room(colours):
+    # Six walls about the origin, seen from within alone
+    corners = [(-3, -3, -3), (3, -3, -3), (3, 3, -3), (-3, 3, -3)]
+    walls = []
+    for side, colour in zip(SIDES, colours):
+        mesh = bpy.data.meshes.new("Wall")
+        mesh.from_pydata(corners, [], [(0, 1, 2, 3)])
+        wall = bpy.data.objects.new("Wall", mesh)
+        bpy.context.collection.objects.link(wall)
+        wall.matrix_world = Vector((0, 0, -1)).rotation_difference(Vector(side)).to_matrix().to_4x4()
+        wall.color = (*colour, 1.0)
+        walls.append(wall)
+    return walls
+
+def mirror():
+    bare(view())
+    space = view().spaces.active
+    space.shading.show_backface_culling = True
+    bpy.context.scene.view_settings.view_transform = "Standard"
+    cube = bpy.data.objects["Cube"]
+    cube.color = (1.0, 0.0, 0.0, 1.0)
+    cube.rsibr.mip_chain.f_lambda, cube.rsibr.mip_chain.k_d = (1.0, 1.0, 1.0), (0.0, 0.0, 0.0)
+    cube.rsibr.live.size = "32"
+    return cube
+
+def shown():
+    # A frame renders the light, the next asks how radiance is displayed, and the one after shows it
+    yield from drawn()
+    yield from drawn()
+
+def own():
+    # Blender's own pixels of the cube, red
+    return like(pixels(), (255, 0, 0))
+
+def others(colour, among):
+    return int((among & ~like(pixels(), colour)).sum())
+"""
+
+FOLLOWS = """
+def scenario(told):
+    cube = mirror()
+    view().spaces.active.overlay.show_object_origins_all = True
+    bpy.context.view_layer.objects.active = None
+    walls = room([(0.5, 0.2, 0.5)] * 6)
+    yield from drawn()
+    among = own()
+    told["own"] = int(among.sum())
+    cube.rsibr.live.on = True
+    yield from shown()
+    told["mirror"] = others((188, 124, 188), among)
+    cube.rsibr.mip_chain.f_lambda, cube.rsibr.mip_chain.k_d = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
+    yield from drawn()
+    told["white"] = others((188, 124, 188), among)
+    for wall in walls:
+        wall.color = (0.2, 0.5, 0.2, 1.0)
+    yield from drawn()
+    told["changed"] = others((124, 188, 124), among)
+    cube.location = (0.5, 0.5, 0.5)
+    yield from drawn()
+    told["moved"] = [others((124, 188, 124), among), int(own().sum())]
+    told["overlays"] = view().spaces.active.overlay.show_overlays
+    updates, draws = [], []
+    bpy.app.handlers.depsgraph_update_post.append(lambda *_: updates.append(0))
+    bpy.types.SpaceView3D.draw_handler_add(lambda: draws.append(0), (), "WINDOW", "POST_PIXEL")
+    for _ in range(25):
+        yield
+    told["idle"] = [len(updates), len(draws)]
+    told["faults"] = [previews.fault(cube), previews.trouble, previews.kind(cube)]
+    cube.rsibr.mip_chain.use_roughness = True
+    yield from drawn()
+    told["roughness"] = previews.fault(cube)
+    cube.rsibr.live.on = False
+    yield from drawn()
+    told["off"] = [int(own().sum()), len(previews._live), len(previews._map_sets), previews.fault(cube)]
+"""
+
+
+def test_an_object_shows_its_surroundings_and_follows_them(told: Told) -> None:
+    answer = told(PRELUDE + FOLLOWS)
+    assert answer["own"] > 2000
+    assert answer["mirror"] == answer["white"] == answer["changed"] == 0
+    assert answer["moved"] == [0, 0]
+    assert answer["overlays"] is True
+    assert answer["idle"] == [0, 0]
+    assert answer["faults"] == [None, None, "mip_chain"]
+    assert answer["roughness"] == "Live light knows no roughness: choose a bias instead."
+    assert answer["off"][0] > 2000
+    assert answer["off"][1:] == [0, 0, None]
+
+
+MIRRORED = """
+def scenario(told):
+    cube = mirror()
+    colours = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (0, 1, 1), (1, 0, 1)]
+    room(colours)
+    cube.rsibr.live.on = True
+    region_3d = view().spaces.active.region_3d
+    region_3d.view_perspective = "ORTHO"
+    told["errors"] = []
+    for towards in ((0.5, -0.6, 0.62), (0.8, -0.35, 0.48), (-0.3, 0.9, -0.25), (-0.7, -0.5, 0.5)):
+        view_dir = Vector(towards).normalized()
+        region_3d.view_rotation = view_dir.to_track_quat("Z", "Y")
+        yield from shown()
+        picture = pixels()
+        for side in map(Vector, SIDES):
+            if side.dot(view_dir) > 0.0:
+                mirrored = view_dir.reflect(side) * -1.0
+                axis = max(range(3), key=lambda i: abs(mirrored[i]))
+                wall = colours[2 * axis + (mirrored[axis] < 0.0)]
+                x, y = location_3d_to_region_2d(region(view()), region_3d, side)
+                seen = picture[int(y), int(x)]
+                if not like(seen, tuple(255 * c for c in wall)):
+                    told["errors"].append([towards, list(side), wall, seen.tolist()])
+"""
+
+
+def test_each_side_mirrors_the_wall_that_it_faces(told: Told) -> None:
+    assert told(PRELUDE + MIRRORED)["errors"] == []
+
+
+BUDGET = """
+def scenario(told):
+    cube = mirror()
+    walls = room([(0.5, 0.2, 0.5)] * 6)
+    cube.rsibr.live.faces = 1
+    cube.rsibr.live.on = True
+    for _ in range(12):
+        yield
+    told["left to Blender"] = int(own().sum())
+    (light,) = previews._live.values()
+    calls = []
+    whole = light.on_device.set_face
+    light.on_device.set_face = lambda face, seen: (calls.append(face), whole(face, seen))
+    rendered = []
+    bpy.types.SpaceView3D.draw_handler_add(lambda: rendered.append(len(calls)), (), "WINDOW", "POST_PIXEL")
+    walls[0].color = (0.2, 0.5, 0.2, 1.0)
+    for _ in range(20):
+        yield
+    told["faces"], told["after each frame"] = sorted(calls), rendered
+    told["kept"] = previews._live[next(iter(previews._live))] is light
+    cube.rsibr.live.size = "64"
+    for _ in range(12):
+        yield
+    told["another size"] = [each.on_device.size for each in previews._live.values()]
+    view().spaces.active.shading.type = "WIREFRAME"
+    walls[0].color = (0.5, 0.0, 0.0, 1.0)
+    calls.clear()
+    for _ in range(5):
+        yield
+    told["wires"] = calls
+"""
+
+
+def test_a_frame_renders_as_many_faces_as_it_may(told: Told) -> None:
+    answer = told(PRELUDE + BUDGET)
+    assert answer["left to Blender"] == 0
+    assert answer["faces"] == [0, 1, 2, 3, 4, 5]
+    frames = answer["after each frame"]
+    assert max(later - sooner for sooner, later in zip([0, *frames], frames, strict=False)) == 1
+    assert answer["kept"]
+    assert answer["another size"] == [64]
+    assert answer["wires"] == []

@@ -3,6 +3,19 @@
 import bpy
 
 
+class RSIBR_MT_pictures(bpy.types.Menu):
+    """Make an environment from photographs or a painting"""  # noqa: D400  (a tooltip)
+
+    bl_label = "Make from Pictures"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """List the ways; what they make is baked with, but merged exposures need not be an environment."""
+        self.layout.operator("rsibr.merge_brackets", text="Merge Brackets...")
+        self.layout.operator("rsibr.unwrap_ball", text="Unwrap Mirror Ball...").use = True
+        self.layout.operator("rsibr.assemble_faces", text="Assemble Faces...").use = True
+        self.layout.operator("rsibr.lift_painting", text="Lift Painting...").use = True
+
+
 class RSIBR_PT_environment(bpy.types.Panel):
     """The light that is baked"""  # noqa: D400  (a tooltip)
 
@@ -27,3 +40,4 @@ class RSIBR_PT_environment(bpy.types.Panel):
             "rsibr.capture_environment", text="Capture from Scene...", icon="RENDER_STILL"
         )
         capture.source, capture.use = "OBJECT" if context.object else "CURSOR", True
+        layout.menu("RSIBR_MT_pictures", icon="IMAGE_DATA")

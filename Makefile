@@ -46,6 +46,7 @@ bench: $(READY)
 	$(PYTHON) .ci/bench_prefilter.py
 	$(PYTHON) .ci/bench_antialiased.py
 	$(PYTHON) .ci/bench_fits.py
+	$(PYTHON) .ci/bench_lobes.py
 	$(PYTHON) .ci/bench_mips.py
 
 clean:

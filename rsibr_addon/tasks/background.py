@@ -23,6 +23,10 @@ GRACE_SECONDS = 5.0
 """Until a Blender that was asked to end is killed."""
 
 
+NICENESS = 10
+"""Of a bake: what the artist does comes first."""
+
+
 class State(StrEnum):
     """What has become of a bake."""
 
@@ -129,12 +133,16 @@ class Bake:
                 errors="replace",
                 # Ctrl-C in the artist's terminal is not meant for it.
                 start_new_session=sys.platform != "win32",
+                creationflags=getattr(subprocess, "BELOW_NORMAL_PRIORITY_CLASS", 0),
             )
         except OSError as error:
             self.state = State.FAILED
             self.message = f"{self.command[0]} cannot be started ({error.strerror}): reinstall Blender."
             return
         self.state = State.RUNNING
+        if sys.platform != "win32":
+            with contextlib.suppress(ProcessLookupError):
+                os.setpriority(os.PRIO_PROCESS, self._process.pid, NICENESS)
         self._readers = [
             threading.Thread(target=read, args=(stream,), daemon=True)
             for read, stream in (

@@ -1,11 +1,13 @@
 """Bakes in processes of their own: what they say is heard, and whatever becomes of them is told."""
 
 import json
+import os
 import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
 
+import pytest
 from rsibr.rsibr_addon.core.progress import Progress
 from rsibr.rsibr_addon.tasks.background import Bake, BakeQueue, State, blender_command
 
@@ -108,6 +110,17 @@ def test_time_left_is_judged_by_the_steps_so_far() -> None:
     # Two steps took half a second or more, however slow the machine; two more are to come.
     assert left is not None
     assert 0.45 < left < 30.0
+    queue.close()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has classes of priority instead")
+def test_what_the_artist_does_comes_first() -> None:
+    queue = BakeQueue()
+    polite = bake(told(done=0, total=1, what="waiting") + "import time; time.sleep(600)")
+    queue.add(polite)
+    wait(queue, lambda: polite.progress is not None)
+    assert polite._process is not None
+    assert os.getpriority(os.PRIO_PROCESS, polite._process.pid) >= min(19, os.nice(0) + 1)
     queue.close()
 
 

@@ -1,10 +1,11 @@
 """Captures: the right views in the right place, whole or to be resumed, and refused in words."""
 
+import json
 import signal
 import subprocess
 import sys
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import bpy
@@ -149,13 +150,13 @@ def test_a_killed_capture_goes_on_bit_for_bit(job: CaptureJob, partial: Path, re
     rendered.clear()
 
     script = (
-        "import sys\n"
+        "import json, sys\n"
         "from rsibr.rsibr_addon.job import CaptureJob\n"
         "from rsibr.rsibr_addon.tasks.capture import capture\n"
-        "for progress in capture(CaptureJob.from_json(sys.argv[1], 'the job')):\n"
+        "for progress in capture(CaptureJob(**json.loads(sys.argv[1]))):\n"
         "    print('step', progress.done, file=sys.stderr, flush=True)\n"
     )
-    command = [sys.executable, "-c", script, job.to_json()]
+    command = [sys.executable, "-c", script, json.dumps(asdict(job))]
     with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
         for line in process.stderr:
             if line == "step 6\n":

@@ -191,8 +191,8 @@ def test_only_map_sets_are_assigned(tmp_path: Path) -> None:
 def test_the_material_is_recorded_as_the_original_has_it(monkeypatch: pytest.MonkeyPatch) -> None:
     from rsibr.rsibr_addon.host.materials import ORIGINAL, lasting_spec
 
-    monkeypatch.setenv(ORIGINAL, "/work/car.blend")
-    assert lasting_spec(":Paint") == "/work/car.blend:Paint"
+    monkeypatch.setenv(ORIGINAL, "/art/car.blend")
+    assert lasting_spec(":Paint") == "/art/car.blend:Paint"
     monkeypatch.setenv(ORIGINAL, "")
     assert lasting_spec(":Paint") == ":Paint"
 

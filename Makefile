@@ -7,7 +7,7 @@ READY := $(VENV)/.ready
 
 help:
 	@echo "make demo        capture two materials, preview them and compare with Cycles; pictures under demo/"
-	@echo "make test        all tests (make test-quick: under two minutes)"
+	@echo "make test        all tests but those in a window (make test-quick: without shaders and renders)"
 	@echo "make lint        ruff and mypy"
 	@echo "make extension   dist/rsibr-*.zip, to be installed in Blender"
 	@echo "make test-gui    the built extension in a Blender of its own"

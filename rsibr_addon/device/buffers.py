@@ -99,7 +99,38 @@ def uniform_block(*fields: Array) -> gpu.types.GPUUniformBuf:
     -------
     GPUUniformBuf
     """
-    return gpu.types.GPUUniformBuf(_buffer(np.concatenate([_rows_of_four(field) for field in fields])))
+    return gpu.types.GPUUniformBuf(_block(fields))
+
+
+class KeptBlock:
+    """A uniform block that is filled anew for each draw, and allocated for the first.
+
+    Keep it with what is drawn: Blender binds a block without a reference to it, and it has to outlive the
+    draw. Filling and drawing are commands in one order, so the draws of a frame may share a block.
+    """
+
+    def __init__(self) -> None:
+        self._uploaded: gpu.types.GPUUniformBuf | None = None
+
+    def filled(self, *fields: Array) -> gpu.types.GPUUniformBuf:
+        """Upload fields, as many each time.
+
+        Parameters
+        ----------
+        *fields : ndarray
+            As for `uniform_block`.
+
+        Returns
+        -------
+        GPUUniformBuf
+            The same each time.
+        """
+        values = _block(fields)
+        if self._uploaded is None:
+            self._uploaded = gpu.types.GPUUniformBuf(values)
+        else:
+            self._uploaded.update(values)
+        return self._uploaded
 
 
 def pixels(framebuffer: gpu.types.GPUFrameBuffer, size: int) -> Array:
@@ -126,6 +157,11 @@ def triangles(
     """
     contiguous = {name: np.ascontiguousarray(values, np.float32) for name, values in attributes.items()}
     return batch_for_shader(shader, "TRIS", contiguous, indices=np.ascontiguousarray(indices, np.int32))
+
+
+def _block(fields: tuple[Array, ...]) -> Array:
+    """Fields as a block holds them, shape (rows, 4), float32."""
+    return np.ascontiguousarray(np.concatenate([_rows_of_four(field) for field in fields]), np.float32)
 
 
 def _rows_of_four(field: Array) -> Array:

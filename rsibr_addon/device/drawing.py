@@ -33,44 +33,51 @@ class Draw:
     view_dir: Array
     turn: Array = field(default_factory=lambda: np.eye(3))
 
-    def uniforms(self) -> gpu.types.GPUUniformBuf:
-        """The block `Draw` of the shaders."""
+    def fields(self) -> tuple[Array, ...]:
+        """The block `Draw` of the shaders, as `buffers.KeptBlock` takes it."""
         normal_matrix, turn = np.eye(4), np.eye(4)
         normal_matrix[:3, :3] = self.turn @ np.linalg.inv(self.model[:3, :3]).T
         turn[:3, :3] = self.turn
-        return buffers.uniform_block(
-            self.model, normal_matrix, self.view, self.projection, turn, turn @ self.eye
-        )
+        return self.model, normal_matrix, self.view, self.projection, turn, turn @ self.eye
 
 
-class OnDevice(Protocol):
-    """What a map set holds, uploaded."""
-
-    def draw(self, mesh: gpu.types.GPUBatch, draw: Draw, look: Any) -> None:
-        """Draw a mesh into the active frame buffer, with the depth test as it is set.
-
-        Parameters
-        ----------
-        mesh : GPUBatch
-            See `mesh_batch`.
-        draw : Draw
-        look : object
-            The look of this kind of map set: see `core.shading`.
-        """
-
-
-def mesh_batch(positions: Array, normals: Array, triangles: Array) -> gpu.types.GPUBatch:
-    """Upload a mesh for `OnDevice.draw`.
+class MeshOnDevice:
+    """A mesh, uploaded, and the block that says where it stands.
 
     Parameters
     ----------
     positions, normals : ndarray, shape (V, 3)
     triangles : ndarray of int, shape (F, 3)
-
-    Returns
-    -------
-    GPUBatch
-        With attributes `position` and `normal`, as every program that draws meshes has them.
     """
-    attributes = {"position": positions, "normal": normals}
-    return buffers.triangles(shaders.views_fragment_shader(), attributes, triangles)
+
+    def __init__(self, positions: Array, normals: Array, triangles: Array) -> None:
+        attributes = {"position": positions, "normal": normals}
+        self._batch = buffers.triangles(shaders.views_fragment_shader(), attributes, triangles)
+        self._placed = buffers.KeptBlock()
+
+    def draw(self, shader: gpu.types.GPUShader, draw: Draw) -> None:
+        """Draw it into the active frame buffer.
+
+        Parameters
+        ----------
+        shader : GPUShader
+            A program of `shaders.mesh_interface`, bound, with all that it needs but the block `draw`.
+        draw : Draw
+        """
+        shader.uniform_block("draw", self._placed.filled(*draw.fields()))
+        self._batch.draw(shader)
+
+
+class OnDevice(Protocol):
+    """What a map set holds, uploaded."""
+
+    def draw(self, mesh: MeshOnDevice, draw: Draw, look: Any) -> None:
+        """Draw a mesh into the active frame buffer, with the depth test as it is set.
+
+        Parameters
+        ----------
+        mesh : MeshOnDevice
+        draw : Draw
+        look : object
+            The look of this kind of map set: see `core.shading`.
+        """

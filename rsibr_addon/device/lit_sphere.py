@@ -5,7 +5,7 @@ import numpy as np
 
 from ..core.lit_sphere import LitSphere
 from . import buffers
-from .drawing import Draw
+from .drawing import Draw, MeshOnDevice
 from .shaders import build, kept_until_exit, mesh_interface
 
 _SPHERE_BLOCK = "struct Sphere { mat4 frame; };"
@@ -28,16 +28,13 @@ class LitSphereOnDevice:
         frame[:3, :3] = sphere.frame
         self._block = buffers.uniform_block(frame)
 
-    def draw(self, mesh: gpu.types.GPUBatch, draw: Draw, look: None) -> None:
+    def draw(self, mesh: MeshOnDevice, draw: Draw, look: None) -> None:
         """See `OnDevice.draw`; there is one look. Reference: `core.lit_sphere.LitSphere.at`."""
-        # Bound blocks must outlive the draw: Blender keeps no reference to them.
-        placed = draw.uniforms()
         shader = lit_sphere_shader()
         shader.bind()
-        shader.uniform_block("draw", placed)
         shader.uniform_block("sphere", self._block)
         shader.uniform_sampler("rings", self._rings)
-        mesh.draw(shader)
+        mesh.draw(shader, draw)
 
 
 @kept_until_exit

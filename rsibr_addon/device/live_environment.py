@@ -16,7 +16,7 @@ from ..core.live_environment import FACE_COUNT, solid_angle_texels
 from ..core.mip_chain import check_size
 from ..core.shading.mip_chain import Borders, MipLook
 from . import buffers
-from .drawing import Draw
+from .drawing import Draw, MeshOnDevice
 from .live_environment_shaders import (
     bordered_shader,
     box_shader,
@@ -64,6 +64,7 @@ class LiveEnvironmentOnDevice:
         self._atlas = _Map(FACE_COUNT * (size + 2), 2 * (size - 1 + self._mip_count) + 1)
         self._rows = _Map(9, FACE_COUNT * size)
         self._harmonics = _Map(9, 1)
+        self._shading = buffers.KeptBlock()
         self._screen = buffers.triangles(face_shader(), {"position": _SCREEN_TRIANGLE}, np.array([[0, 1, 2]]))
         self.filter()
 
@@ -93,7 +94,7 @@ class LiveEnvironmentOnDevice:
                 self._border(self._smaller, mip + 1)
             self._sum_harmonics()
 
-    def draw(self, mesh: gpu.types.GPUBatch, draw: Draw, look: MipLook) -> None:
+    def draw(self, mesh: MeshOnDevice, draw: Draw, look: MipLook) -> None:
         """See `OnDevice.draw`. Reference: core/shading/mip_chain.py.
 
         Raises
@@ -103,21 +104,18 @@ class LiveEnvironmentOnDevice:
         """
         if look.roughness is not None:
             raise RangeError("Live light knows no roughness: choose a bias instead.")
-        # Bound blocks must outlive the draw: Blender keeps no reference to them.
-        placed = draw.uniforms()
         level = min(look.bias, self._mip_count - 1.0)
-        shading = buffers.uniform_block(
+        shading = self._shading.filled(
             np.array(look.f_lambda),
             np.array(look.k_d),
             np.array([level, float(look.borders is Borders.CLAMPED)]),
         )
         shader = live_mip_chain_shader()
         shader.bind()
-        shader.uniform_block("draw", placed)
         shader.uniform_block("look", shading)
         shader.uniform_sampler("atlas", self._atlas.texture)
         shader.uniform_sampler("harmonics", self._harmonics.texture)
-        mesh.draw(shader)
+        mesh.draw(shader, draw)
 
     def _border(self, strip: "_Map", mip: int) -> None:
         rows = (self.size >> mip) + 2

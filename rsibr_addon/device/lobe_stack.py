@@ -1,6 +1,5 @@
 """A lobe stack on the GPU: its maps in one 3D texture, one pass over a mesh."""
 
-import gpu
 import numpy as np
 
 from ..core.conventions import Array
@@ -8,7 +7,7 @@ from ..core.errors import DeviceError
 from ..core.lobes.stack import LAYOUTS, LobeStack
 from ..core.shading.lobe_stack import StackLook
 from . import buffers
-from .drawing import Draw
+from .drawing import Draw, MeshOnDevice
 from .lobe_stack_shaders import lobe_stack_shader
 
 LARGEST_HALF = 65504.0
@@ -44,18 +43,15 @@ class LobeStackOnDevice:
         numbers = LAYOUTS.index(stack.layout), lobes, stack.taps.shape[2], slices
         self._block = buffers.uniform_block(np.array(numbers, dtype=np.float64))
 
-    def draw(self, mesh: gpu.types.GPUBatch, draw: Draw, look: StackLook) -> None:
+    def draw(self, mesh: MeshOnDevice, draw: Draw, look: StackLook) -> None:
         """See `OnDevice.draw`. Reference: core/shading/lobe_stack.py."""
-        # Bound blocks must outlive the draw: Blender keeps no reference to them.
-        placed = draw.uniforms()
         elevations = buffers.texture(elevation_texels(self._stack, look))
         shader = lobe_stack_shader()
         shader.bind()
-        shader.uniform_block("draw", placed)
         shader.uniform_block("stack", self._block)
         shader.uniform_sampler("elevations", elevations)
         shader.uniform_sampler("maps", self._maps)
-        mesh.draw(shader)
+        mesh.draw(shader, draw)
 
 
 def map_texels(stack: LobeStack) -> Array:

@@ -4,7 +4,6 @@ Blender's `gpu` module makes cube maps, but does not let them be looked up betwe
 lie in one picture, each face within a border of its neighbours' texels.
 """
 
-import gpu
 import numpy as np
 
 from ..core.conventions import Array
@@ -13,7 +12,7 @@ from ..core.mip_chain import MipChain
 from ..core.mips.texture_space import with_borders
 from ..core.shading.mip_chain import Borders, MipLook
 from . import buffers
-from .drawing import Draw
+from .drawing import Draw, MeshOnDevice
 from .mip_chain_shaders import mip_chain_shader
 
 
@@ -28,13 +27,12 @@ class MipChainOnDevice:
     def __init__(self, chain: MipChain) -> None:
         self._chain = chain
         self._atlas = buffers.texture(atlas_texels(chain))
+        self._shading = buffers.KeptBlock()
         self._irradiance = irradiance_matrix(chain.harmonics)
 
-    def draw(self, mesh: gpu.types.GPUBatch, draw: Draw, look: MipLook) -> None:
+    def draw(self, mesh: MeshOnDevice, draw: Draw, look: MipLook) -> None:
         """See `OnDevice.draw`. Reference: core/shading/mip_chain.py."""
-        # Bound blocks must outlive the draw: Blender keeps no reference to them.
-        placed = draw.uniforms()
-        shading = buffers.uniform_block(
+        shading = self._shading.filled(
             *self._irradiance,
             np.array(look.f_lambda),
             np.array(look.k_d),
@@ -42,10 +40,9 @@ class MipChainOnDevice:
         )
         shader = mip_chain_shader()
         shader.bind()
-        shader.uniform_block("draw", placed)
         shader.uniform_block("look", shading)
         shader.uniform_sampler("atlas", self._atlas)
-        mesh.draw(shader)
+        mesh.draw(shader, draw)
 
 
 def atlas_texels(chain: MipChain) -> Array:

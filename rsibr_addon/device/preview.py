@@ -8,7 +8,7 @@ import numpy as np
 from ..core.camera import Camera
 from ..core.conventions import Array
 from . import buffers
-from .drawing import Draw, OnDevice, mesh_batch
+from .drawing import Draw, MeshOnDevice, OnDevice
 
 SAMPLES_PER_AXIS = 4
 """Each pixel is the mean of SAMPLES_PER_AXIS**2 samples: antialiased, as Cycles' box filter."""
@@ -63,7 +63,7 @@ class PreviewRenderer:
             eye=camera.eye,
             view_dir=np.asarray(camera.view_dir),
         )
-        mesh = mesh_batch(positions, normals, triangles)
+        mesh = MeshOnDevice(positions, normals, triangles)
         depth_test, depth_mask = gpu.state.depth_test_get(), gpu.state.depth_mask_get()
         with target.bind():
             target.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)

@@ -14,7 +14,7 @@ from ..core.geodesic import GeodesicSphere, barycentric_weights, find_triangle
 from ..core.radiance_views import RadianceViews
 from ..core.shading.radiance_views import LEAST_ALBEDO, Mode, ViewsLook, Warping
 from . import buffers, shaders
-from .drawing import Draw
+from .drawing import Draw, MeshOnDevice
 
 _SCREEN_TRIANGLE = np.array([[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]])
 
@@ -42,6 +42,7 @@ class RadianceViewsOnDevice:
             warping: buffers.uniform_block(np.array([float(number), float(last_level)]))
             for number, warping in enumerate(Warping)
         }
+        self._blend = buffers.KeptBlock()
         self._targets = (buffers.render_target(views.size), buffers.render_target(views.size))
         self._destination = gpu.types.GPUFrameBuffer(color_slots=self._targets)
         self._disk = buffers.triangles(
@@ -51,27 +52,24 @@ class RadianceViewsOnDevice:
             shaders.views_texel_shader(), {"position": _SCREEN_TRIANGLE}, np.array([[0, 1, 2]])
         )
 
-    def draw(self, mesh: gpu.types.GPUBatch, draw: Draw, look: ViewsLook) -> None:
+    def draw(self, mesh: MeshOnDevice, draw: Draw, look: ViewsLook) -> None:
         """See `OnDevice.draw`. Reference: core/shading/radiance_views.py."""
-        # Bound blocks must outlive the draw: Blender keeps no reference to them.
-        placed = draw.uniforms()
         if look.mode is Mode.FRAGMENT:
             shader = shaders.views_fragment_shader()
             shader.bind()
             shader.uniform_sampler("views", self._views)
             shader.uniform_sampler("sphere", self._geodesic)
         else:
-            blend = _blend_uniforms(self._sphere, draw.view_dir)
+            blend = self._blend.filled(*_blend_fields(self._sphere, draw.view_dir))
             self._make_destination(blend, look)
             shader = shaders.views_destination_shader()
             shader.bind()
             shader.uniform_block("blend", blend)
             shader.uniform_sampler("by_normal", self._targets[0])
             shader.uniform_sampler("by_mirror", self._targets[1])
-        shader.uniform_block("draw", placed)
         shader.uniform_block("mode", self._modes[look.warping])
         shader.uniform_sampler("albedo", self._albedo)
-        mesh.draw(shader)
+        mesh.draw(shader, draw)
 
     def _make_destination(self, blend: gpu.types.GPUUniformBuf, look: ViewsLook) -> None:
         if look.mode is Mode.PAPER:
@@ -114,10 +112,10 @@ def _geodesic_texels(sphere: GeodesicSphere) -> Array:
     return texels
 
 
-def _blend_uniforms(sphere: GeodesicSphere, view_dir: ArrayLike) -> gpu.types.GPUUniformBuf:
+def _blend_fields(sphere: GeodesicSphere, view_dir: ArrayLike) -> tuple[Array, ...]:
     """The block `Blend`: the destination's axes, and the three sources around it."""
     frame = np.eye(4)
     frame[:3, :3] = camera_frame(view_dir)
     sources = find_triangle(sphere, view_dir)
     corners = sphere.vertices[sources]
-    return buffers.uniform_block(frame, corners, barycentric_weights(view_dir, corners), sources)
+    return frame, corners, barycentric_weights(view_dir, corners), sources

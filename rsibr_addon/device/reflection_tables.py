@@ -13,7 +13,7 @@ from ..core.maps import equirect
 from ..core.reflection_tables import ReflectionTables, Role
 from ..core.shading.reflection_tables import MIRRORED, TablesLook
 from . import buffers
-from .drawing import Draw
+from .drawing import Draw, MeshOnDevice
 from .shaders import build, kept_until_exit, mesh_interface
 from .summed_area import summed_area_texture
 
@@ -64,6 +64,7 @@ class ReflectionTablesOnDevice:
         }
         self._weights = buffers.texture(_with_alpha(tables.weights))
         self._tables = tables
+        self._fields = buffers.KeptBlock()
         self._no_sums = _Sums(buffers.texture_array(np.zeros((3, 2, 2, 4))), np.ones(3))
 
     @cached_property
@@ -72,7 +73,7 @@ class ReflectionTablesOnDevice:
         there = [role for role in MIRRORED if role in self._tables.maps]
         return {role: _summed(self._tables.maps[role]) for role in there}
 
-    def draw(self, mesh: gpu.types.GPUBatch, draw: Draw, look: TablesLook) -> None:
+    def draw(self, mesh: MeshOnDevice, draw: Draw, look: TablesLook) -> None:
         """See `device.drawing.OnDevice`.
 
         Notes
@@ -84,22 +85,19 @@ class ReflectionTablesOnDevice:
         counts = [role in shown and role not in averaged for role in Role]
         means = [role in shown and role in averaged for role in MIRRORED]
         sums = {role: averaged.get(role, self._no_sums) for role in MIRRORED}
-        # Bound blocks must outlive the draw: Blender keeps no reference to them.
-        placed = draw.uniforms()
-        fields = buffers.uniform_block(
+        fields = self._fields.filled(
             np.array([*counts, self._tables.eta, *means], dtype=float).reshape(2, 4),
             *(each.unit for each in sums.values()),
         )
         shader = reflection_tables_shader()
         shader.bind()
-        shader.uniform_block("draw", placed)
         shader.uniform_block("tables", fields)
         for role, texture in self._textures.items():
             shader.uniform_sampler(role.value, texture)
         for role, each in sums.items():
             shader.uniform_sampler(f"{role}_sums", each.texture)
         shader.uniform_sampler("weights", self._weights)
-        mesh.draw(shader)
+        mesh.draw(shader, draw)
 
 
 @dataclass(frozen=True)

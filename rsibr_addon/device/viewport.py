@@ -14,7 +14,7 @@ import numpy as np
 
 from ..core.conventions import Array
 from . import buffers
-from .drawing import Draw
+from .drawing import Draw, MeshOnDevice
 from .viewport_shaders import composite_shader, occluder_shader
 
 _SCREEN_TRIANGLE = np.array([[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]])
@@ -63,20 +63,17 @@ def current_sight() -> Sight:
     return Sight(view, projection, np.linalg.inv(view) @ in_view)
 
 
-def draw_occluder(mesh: gpu.types.GPUBatch, draw: Draw) -> None:
+def draw_occluder(mesh: MeshOnDevice, draw: Draw) -> None:
     """Draw a surface that may hide previews.
 
     Parameters
     ----------
-    mesh : GPUBatch
-        See `drawing.mesh_batch`.
+    mesh : MeshOnDevice
     draw : Draw
     """
-    placed = draw.uniforms()
     shader = occluder_shader()
     shader.bind()
-    shader.uniform_block("draw", placed)
-    mesh.draw(shader)
+    mesh.draw(shader, draw)
 
 
 class Stage:

@@ -12,7 +12,7 @@ from ..core.conventions import Array
 from ..core.display import table_radiance
 from ..core.errors import RsibrError
 from ..device import buffers
-from ..device.drawing import OnDevice, mesh_batch
+from ..device.drawing import MeshOnDevice, OnDevice
 from ..device.viewport import Stage, current_sight, draw_occluder
 from ..host.display import Display, display_of, displayed_colours, scale_before_display
 from ..host.live_light import is_live_name, shows_surroundings
@@ -71,7 +71,7 @@ class Previews:
         """Let go of everything: the file is closed, or the extension leaves."""
         self._stage, self._other_stage = Stage(), Stage()
         self._contents: dict[Layer, _Contents] = {}
-        self._meshes: dict[int, Any] = {}
+        self._meshes: dict[int, MeshOnDevice] = {}
         self._map_sets: dict[str, _MapSet] = {}
         self._live: dict[str, LiveLight] = {}
         self._displays: dict[Display, Any] = {}
@@ -224,7 +224,7 @@ class Previews:
                 mesh = mesh_from_object(evaluated, view.depsgraph)
                 if not mesh.triangles.size:
                     continue
-                self._meshes[surface.mesh] = mesh_batch(mesh.positions, mesh.normals, mesh.triangles)
+                self._meshes[surface.mesh] = MeshOnDevice(mesh.positions, mesh.normals, mesh.triangles)
             if path:
                 contents.previews.append(_Preview(surface, path))
             else:

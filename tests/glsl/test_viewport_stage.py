@@ -14,7 +14,7 @@ from rsibr.rsibr_addon.core.shading.radiance_views import ViewsLook, views_fragm
 from rsibr.rsibr_addon.core.transfer_curve import linear_from_srgb
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.context import ensure_context
-from rsibr.rsibr_addon.device.drawing import mesh_batch
+from rsibr.rsibr_addon.device.drawing import MeshOnDevice
 from rsibr.rsibr_addon.device.radiance_views import RadianceViewsOnDevice
 from rsibr.rsibr_addon.device.viewport import Stage, current_sight, draw_occluder
 from rsibr.tests.synthetic_views import smooth_views, visible_points
@@ -70,10 +70,10 @@ def shown(
         if in_front is not None:
             gpu.state.depth_test_set("LESS_EQUAL")
             gpu.state.depth_mask_set(True)
-            draw_occluder(mesh_batch(*sphere(in_front)), sight.on(np.eye(4), STRAIGHT))
+            draw_occluder(MeshOnDevice(*sphere(in_front)), sight.on(np.eye(4), STRAIGHT))
             gpu.state.depth_test_set("NONE")
         with stage.drawing():
-            subject.draw(mesh_batch(*sphere()), sight.on(np.eye(4), turn), LOOK)
+            subject.draw(MeshOnDevice(*sphere()), sight.on(np.eye(4), turn), LOOK)
         stage.show(buffers.table_texture(table()), scale, span, among_others)
         return buffers.pixels(target, SIZE)
 
@@ -145,7 +145,7 @@ def test_a_difference_is_that_on_the_display() -> None:
         first, second, sight, subject = Stage(), Stage(), current_sight(), RadianceViewsOnDevice(VIEWS)
         for stage, turn in ((first, STRAIGHT), (second, QUARTER)):
             with stage.drawing():
-                subject.draw(mesh_batch(*sphere()), sight.on(np.eye(4), turn), LOOK)
+                subject.draw(MeshOnDevice(*sphere()), sight.on(np.eye(4), turn), LOOK)
         first.show(buffers.table_texture(table()), 1.0, (0.0, 1.0), True, (second, 0.25))
         picture = buffers.pixels(target, SIZE)
     _, inside = expected(STRAIGHT, 1.0)
@@ -157,3 +157,21 @@ def test_a_difference_is_that_on_the_display() -> None:
     # Twice the error of colours, 0.003 before the curve, times 3 / 0.25 for the heat, times the curve's 2.3
     error = np.abs(picture[inside & free, :3] - colours)
     assert error.max() < 2.0 * 0.003 * 12.0 * 2.3
+
+
+def test_one_mesh_is_drawn_where_each_draw_of_a_frame_says() -> None:
+    mesh, views = MeshOnDevice(*sphere(0.25)), RadianceViewsOnDevice(VIEWS)
+
+    def covered(*places: float) -> np.ndarray:
+        with screen() as target:
+            sight = current_sight()
+            for place in places:
+                model = np.eye(4)
+                model[:3, 3] = place * np.cross(CAMERA.view_dir, (0.0, 0.0, 1.0))
+                views.draw(mesh, sight.on(model, STRAIGHT), LOOK)
+            return buffers.pixels(target, SIZE)[..., 3] == 1.0
+
+    left, right = covered(-0.5), covered(0.5)
+    assert min(left.sum(), right.sum()) > 100
+    assert not (left & right).any()
+    np.testing.assert_array_equal(covered(-0.5, 0.5), left | right)

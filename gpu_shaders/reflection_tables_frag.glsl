@@ -1,6 +1,7 @@
 // Twin of core/shading/reflection_tables.py `reflect_tables`.
 #include "lib/directions_lib.glsl"
 #include "lib/draw_lib.glsl"
+#include "lib/footprint_lib.glsl"
 #include "lib/reflection_tables_lib.glsl"
 
 void main()
@@ -11,12 +12,8 @@ void main()
   vec3 refracted_dir = refract_dir(view_dir, unit_normal, tables.eta);
   float cosine = dot(unit_normal, view_dir);
   // What the pixel reflects, taking neighbours' differences for its own.
-  vec3 across = 0.5 * dFdx(mirror_dir);
-  vec3 up = 0.5 * dFdy(mirror_dir);
-  vec3 corners[4] = vec3[4](mirror_dir - across - up,
-                            mirror_dir + across - up,
-                            mirror_dir + across + up,
-                            mirror_dir - across + up);
+  vec3 corners[4];
+  parallelogram(mirror_dir, dFdx(mirror_dir), dFdy(mirror_dir), corners);
   radiance = vec4(0.0, 0.0, 0.0, 1.0);
   radiance.rgb += weighted_table(tables.diffuse, diffuse, weights, TABLE_DIFFUSE, cosine, unit_normal);
   radiance.rgb += weighted_table(tables.specular, specular, weights, TABLE_SPECULAR, cosine, mirror_dir);

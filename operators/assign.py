@@ -4,8 +4,8 @@ from pathlib import Path
 
 import bpy
 
-from ..rsibr_addon.files.map_set import read_map_set_header
 from ..rsibr_addon.host.bake_settings import assign
+from ..rsibr_addon.tasks.kinds import kind_of
 from .reporting import reporting
 
 
@@ -26,10 +26,10 @@ class RSIBR_OT_assign(bpy.types.Operator):
         return context.object is not None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Assign, if the file is a map set."""
+        """Assign, if the file is a map set, or a picture of an environment."""
         with reporting(self):
             path = Path(bpy.path.abspath(self.filepath))
-            read_map_set_header(path)
+            kind_of(path)
             assign(context.object.session_uid, path)
             return {"FINISHED"}
         return {"CANCELLED"}

@@ -104,6 +104,26 @@ class RSIBR_PG_mip_chain(bpy.types.PropertyGroup):
     )
 
 
+class RSIBR_PG_environment(bpy.types.PropertyGroup):
+    """The fields of `core.shading.environment.EnvironmentLook`."""
+
+    f_lambda: bpy.props.FloatVectorProperty(
+        name="Reflectance",
+        description="Of the mirror, at normal incidence; white is a perfect mirror",
+        update=_notice,
+        subtype="COLOR",
+        default=(1.0, 1.0, 1.0),
+        min=0.0,
+        max=1.0,
+    )
+    antialiased: bpy.props.BoolProperty(
+        name="Antialiased",
+        description="Average the light over what each pixel reflects, so that small lamps do not shimmer",
+        update=_notice,
+        default=True,
+    )
+
+
 class RSIBR_PG_live(bpy.types.PropertyGroup):
     """Light rendered around the object while one looks."""
 
@@ -135,6 +155,7 @@ class RSIBR_PG_looks(bpy.types.PropertyGroup):
     radiance_views: bpy.props.PointerProperty(type=RSIBR_PG_radiance_views)
     reflection_tables: bpy.props.PointerProperty(type=RSIBR_PG_reflection_tables)
     mip_chain: bpy.props.PointerProperty(type=RSIBR_PG_mip_chain)
+    environment: bpy.props.PointerProperty(type=RSIBR_PG_environment)
 
 
 class RSIBR_PG_preview(bpy.types.PropertyGroup):
@@ -142,7 +163,7 @@ class RSIBR_PG_preview(bpy.types.PropertyGroup):
 
     map_set: bpy.props.StringProperty(
         name="Map Set",
-        description="File that shades the object in the viewport",
+        description="File that shades the object in the viewport; a picture of an environment is mirrored",
         update=_notice,
         subtype="FILE_PATH",
     )
@@ -159,6 +180,7 @@ class RSIBR_PG_preview(bpy.types.PropertyGroup):
     radiance_views: bpy.props.PointerProperty(type=RSIBR_PG_radiance_views)
     reflection_tables: bpy.props.PointerProperty(type=RSIBR_PG_reflection_tables)
     mip_chain: bpy.props.PointerProperty(type=RSIBR_PG_mip_chain)
+    environment: bpy.props.PointerProperty(type=RSIBR_PG_environment)
     live: bpy.props.PointerProperty(type=RSIBR_PG_live)
 
 
@@ -206,6 +228,7 @@ CLASSES = (
     RSIBR_PG_radiance_views,
     RSIBR_PG_reflection_tables,
     RSIBR_PG_mip_chain,
+    RSIBR_PG_environment,
     RSIBR_PG_live,
     RSIBR_PG_looks,
     RSIBR_PG_preview,

@@ -10,8 +10,8 @@ KIND_OF: dict[str, tuple[str, ...]] = {
     "warping": ("radiance_views",),
     "lobes": ("lobe_stack",),
     "shown": ("reflection_tables",),
-    "antialiased": ("reflection_tables",),
-    "f_lambda": ("mip_chain",),
+    "antialiased": ("reflection_tables", "environment"),
+    "f_lambda": ("mip_chain", "environment"),
     "k_d": ("mip_chain",),
     "bias": ("mip_chain",),
     "roughness": ("mip_chain",),
@@ -51,17 +51,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=lambda text: tuple(text.split(",")),
         help="those that count, of diffuse,specular,coat,retro,refraction (default: all)",
     )
-    tables.add_argument(
-        "--antialiased",
-        action="store_true",
-        help="average specular and coat over what each pixel reflects, from summed-area tables",
-    )
-    mips = parser.add_argument_group("mip chains", argument_default=argparse.SUPPRESS)
+    mips = parser.add_argument_group("mip chains and environments", argument_default=argparse.SUPPRESS)
     mips.add_argument(
         "--f-lambda",
         metavar="F|R,G,B",
         type=colour,
-        help="reflectance of the glossy part at normal incidence, 0 to 1 (default: 0.04)",
+        help="reflectance of the glossy part at normal incidence, 0 to 1 (default: 0.04; of an environment's "
+        "mirror 1)",
     )
     mips.add_argument(
         "--k-d",
@@ -80,6 +76,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         choices=["seamless", "clamped"],
         help="interpolate with the neighbouring face's texels, or as the hardware of 2004 did with the "
         "face's own (default: seamless)",
+    )
+    several = parser.add_argument_group("several kinds", argument_default=argparse.SUPPRESS)
+    several.add_argument(
+        "--antialiased",
+        action=argparse.BooleanOptionalAction,
+        help="average what each pixel reflects: specular and coat of reflection tables, environments "
+        "(default: of environments)",
     )
 
 

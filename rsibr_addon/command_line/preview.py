@@ -42,15 +42,14 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
         See `tasks.preview`.
     """
     from ..core.camera import Camera
-    from ..files.map_set import read_map_set_header
+    from ..tasks.kinds import kind_of
     from ..tasks.preview import PreviewSettings, preview, turntable
 
-    kind = read_map_set_header(arguments.map_set)["kind"]
     settings = PreviewSettings(
         camera=Camera(arguments.view, options.radians_or_none(arguments.perspective)),
         mesh=arguments.mesh,
         size=arguments.size,
-        look=looks.look(arguments, kind),
+        look=looks.look(arguments, kind_of(arguments.map_set)),
     )
     target = arguments.output, arguments.force
     if arguments.turntable is None:

@@ -79,6 +79,21 @@ def texture_3d(images: Array, texel_format: str) -> gpu.types.GPUTexture:
     return uploaded
 
 
+def with_alpha(image: Array) -> Array:
+    """A map as textures hold it.
+
+    Parameters
+    ----------
+    image : ndarray, shape (..., 3)
+
+    Returns
+    -------
+    ndarray, shape (..., 4)
+        Alpha is 1.
+    """
+    return np.concatenate([image, np.ones_like(image[..., :1])], axis=-1)
+
+
 def render_target(size: int) -> gpu.types.GPUTexture:
     """An empty square map to be drawn to and looked up, RGBA32F."""
     target = gpu.types.GPUTexture((size, size), format="RGBA32F")

@@ -13,8 +13,9 @@ import numpy as np
 from ..core.conventions import Array
 from ..core.errors import InputFileError, MapSetError, RangeError, ShapeError
 from .atomic import check_target, written_aside
-from .exr import Part, read_attributes, read_parts, write_parts
+from .exr import MAGIC, Part, read_attributes, read_parts, write_parts
 from .map_set_header import FORMAT, check_header
+from .reading import opened
 
 ATTRIBUTE = "rsibr"
 """Name of the first part's string attribute that holds the description, as JSON."""
@@ -126,6 +127,29 @@ def read_map_set(path: str | Path, kind: str | None = None) -> MapSet:
     return MapSet(header["kind"], maps, kept)
 
 
+def is_map_set(path: str | Path) -> bool:
+    """Whether a file describes itself as a map set, whatever the description is worth.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    bool
+        False for anything but OpenEXR.
+
+    Raises
+    ------
+    InputFileError
+        The file is missing, unreadable, or damaged in its headers.
+    """
+    with opened(path) as stream:
+        if stream.read(len(MAGIC)) != MAGIC:
+            return False
+    return _description(read_attributes(path)) is not None
+
+
 def read_map_set_header(path: str | Path) -> dict[str, Any]:
     """Read what a map set is, without its pixels.
 
@@ -147,8 +171,8 @@ def read_map_set_header(path: str | Path) -> dict[str, Any]:
     """
     with _as_map_set_error():
         attributes = read_attributes(path)
-    text = attributes[0].get(ATTRIBUTE) if attributes else None
-    if not isinstance(text, str):
+    text = _description(attributes)
+    if text is None:
         raise MapSetError(f"{path} is a picture, not a map set: make one with `rsibr capture`.")
     try:
         header: dict[str, Any] = json.loads(text)
@@ -164,6 +188,12 @@ def read_map_set_header(path: str | Path) -> dict[str, Any]:
                 f"{_words(found.get(name))} in fact): make it again."
             )
     return header
+
+
+def _description(attributes: list[dict[str, Any]]) -> str | None:
+    """The first part's description, as it stands."""
+    text = attributes[0].get(ATTRIBUTE) if attributes else None
+    return text if isinstance(text, str) else None
 
 
 def _stored(name: str, pixels: Array, half: bool) -> Array:

@@ -6,18 +6,20 @@ from pathlib import Path
 from typing import Any
 
 from ..core.environment import Environment
+from ..core.shading.environment import EnvironmentLook
 from ..core.shading.lobe_stack import StackLook
 from ..core.shading.mip_chain import MipLook
 from ..core.shading.radiance_views import ViewsLook
 from ..core.shading.reflection_tables import TablesLook
 from ..device.context import ensure_context
 from ..device.drawing import OnDevice
+from ..device.environment import EnvironmentOnDevice
 from ..device.lobe_stack import LobeStackOnDevice
 from ..device.mip_chain import MipChainOnDevice
 from ..device.radiance_views import RadianceViewsOnDevice
 from ..device.reflection_tables import ReflectionTablesOnDevice
-from ..files.kinds import lobe_stack, mip_chain, radiance_views, reflection_tables
-from ..files.map_set import MapSet, read_map_set
+from ..files.kinds import environment, lobe_stack, mip_chain, radiance_views, reflection_tables
+from ..files.map_set import MapSet, read_map_set, read_map_set_header
 
 
 @dataclass(frozen=True)
@@ -44,6 +46,7 @@ KINDS = {
     "lobe_stack": Kind(lobe_stack.from_map_set, LobeStackOnDevice, StackLook),
     "reflection_tables": Kind(reflection_tables.from_map_set, ReflectionTablesOnDevice, TablesLook),
     "mip_chain": Kind(mip_chain.from_map_set, MipChainOnDevice, MipLook),
+    environment.KIND: Kind(environment.from_map_set, EnvironmentOnDevice, EnvironmentLook),
 }
 
 
@@ -79,12 +82,36 @@ class OpenedMapSet:
         return KINDS[self.kind].on_device(self.subject)
 
 
+def kind_of(path: Path) -> str:
+    """The kind of map set that a file is.
+
+    Parameters
+    ----------
+    path : Path
+        A map set, or a picture of an environment.
+
+    Returns
+    -------
+    str
+        One of `KINDS`.
+
+    Raises
+    ------
+    MapSetError
+        As `files.map_set.read_map_set_header`.
+    """
+    if environment.is_environment(path):
+        return environment.KIND
+    return str(read_map_set_header(path)["kind"])
+
+
 def open_map_set(path: Path, kind: str | None = None) -> OpenedMapSet:
     """Read a map set.
 
     Parameters
     ----------
     path : Path
+        A map set; where any kind will do, a picture of an environment as well.
     kind : str, optional
         The only kind that will do.
 
@@ -96,13 +123,16 @@ def open_map_set(path: Path, kind: str | None = None) -> OpenedMapSet:
     ------
     MapSetError
         As `files.map_set.read_map_set`, or the kind's own `from_map_set`.
+    InputFileError
+        A picture cannot be used: see `files.environments.read_environment`.
     """
-    map_set = read_map_set(path, kind)
-    environment = map_set.header["environment"]
-    part = environment["part"]
+    if kind is None and environment.is_environment(path):
+        map_set = environment.read_as_map_set(path)
+    else:
+        map_set = read_map_set(path, kind)
     return OpenedMapSet(
         map_set.kind,
         KINDS[map_set.kind].from_map_set(path, map_set),
-        None if part is None else Environment(map_set.maps[part], environment["name"]),
+        environment.from_map_set(path, map_set) if map_set.header["environment"]["part"] else None,
         map_set.header["material"],
     )

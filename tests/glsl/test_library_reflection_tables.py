@@ -9,7 +9,7 @@ from rsibr.rsibr_addon.core.reflection_tables import ReflectionTables, Role
 from rsibr.rsibr_addon.core.resample import bilinear
 from rsibr.rsibr_addon.core.shading.reflection_tables import TablesLook, reflect_tables
 from rsibr.rsibr_addon.device import buffers
-from rsibr.rsibr_addon.device.reflection_tables import _with_alpha, bordered
+from rsibr.rsibr_addon.device.equirect import bordered
 from rsibr.rsibr_addon.device.summed_area import summed_area_texture
 from rsibr.tests.glsl.evaluation import Samplers
 from rsibr.tests.glsl.test_library_summed_area import CORNERS, footprints
@@ -34,8 +34,8 @@ ARCTANGENT = 2e-5
 
 def samplers() -> Samplers:
     return {
-        "image": ("FLOAT_2D", buffers.texture(_with_alpha(bordered(IMAGE)))),
-        "weights": ("FLOAT_2D", buffers.texture(_with_alpha(WEIGHTS))),
+        "image": ("FLOAT_2D", buffers.texture(buffers.with_alpha(bordered(IMAGE)))),
+        "weights": ("FLOAT_2D", buffers.texture(buffers.with_alpha(WEIGHTS))),
     }
 
 

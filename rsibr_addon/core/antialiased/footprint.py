@@ -23,6 +23,31 @@ def pixel_footprints(directions: ArrayLike) -> Array:
     return np.stack([grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]], axis=-2)
 
 
+def parallelogram(middle: ArrayLike, across: ArrayLike, up: ArrayLike) -> Array:
+    """The footprints of pixels whose directions change evenly.
+
+    Parameters
+    ----------
+    middle : array_like, shape (..., 3)
+        Unit directions that the pixels' middles reflect.
+    across, up : array_like, shape (..., 3)
+        By how much they change from a pixel to the next one on its right, and above it.
+
+    Returns
+    -------
+    ndarray, shape (..., 4, 3)
+        Corners as of `pixel_footprints`, of lengths near 1.
+
+    Notes
+    -----
+    What a graphics card knows of a pixel: differences to its neighbours. GLSL twin:
+    gpu_shaders/lib/footprint_lib.glsl `parallelogram`, three roundings.
+    """
+    middle, across, up = np.asarray(middle), 0.5 * np.asarray(across), 0.5 * np.asarray(up)
+    corners = (middle - across - up, middle + across - up, middle + across + up, middle - across + up)
+    return np.stack(corners, axis=-2)
+
+
 def footprint_box(corners: ArrayLike, width: int, height: int) -> Array:
     """The smallest rectangle of a table that holds a footprint's corners, at least a texel wide and high.
 

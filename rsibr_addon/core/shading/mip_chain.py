@@ -17,6 +17,7 @@ from ..maps import cube_map
 from ..maps.representation import representation
 from ..mip_chain import MipChain
 from ..resample import bilinear, lookup
+from .checks import check_shares
 
 _CUBE = representation("cube_map")
 
@@ -65,8 +66,7 @@ class MipLook:
     def __post_init__(self) -> None:
         object.__setattr__(self, "borders", Borders(self.borders))
         for name, values in (("f_lambda", self.f_lambda), ("k_d", self.k_d)):
-            if not all(0.0 <= value <= 1.0 for value in values):
-                raise RangeError(f"{name} {values} is out of range: choose numbers from 0 to 1.")
+            check_shares(name, values)
         if not 0.0 <= self.bias < np.inf:
             raise RangeError(f"A bias of {self.bias:g} is out of range: choose a number from 0.")
         if self.roughness is not None:

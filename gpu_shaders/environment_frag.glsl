@@ -1,0 +1,24 @@
+// Twin of core/shading/environment.py `mirrored_environment`.
+#include "lib/directions_lib.glsl"
+#include "lib/draw_lib.glsl"
+#include "lib/footprint_lib.glsl"
+#include "lib/fresnel_lib.glsl"
+#include "lib/summed_area_lib.glsl"
+
+void main()
+{
+  vec3 unit_normal = normalize(world_normal);
+  vec3 view_dir = view_direction(draw.eye, world_position);
+  vec3 mirror_dir = reflect_dir(view_dir, unit_normal);
+  vec3 fresnel = fresnel_schlick(clamp(dot(unit_normal, view_dir), 0.0, 1.0), look.f_lambda.rgb);
+  vec3 corners[4];
+  parallelogram(mirror_dir, dFdx(mirror_dir), dFdy(mirror_dir), corners);
+  vec3 light;
+  if (look.antialiased > 0.5) {
+    light = box_mean(sums, look.unit.rgb, footprint_box(corners, vec2(textureSize(sums, 0).xy - 1)));
+  }
+  else {
+    light = equirect_radiance(environment, mirror_dir);
+  }
+  radiance = vec4(fresnel * light, 1.0);
+}

@@ -1,0 +1,77 @@
+"""Pictures of an environment, taken as map sets of kind `environment`."""
+
+from contextlib import suppress
+from pathlib import Path
+
+from ...core.environment import Environment
+from ...core.errors import InputFileError, MapSetError
+from ..environments import read_environment
+from ..map_set import MapSet, is_map_set
+from ..map_set_header import ENVIRONMENT
+from ..radiance_pictures import holds_radiance
+
+KIND = "environment"
+
+
+def is_environment(path: Path) -> bool:
+    """Whether a file is a picture of radiance, and no map set.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    bool
+        False also where it cannot be read: reading it as a map set tells why.
+    """
+    with suppress(InputFileError):
+        return holds_radiance(path) and not is_map_set(path)
+    return False
+
+
+def read_as_map_set(path: Path) -> MapSet:
+    """Read a picture as if it were a map set.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    MapSet
+        It has no parts but the environment, and no material.
+
+    Raises
+    ------
+    InputFileError
+        See `read_environment`.
+    """
+    environment = read_environment(path)
+    header = {"environment": {"name": environment.name, "part": ENVIRONMENT}, "material": {}}
+    return MapSet(KIND, {ENVIRONMENT: environment.radiance}, header)
+
+
+def from_map_set(path: Path, map_set: MapSet) -> Environment:
+    """The environment that a map set was made in.
+
+    Parameters
+    ----------
+    path : Path
+        The map set's file, for messages.
+    map_set : MapSet
+        Of any kind.
+
+    Returns
+    -------
+    Environment
+
+    Raises
+    ------
+    MapSetError
+        The file does not hold it.
+    """
+    described = map_set.header["environment"]
+    if described["part"] is None:
+        raise MapSetError(f"{path} does not hold the environment it was made in: give that as a picture.")
+    return Environment(map_set.maps[described["part"]], described["name"])

@@ -1,6 +1,7 @@
 """Draw a mesh shaded from a map set, once or as a turntable."""
 
 import argparse
+from pathlib import Path
 from typing import Any
 
 from . import looks, options
@@ -9,7 +10,12 @@ from .report import Report
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what `run` reads."""
-    options.add_map_set(parser)
+    parser.add_argument(
+        "map_set",
+        metavar="NAME.rsibr.exr|PICTURE",
+        type=Path,
+        help="a map set; or a picture of an environment, OpenEXR or Radiance HDR, to be mirrored",
+    )
     options.add_scene(parser, size=512)
     parser.add_argument(
         "--view",

@@ -8,14 +8,22 @@ import pytest
 from rsibr.rsibr_addon.core.camera import Camera
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.directions import reflect
-from rsibr.rsibr_addon.core.errors import MapSetError, OutputFileError, RangeError
+from rsibr.rsibr_addon.core.errors import InputFileError, MapSetError, OutputFileError, RangeError
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.core.shading.environment import EnvironmentLook
 from rsibr.rsibr_addon.core.shading.radiance_views import Mode, ViewsLook, Warping
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.files.pictures import read_exr
+from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.tasks.preview import PreviewSettings, preview, turntable
-from rsibr.tests.mirror_capture import BRIGHT_DIR, mirror_map_set, radiance_from, write_mirror_capture
+from rsibr.tests.mirror_capture import (
+    BRIGHT_DIR,
+    environment,
+    mirror_map_set,
+    radiance_from,
+    write_mirror_capture,
+)
 
 pytestmark = pytest.mark.needs("gl")
 
@@ -49,6 +57,24 @@ def test_a_mirrored_sphere_shows_its_surroundings(tmp_path: Path, mode: Mode, wa
     assert np.all(rgba[inside, 3] == 1.0)
     # pi / 4 of the frame, as fine as 16 samples a pixel on a rim of 48 pi pixels tell.
     assert rgba[..., 3].mean() == pytest.approx(np.pi / 4.0, abs=2e-3)
+
+
+@pytest.mark.parametrize("look", [None, EnvironmentLook(antialiased=False)])
+def test_a_picture_of_an_environment_is_mirrored(tmp_path: Path, look: EnvironmentLook | None) -> None:
+    write_radiance(tmp_path / "forest.exr", environment(128).radiance)
+    camera = Camera(VIEW)
+    settings = PreviewSettings(camera, size=SIZE, look=look)
+    rgba = read_exr(drain(preview(tmp_path / "forest.exr", settings, tmp_path / "out.exr")))
+    expected, inside = mirrored_sphere(camera, SIZE)
+    # A pixel of 1/24 averages as above; texels of 1.4 degrees err by h^2 / 8 of second derivatives up to 4,
+    # averaged over boxes that hold a texel and more by a few times that: 1e-3.
+    assert np.abs(rgba[..., :3] - expected)[inside].max() < 0.01
+
+
+def test_a_picture_that_is_no_environment_is_refused(tmp_path: Path) -> None:
+    write_radiance(tmp_path / "square.exr", np.ones((4, 4, 3), np.float32))
+    with pytest.raises(InputFileError, match="twice as wide as high"):
+        drain(preview(tmp_path / "square.exr", PreviewSettings(Camera(VIEW)), tmp_path / "out.png"))
 
 
 def test_png_and_exr_agree(tmp_path: Path, stored_bytes: Callable) -> None:

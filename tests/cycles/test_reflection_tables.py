@@ -5,10 +5,13 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
+from rsibr.rsibr_addon.core.antialiased.footprint import pixel_footprints
 from rsibr.rsibr_addon.core.camera import Camera
 from rsibr.rsibr_addon.core.conventions import texel_centres
+from rsibr.rsibr_addon.core.directions import reflect
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.core.shading.environment import EnvironmentLook, mirrored_environment
 from rsibr.rsibr_addon.core.shading.reflection_tables import TablesLook, reflect_tables
 from rsibr.rsibr_addon.core.tables.bake import TableSizes, bake_tables
 from rsibr.rsibr_addon.core.tables.material import material_from_texts
@@ -80,3 +83,19 @@ def test_a_table_is_what_cycles_renders(
     # degrees, and a pixel's sixteen samples, err by some thousandths.
     assert error.max() < (4.0 * noise + 0.01) * scale
     assert np.std(shown[inside]) > 0.1 * scale
+
+
+def test_a_mirror_of_the_environment_is_what_cycles_renders() -> None:
+    reference, noise = rendered(shader("Glossy", Roughness=0.0), 64)
+    normal = sphere_map.normal_from_uv(texel_centres(FINE, FINE)) @ CAMERA.frame.T
+    corners = np.stack(np.meshgrid(*[np.arange(FINE + 1) / FINE] * 2), axis=-1)
+    at_corners = sphere_map.normal_from_uv(corners) @ CAMERA.frame.T
+    footprint = pixel_footprints(reflect(np.broadcast_to(CAMERA.view_dir, at_corners.shape), at_corners))
+    for antialiased in (False, True):
+        look = EnvironmentLook(antialiased=antialiased)
+        shown = mirrored_environment(environment(), normal, CAMERA.view_dir, look, footprint)
+        inside = np.linalg.norm(2.0 * texel_centres(SIZE, SIZE) - 1.0, axis=-1) < 0.9
+        error = np.abs(shown.reshape(SIZE, 4, SIZE, 4, 3).mean(axis=(1, 3)) - reference)[inside]
+        scale = np.sqrt(np.mean(reference[inside] ** 2))
+        # As above; boxes that hold a texel and more blur by up to its 3 degrees.
+        assert error.max() < (4.0 * noise + 0.01) * scale

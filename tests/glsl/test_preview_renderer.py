@@ -3,9 +3,10 @@
 import gpu
 import numpy as np
 import pytest
+from rsibr.rsibr_addon.core.antialiased.footprint import parallelogram
 from rsibr.rsibr_addon.core.camera import Camera
 from rsibr.rsibr_addon.core.conventions import texel_centres
-from rsibr.rsibr_addon.core.directions import dot, normalize
+from rsibr.rsibr_addon.core.directions import dot, normalize, reflect
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.radiance_views import RadianceViews
 from rsibr.rsibr_addon.core.shading import radiance_views as shading
@@ -58,6 +59,12 @@ def samples(camera: Camera) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     under_root = np.maximum(along**2 - camera.distance**2 + 1.0, 0.0)
     normal = normalize(camera.eye[:3] + (-along - np.sqrt(under_root))[..., None] * ray)
     return normal, -ray, np.where(under_root > 0.0, dot(normal, -ray), 0.0)
+
+
+def sample_footprints(normal: np.ndarray, view_dir: np.ndarray) -> np.ndarray:
+    """What each sample of a picture reflects, by differences to its neighbours; shape (FINE, FINE, 4, 3)."""
+    mirror_dir = reflect(view_dir, normal)
+    return parallelogram(mirror_dir, np.gradient(mirror_dir, axis=1), np.gradient(mirror_dir, axis=0))
 
 
 def reference(

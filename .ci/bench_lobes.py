@@ -134,7 +134,7 @@ def from_graphics_memory(stack: LobeStack, points: Points) -> Array:
     )
     samplers = {
         "maps": ("FLOAT_3D", buffers.texture_3d(map_texels(stack), "RGBA16F")),
-        "elevations": ("FLOAT_2D", buffers.texture(elevation_texels(stack, StackLook()))),
+        "elevations": ("FLOAT_2D", buffers.texture(elevation_texels(stack, StackLook().shown(stack)))),
     }
     arguments = [points.normal, points.view_dir]
     return evaluate("lobe_stack_lib.glsl", code, arguments, samplers=samplers)[:, 0, :3]

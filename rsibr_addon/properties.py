@@ -1,5 +1,7 @@
 """What a Blender file keeps of ours: each object's map set, and how it is to be shaded."""
 
+from typing import Any
+
 import bpy
 
 
@@ -33,6 +35,13 @@ class RSIBR_PG_radiance_views(bpy.types.PropertyGroup):
     )
 
 
+def _weight(name: str, description: str) -> Any:
+    """A slider for what multiplies a table."""
+    return bpy.props.FloatProperty(
+        name=name, description=description, update=_notice, default=1.0, min=0.0, soft_max=2.0
+    )
+
+
 class RSIBR_PG_reflection_tables(bpy.types.PropertyGroup):
     """The fields of `core.shading.reflection_tables.TablesLook`."""
 
@@ -50,10 +59,26 @@ class RSIBR_PG_reflection_tables(bpy.types.PropertyGroup):
         ],
         default={"diffuse", "specular", "coat", "retro", "refraction"},
     )
+    w_diffuse: _weight("Diffuse", "Multiplies the diffuse table's weight, Wd of the paper of 1984")
+    w_specular: _weight("Specular", "Multiplies the specular table's weight, Ws of the paper of 1984")
+    w_coat: _weight("Coat", "Multiplies the coat's weight")
+    w_retro: _weight("Retro", "Multiplies the weight of light that is sent back")
+    w_refraction: _weight("Refraction", "Multiplies the weight of light that is let through")
     antialiased: bpy.props.BoolProperty(
         name="Antialiased",
-        description="Average specular and coat over what each pixel reflects",
+        description="Average specular and coat over what each pixel reflects: small lamps do not shimmer",
         update=_notice,
+    )
+
+
+class RSIBR_PG_lobe_stack(bpy.types.PropertyGroup):
+    """The fields of `core.shading.lobe_stack.StackLook`."""
+
+    use_lobes: bpy.props.BoolProperty(
+        name="Single Lobe", description="Show one of the lobes that the material is a sum of", update=_notice
+    )
+    lobes: bpy.props.IntProperty(
+        name="Lobe", description="Number of the lobe that is shown, from 0", update=_notice, min=0, soft_max=7
     )
 
 
@@ -154,6 +179,7 @@ class RSIBR_PG_looks(bpy.types.PropertyGroup):
 
     radiance_views: bpy.props.PointerProperty(type=RSIBR_PG_radiance_views)
     reflection_tables: bpy.props.PointerProperty(type=RSIBR_PG_reflection_tables)
+    lobe_stack: bpy.props.PointerProperty(type=RSIBR_PG_lobe_stack)
     mip_chain: bpy.props.PointerProperty(type=RSIBR_PG_mip_chain)
     environment: bpy.props.PointerProperty(type=RSIBR_PG_environment)
 
@@ -179,6 +205,7 @@ class RSIBR_PG_preview(bpy.types.PropertyGroup):
     other: bpy.props.PointerProperty(type=RSIBR_PG_looks)
     radiance_views: bpy.props.PointerProperty(type=RSIBR_PG_radiance_views)
     reflection_tables: bpy.props.PointerProperty(type=RSIBR_PG_reflection_tables)
+    lobe_stack: bpy.props.PointerProperty(type=RSIBR_PG_lobe_stack)
     mip_chain: bpy.props.PointerProperty(type=RSIBR_PG_mip_chain)
     environment: bpy.props.PointerProperty(type=RSIBR_PG_environment)
     live: bpy.props.PointerProperty(type=RSIBR_PG_live)
@@ -227,6 +254,7 @@ class RSIBR_PG_view(bpy.types.PropertyGroup):
 CLASSES = (
     RSIBR_PG_radiance_views,
     RSIBR_PG_reflection_tables,
+    RSIBR_PG_lobe_stack,
     RSIBR_PG_mip_chain,
     RSIBR_PG_environment,
     RSIBR_PG_live,

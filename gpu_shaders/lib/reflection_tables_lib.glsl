@@ -15,22 +15,22 @@ vec3 table_weight(sampler2D weights, int role, float cosine)
   return textureLod(weights, vec2(cosine, (float(role) + 0.5) / float(TABLES)), 0.0).rgb;
 }
 
-// Weight times table, or black where the table is not there or not to be shown.
-vec3 weighted_table(float shown, sampler2D table, sampler2D weights, int role, float cosine, vec3 direction)
+// Weight times table, times a factor: 0 where the table is not there or not to be shown.
+vec3 weighted_table(float factor, sampler2D table, sampler2D weights, int role, float cosine, vec3 direction)
 {
-  if (shown < 0.5) {
+  if (factor == 0.0) {
     return vec3(0.0);
   }
-  return table_weight(weights, role, cosine) * equirect_radiance(table, direction);
+  return factor * table_weight(weights, role, cosine) * equirect_radiance(table, direction);
 }
 
 // The same for a table that is averaged over a pixel's footprint (see summed_area_lib.glsl).
 vec3 weighted_mean(
-    float shown, sampler2DArray sums, vec3 unit, sampler2D weights, int role, float cosine, vec3 corners[4])
+    float factor, sampler2DArray sums, vec3 unit, sampler2D weights, int role, float cosine, vec3 corners[4])
 {
-  if (shown < 0.5) {
+  if (factor == 0.0) {
     return vec3(0.0);
   }
   vec4 box = footprint_box(corners, vec2(textureSize(sums, 0).xy - 1));
-  return table_weight(weights, role, cosine) * box_mean(sums, unit, box);
+  return factor * table_weight(weights, role, cosine) * box_mean(sums, unit, box);
 }

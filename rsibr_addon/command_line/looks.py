@@ -5,11 +5,14 @@ from typing import Any
 
 from .options import colour, whole_numbers
 
+WEIGHTS = ("w_diffuse", "w_specular", "w_coat", "w_retro", "w_refraction")
+
 KIND_OF: dict[str, tuple[str, ...]] = {
     "mode": ("radiance_views",),
     "warping": ("radiance_views",),
     "lobes": ("lobe_stack",),
     "shown": ("reflection_tables",),
+    **dict.fromkeys(WEIGHTS, ("reflection_tables",)),
     "antialiased": ("reflection_tables", "environment"),
     "f_lambda": ("mip_chain", "environment"),
     "k_d": ("mip_chain",),
@@ -51,6 +54,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=lambda text: tuple(text.split(",")),
         help="those that count, of diffuse,specular,coat,retro,refraction (default: all)",
     )
+    for name in WEIGHTS:
+        table = name.removeprefix("w_")
+        tables.add_argument(
+            f"--w-{table}",
+            dest=name,
+            metavar="W",
+            type=float,
+            help=f"multiplies the weight of {table} (default: 1)",
+        )
     mips = parser.add_argument_group("mip chains and environments", argument_default=argparse.SUPPRESS)
     mips.add_argument(
         "--f-lambda",

@@ -1,5 +1,6 @@
 """A lobe stack on the GPU: its maps in one 3D texture, one pass over a mesh."""
 
+import gpu
 import numpy as np
 
 from ..core.conventions import Array
@@ -42,16 +43,23 @@ class LobeStackOnDevice:
         lobes, slices = stack.maps.shape[:2]
         numbers = LAYOUTS.index(stack.layout), lobes, stack.taps.shape[2], slices
         self._block = buffers.uniform_block(np.array(numbers, dtype=np.float64))
+        self._elevations: dict[tuple[int, ...], gpu.types.GPUTexture] = {}
 
     def draw(self, mesh: MeshOnDevice, draw: Draw, look: StackLook) -> None:
         """See `OnDevice.draw`. Reference: core/shading/lobe_stack.py."""
-        elevations = buffers.texture(elevation_texels(self._stack, look))
         shader = lobe_stack_shader()
         shader.bind()
         shader.uniform_block("stack", self._block)
-        shader.uniform_sampler("elevations", elevations)
+        shader.uniform_sampler("elevations", self._elevations_of(look))
         shader.uniform_sampler("maps", self._maps)
         mesh.draw(shader, draw)
+
+    def _elevations_of(self, look: StackLook) -> gpu.types.GPUTexture:
+        """Kept for each choice of lobes: a frame may show two, and a steady one uploads nothing."""
+        shown = look.shown(self._stack)
+        if shown not in self._elevations:
+            self._elevations[shown] = buffers.texture(elevation_texels(self._stack, shown))
+        return self._elevations[shown]
 
 
 def map_texels(stack: LobeStack) -> Array:
@@ -76,29 +84,25 @@ def map_texels(stack: LobeStack) -> Array:
     return texels.reshape(-1, size + 2, size + 2, 4)
 
 
-def elevation_texels(stack: LobeStack, look: StackLook) -> Array:
+def elevation_texels(stack: LobeStack, shown: tuple[int, ...]) -> Array:
     """What depends on the view's elevation, as gpu_shaders/lib/lobe_stack_lib.glsl reads it.
 
     Parameters
     ----------
     stack : LobeStack
-    look : StackLook
+    shown : tuple of int
+        Lobes that count, see `StackLook.shown`.
 
     Returns
     -------
     ndarray, shape (1 + L * (1 + T), S, 4), float32
         Lobes that are not shown have a scale of 0.
-
-    Raises
-    ------
-    RangeError
-        See `StackLook.shown`.
     """
     lobes, slices, taps = stack.taps.shape
     texels = np.zeros((1 + lobes * (1 + taps), slices, 4), dtype=np.float32)
     texels[0, :, 0] = stack.mu
     of_lobes = texels[1:].reshape(lobes, 1 + taps, slices, 4)
-    for lobe in look.shown(stack):
+    for lobe in shown:
         of_lobes[lobe, 0, :, :3] = stack.scale[lobe]
     of_lobes[:, 1:, :, :2] = stack.offsets.swapaxes(1, 2)
     of_lobes[:, 1:, :, 2] = stack.taps.swapaxes(1, 2)

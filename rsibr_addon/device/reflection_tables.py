@@ -12,8 +12,8 @@ from .drawing import Draw, MeshOnDevice
 from .equirect import Sums, map_sums, map_texture, no_map, no_sums
 from .shaders import build, kept_until_exit, mesh_interface
 
-# Whether each table counts, in the order of `Role`; the index of refraction; whether each table of `MIRRORED`
-# counts by its mean over a pixel; and what the sums of those count.
+# A factor for each table, in the order of `Role`; the index of refraction; factors for tables of `MIRRORED`
+# that count by their means over a pixel; and what the sums of those count.
 _FIELDS = (*(role.value for role in Role), "eta", *(f"{role}_mean" for role in MIRRORED))
 _UNITS = " ".join(f"vec4 {role}_unit;" for role in MIRRORED)
 _TABLES_BLOCK = f"struct Tables {{ {' '.join(f'float {field};' for field in _FIELDS)} {_UNITS} }};"
@@ -76,12 +76,12 @@ class ReflectionTablesOnDevice:
         Reference: core/shading/reflection_tables.py.
         """
         averaged = self._sums if look.antialiased else {}
-        shown = [role for role in self._tables.maps if role in look.shown]
-        counts = [role in shown and role not in averaged for role in Role]
-        means = [role in shown and role in averaged for role in MIRRORED]
+        factors = {role: look.weight(role) if role in self._tables.maps else 0.0 for role in Role}
+        points = [0.0 if role in averaged else factor for role, factor in factors.items()]
+        means = [factors[role] if role in averaged else 0.0 for role in MIRRORED]
         sums = {role: averaged.get(role, self._no_sums) for role in MIRRORED}
         fields = self._fields.filled(
-            np.array([*counts, self._tables.eta, *means], dtype=float).reshape(2, 4),
+            np.array([*points, self._tables.eta, *means]).reshape(2, 4),
             *(each.unit for each in sums.values()),
         )
         shader = reflection_tables_shader()

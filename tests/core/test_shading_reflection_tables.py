@@ -57,6 +57,19 @@ def test_tables_add_up_by_their_weights() -> None:
     np.testing.assert_allclose(reflect_tables(tables, NORMAL, VIEW, TablesLook()), total, rtol=1e-12)
 
 
+def test_weights_of_the_look_multiply_those_of_the_tables() -> None:
+    maps = {role: RNG.random((4, 8, 3), dtype=np.float32) for role in Role}
+    tables = ReflectionTables(maps, RNG.random((len(Role), 8, 3), dtype=np.float32))
+    factors = {role: 0.5 + number for number, role in enumerate(Role)}
+    expected = sum(
+        factor * reflect_tables(tables, NORMAL, VIEW, TablesLook((role,))) for role, factor in factors.items()
+    )
+    look = TablesLook(**{f"w_{role}": factor for role, factor in factors.items()})
+    np.testing.assert_allclose(reflect_tables(tables, NORMAL, VIEW, look), expected, rtol=1e-12)
+    with pytest.raises(RangeError, match="A weight of -1 is out of range"):
+        TablesLook(w_coat=-1.0)
+
+
 def test_a_mirror_shows_texels_where_they_are() -> None:
     image = RNG.random((6, 12, 3), dtype=np.float32)
     texels = equirect.direction_from_uv(texel_centres(12, 6))

@@ -22,7 +22,7 @@ EDGES = np.concatenate([AXES, DIAGONALS])
 
 
 def elevations(stack: LobeStack = STACK) -> Samplers:
-    return {"elevations": ("FLOAT_2D", buffers.texture(elevation_texels(stack, StackLook())))}
+    return {"elevations": ("FLOAT_2D", buffers.texture(elevation_texels(stack, StackLook().shown(stack))))}
 
 
 def maps(stack: LobeStack) -> Samplers:

@@ -66,6 +66,24 @@ def test_light_beyond_half_floats_is_kept() -> None:
     assert np.abs(picture[..., :3] - expected)[inside].max() < 2e-3 * expected.max()
 
 
+def test_lobes_add_up_and_are_kept(smooth) -> None:
+    stack, _ = smooth
+    on_device = LobeStackOnDevice(stack)
+    renderer = PreviewRenderer(on_device)
+    camera = Camera((0.3, -1.0, 0.2))
+    looks = [StackLook(), StackLook(0), StackLook(1)]
+    whole, *single = [renderer.draw(*SPHERE, camera, SIZE, look)[..., :3] for look in looks]
+    more = sum(single) - whole
+    # A signed lobe is cut off at 0 where it is alone, so that single lobes add up to the whole or to more.
+    assert more.min() > -1e-5
+    assert np.quantile(more, 0.5) < 1e-5
+    assert whole.max() > 0.5
+    kept = dict(on_device._elevations)
+    for look in looks:
+        renderer.draw(*SPHERE, camera, SIZE, look)
+    assert on_device._elevations == kept
+
+
 def test_a_lobe_that_is_not_there_is_refused(smooth) -> None:
     _, renderer = smooth
     with pytest.raises(RangeError, match="no lobe 2: choose from 0 to 1"):

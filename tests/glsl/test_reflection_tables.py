@@ -29,7 +29,11 @@ def smooth_tables(eta: float) -> ReflectionTables:
     return ReflectionTables(maps, weights.astype(np.float32), eta)
 
 
-LOOKS = {"all": TablesLook()} | {role.value: TablesLook((role,)) for role in Role}
+LOOKS = {
+    "all": TablesLook(),
+    **{role.value: TablesLook((role,)) for role in Role},
+    "weighted": TablesLook(w_diffuse=0.5, w_specular=1.4, w_coat=0.0, w_retro=0.8, w_refraction=0.3),
+}
 
 
 @pytest.mark.parametrize("name", LOOKS)
@@ -100,7 +104,7 @@ def test_an_antialiased_lamp_neither_goes_out_nor_flickers() -> None:
 def test_an_antialiased_picture_is_what_the_reference_says(camera: Camera) -> None:
     ensure_context()
     tables = smooth_tables(1.5)
-    look = TablesLook((Role.SPECULAR, Role.COAT), antialiased=True)
+    look = TablesLook((Role.SPECULAR, Role.COAT), w_specular=1.3, w_coat=0.4, antialiased=True)
     picture = PreviewRenderer(ReflectionTablesOnDevice(tables)).draw(*SPHERE, camera, SIZE, look)
     normal, view_dir, cosine = samples(camera)
     blocks = (SIZE, SAMPLES_PER_AXIS, SIZE, SAMPLES_PER_AXIS)

@@ -19,10 +19,13 @@ class StackLook:
     Attributes
     ----------
     lobes : tuple of int
-        Numbers of the lobes that count, from 0; empty for all of them.
+        Numbers of the lobes that count, from 0, or one number; empty for all of them.
     """
 
     lobes: tuple[int, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "lobes", tuple(int(lobe) for lobe in np.atleast_1d(self.lobes)))
 
     def shown(self, stack: LobeStack) -> tuple[int, ...]:
         """The lobes that count.

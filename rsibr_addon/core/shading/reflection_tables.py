@@ -25,25 +25,50 @@ class TablesLook:
     ----------
     shown : tuple of Role
         Or their values, as text: the tables that count; what a material lacks is not missed.
+    w_diffuse, w_specular, w_coat, w_retro, w_refraction : float
+        At least 0: what multiplies the weights that the tables come with, the paper's Wd and Ws.
     antialiased : bool
         Whether tables of `MIRRORED` are averaged over what a pixel reflects; otherwise they are interpolated.
 
     Raises
     ------
     RangeError
-        There is no table of that name, or none is named.
+        There is no table of that name, or none is named; a weight is negative or not finite.
     """
 
     shown: tuple[Role, ...] = tuple(Role)
+    w_diffuse: float = 1.0
+    w_specular: float = 1.0
+    w_coat: float = 1.0
+    w_retro: float = 1.0
+    w_refraction: float = 1.0
     antialiased: bool = False
 
     def __post_init__(self) -> None:
+        for role in Role:
+            weight = getattr(self, f"w_{role}")
+            if not 0.0 <= weight < np.inf:
+                raise RangeError(f"A weight of {weight:g} is out of range: choose a number from 0.")
         try:
             object.__setattr__(self, "shown", tuple(Role(name) for name in self.shown))
         except ValueError as error:
             raise RangeError(f"There is no such table ({error}): choose from {', '.join(Role)}.") from error
         if not self.shown:
             raise RangeError(f"A picture needs a table: choose from {', '.join(Role)}.")
+
+    def weight(self, role: Role) -> float:
+        """What multiplies the weights of a table.
+
+        Parameters
+        ----------
+        role : Role
+
+        Returns
+        -------
+        float
+            0 where it is not shown.
+        """
+        return float(getattr(self, f"w_{role}")) if role in self.shown else 0.0
 
 
 def lookup_direction(role: Role, normal: ArrayLike, view_dir: ArrayLike, eta: float) -> Array:
@@ -119,10 +144,12 @@ def reflect_tables(
     cosine = dot(normal, view_dir)
     radiance = np.zeros(normal.shape)
     for number, role in enumerate(Role):
-        if role not in tables.maps or role not in look.shown:
+        if role not in tables.maps or look.weight(role) == 0.0:
             continue
         row = np.full_like(cosine, (number + 0.5) / len(Role))
-        weight = bilinear(tables.weights, np.stack([cosine, row], axis=-1), sphere_map.wrap)
+        weight = look.weight(role) * bilinear(
+            tables.weights, np.stack([cosine, row], axis=-1), sphere_map.wrap
+        )
         table = tables.maps[role]
         if footprint is not None and role in MIRRORED:
             box = footprint_box(footprint, table.shape[1], table.shape[0])

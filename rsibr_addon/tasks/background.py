@@ -22,9 +22,11 @@ LAST_LINES = 20
 GRACE_SECONDS = 5.0
 """Until a Blender that was asked to end is killed."""
 
-
 NICENESS = 10
-"""Of a bake: what the artist does comes first."""
+"""Of a bake, above that of the artist's Blender, which comes first."""
+
+LEAST_URGENT = 19
+"""The highest niceness there is."""
 
 
 class State(StrEnum):
@@ -142,7 +144,8 @@ class Bake:
         self.state = State.RUNNING
         if sys.platform != "win32":
             with contextlib.suppress(ProcessLookupError):
-                os.setpriority(os.PRIO_PROCESS, self._process.pid, NICENESS)
+                niceness = os.getpriority(os.PRIO_PROCESS, self._process.pid) + NICENESS
+                os.setpriority(os.PRIO_PROCESS, self._process.pid, min(niceness, LEAST_URGENT))
         self._readers = [
             threading.Thread(target=read, args=(stream,), daemon=True)
             for read, stream in (

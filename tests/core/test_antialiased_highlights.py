@@ -17,6 +17,7 @@ def frames(request: pytest.FixtureRequest) -> list[dict[str, np.ndarray]]:
     return [pictures(table, SIZE, 0.1, 0.25 * np.pi / TABLE_HEIGHT * frame) for frame in range(8)]
 
 
+@pytest.mark.slow
 def test_highlights_do_not_scintillate(frames: list[dict[str, np.ndarray]]) -> None:
     assert flicker(frames, "point") > 0.1
     # The reference's lookups count a lamp of one texel, which some twenty of them find, to 3 %.

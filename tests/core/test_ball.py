@@ -35,6 +35,7 @@ def error_quantiles(radiance: np.ndarray, *shares: float) -> list[float]:
     return [float(error[order][np.searchsorted(covered, share)]) for share in shares]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("circle", "width", "height"),
     [
@@ -62,6 +63,7 @@ def test_large_photographs_are_looked_at_smaller() -> None:
     assert np.abs(error).max() < 2.0
 
 
+@pytest.mark.slow
 def test_no_ball_is_found_where_there_is_none() -> None:
     noise = RNG.random((96, 128, 3))
     ramp = np.linspace(0.0, 1.0, 128)[:, None] * np.ones((96, 128, 3))
@@ -94,6 +96,7 @@ def test_distance_by_how_large_the_ball_is(distance: float) -> None:
     assert distance_from_view(circle, 2000.0, field_of_view) == pytest.approx(distance)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("distance", "elevation"), [(4.0, 0.0), (np.inf, 0.0), (8.0, 0.5)])
 def test_one_side_unwraps_to_its_surroundings(distance: float, elevation: float) -> None:
     radiance, gains = environment_from_balls([side_seen(0.7, distance, elevation)], 128, 0.2)
@@ -104,6 +107,7 @@ def test_one_side_unwraps_to_its_surroundings(distance: float, elevation: float)
     assert gains == [1.0]
 
 
+@pytest.mark.slow
 def test_two_sides_show_what_either_hides() -> None:
     camera = np.radians(15.0)
     first, second = (side_seen(turn, 6.0, camera=camera) for turn in (0.0, np.radians(100.0)))

@@ -92,6 +92,7 @@ def test_what_lies_beside_white_is_uncertain() -> None:
     assert np.all(certainty(np.full((3, 3, 3), 2 / 255)) == 0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hand_held", [False, True])
 def test_a_merged_bracket_is_the_scene(hand_held: bool) -> None:
     movements = [Motion()] * 5

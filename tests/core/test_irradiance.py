@@ -128,6 +128,7 @@ def test_a_wrong_number_of_coefficients_is_refused() -> None:
         irradiance_matrix(np.zeros((25, 3)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("probe", ["grace", "galileo", "beach", "kitchen"])
 def test_under_the_light_probes_more_harmonics_come_closer(probe: str) -> None:
     if not PROBES.exists():

@@ -89,6 +89,7 @@ def test_copper_and_ward_reach_their_errors() -> None:
         assert np.all(between <= 0.5 * (errors[2].shape[1:] + errors[2].shape[:-1]) + 0.005)
 
 
+@pytest.mark.slow
 def test_one_map_with_five_taps_does_what_four_lobes_do() -> None:
     fit = fitted(WARD, 1, elevation_slices(16), taps=5)
     errors = fit_errors(fit, WARD)

@@ -91,6 +91,7 @@ def test_minimum_profiles_leave_nothing_negative_on_their_planes() -> None:
     np.testing.assert_allclose(rest.values, rest.at(rest.nodes), atol=1e-9)
 
 
+@pytest.mark.slow
 def test_the_papers_error_rises_after_six_to_nine_lobes_unless_it_is_clamped() -> None:
     # Samples every 1.5 degrees on eight planes; elevations up to 73 degrees from the normal
     mu = (np.arange(4, 16) + 0.5) / 16.0
@@ -128,6 +129,7 @@ def test_a_lobe_at_the_view_is_found_although_its_peak_is_elsewhere(seek: object
     assert np.arccos(axis @ view) < 0.35
 
 
+@pytest.mark.slow
 def test_searching_beats_peaks_on_copper() -> None:
     mu = np.array([0.2, 0.5])
     by_peaks = fit_errors(greedy_fit(COPPER, "copper", mu, 2), COPPER)

@@ -107,6 +107,7 @@ def test_roughness_rules() -> None:
     assert [rule(1) for rule in ROUGHNESS_RULES.values()] == [(0.0,), (0.0,)]
 
 
+@pytest.mark.slow
 def test_ggx_mips_are_the_sum_over_texels() -> None:
     radiance = RNG.random((64, 128, 3)) ** 6
     radiance[40, 17] = 500.0

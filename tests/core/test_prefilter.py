@@ -65,6 +65,7 @@ def exact_sphere(name: str) -> Array:
     return prefilter_exact(LIGHTS[name], WIDE, SPHERE)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-5, 1e-6, 1e-7, 1e-10])
 @pytest.mark.parametrize("name", LIGHTS)
 def test_the_promise_is_kept_against_brute_force(name: str, tolerance: float) -> None:
@@ -94,6 +95,7 @@ def test_dark_texels_beside_a_sun() -> None:
     assert np.abs(found.radiance - exact).max() < 5e-7 * exact.max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "lobe", [*LOBES, ggx_lobe(1.0), von_mises_fisher_lobe(1e-3)], ids=lambda lobe: f"{lobe.knots[1]:.2g}"
 )
@@ -125,6 +127,7 @@ def test_a_lit_texel_gives_back_the_profile() -> None:
         np.testing.assert_allclose(values, profile, rtol=0, atol=1e-8 * profile.max())
 
 
+@pytest.mark.slow
 def test_filtering_is_linear_and_turns_with_the_map() -> None:
     first, second = hdr_map(), RNG.random((48, 96, 3))
     mixed = filtered(2.0 * first + second, LOBES, DIRECTIONS, 1e-9).radiance

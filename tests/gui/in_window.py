@@ -3,11 +3,12 @@
 Copied beside them into the folder that Blender sees as /job; not imported by the tests themselves.
 """
 
-import importlib  # noqa: F401  (for the scenarios)
+import importlib
 import json
 import os
 import time
 import traceback
+from collections import Counter
 from collections.abc import Callable, Iterator
 
 import bmesh  # noqa: F401
@@ -52,13 +53,43 @@ def bare(area: bpy.types.Area) -> None:
     space.region_3d.view_distance = 8.0
 
 
+def viewports() -> list[bpy.types.Region]:
+    """What of the window shows scenes."""
+    return [region(area) for area in window().screen.areas if area.type == "VIEW_3D"]
+
+
+draws: Counter[int] = Counter()
+"""Address of a viewport -> how often it was drawn."""
+
+bpy.types.SpaceView3D.draw_handler_add(
+    lambda: draws.update([bpy.context.region.as_pointer()]), (), "WINDOW", "POST_PIXEL"
+)
+
+
 def drawn() -> Iterator[None]:
-    """Let Blender handle its events and draw until all is there; then `pixels` shows it."""
-    for _ in range(3):
-        for area in window().screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
-        yield
+    """Let Blender draw every viewport, twice without anything left to wait for; then `pixels` shows it.
+
+    Twice, as a draw is on the screen for sure when another begins: that asks the X server for the window's
+    size, which it tells after it has taken all that it was sent.
+    """
+    settled = 0
+    while settled < 2:
+        before = draws.copy()
+        shown = viewports()
+        for viewport in shown:
+            viewport.tag_redraw()
+        while any(draws[viewport.as_pointer()] == before[viewport.as_pointer()] for viewport in shown):
+            yield
+        settled = 0 if previews_wait() else settled + 1
+
+
+def previews_wait() -> bool:
+    """Whether previews are to be drawn once more; what waits for a render's end waits for long."""
+    module = importlib.import_module(ROOT + ".rsibr_addon.ui.viewport")
+    timers = [module._draw_again]
+    if not bpy.app.is_job_running("RENDER"):
+        timers.append(module._add_displays)
+    return any(map(bpy.app.timers.is_registered, timers))
 
 
 def pixels(number: int = 0) -> np.ndarray:
@@ -80,13 +111,13 @@ def run(scenario: Callable[[dict], Iterator[None]]) -> None:
     def step() -> float:
         try:
             next(steps)
+            if time.monotonic() > deadline:
+                steps.throw(TimeoutError(f"not done after {SECONDS} seconds"))
         except BaseException as end:
             if not isinstance(end, StopIteration):
                 told["error"] = traceback.format_exc()
             print("TOLD", json.dumps(told), flush=True)
             os._exit(0)
-        if time.monotonic() > deadline:
-            os._exit(1)
         return 0.02
 
     bpy.app.timers.register(step, first_interval=0.5, persistent=True)

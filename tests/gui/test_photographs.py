@@ -24,13 +24,17 @@ def browse(operator, **properties):
         told = list(operator("INVOKE_DEFAULT", **properties))
     while browser() is None or not browser().screen.areas[0].spaces.active.params:
         yield
-    for _ in range(20):
-        yield
     return told
 
 def within_browser():
     area = browser().screen.areas[0]
     return bpy.context.temp_override(window=browser(), area=area, region=region(area))
+
+def chosen():
+    # How many files are, when all are that Blender has listed so far; None before it has any
+    with within_browser():
+        bpy.ops.file.select_all(action="SELECT")
+        return len(bpy.context.selected_files or ())
 
 def press(operator, **properties):
     with within_browser():
@@ -46,12 +50,14 @@ def scenario(told):
     yield from browse(
         bpy.ops.rsibr.merge_brackets, directory="/job/bracket/", times="0.1 0.5 2", align=False
     )
-    with within_browser():
-        bpy.ops.file.select_all(action="SELECT")
-    yield from press(bpy.ops.file.execute)
-    told["works on"] = [each.bl_idname for each in window().modal_operators]
-    while window().modal_operators:
+    while chosen() < 3:
         yield
+    yield from press(bpy.ops.file.execute)
+    works = set()
+    while "a-light.exr" not in bpy.data.images:
+        works |= {each.bl_idname for each in window().modal_operators}
+        yield
+    told["works on"] = sorted(works)
     told["loaded"] = tuple(bpy.data.images["a-light.exr"].size)
 """
 

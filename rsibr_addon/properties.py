@@ -164,13 +164,14 @@ class RSIBR_PG_live(bpy.types.PropertyGroup):
         items=[(str(size), str(size), "") for size in (32, 64, 128, 256)],
         default="64",
     )
-    faces: bpy.props.IntProperty(
-        name="Faces per Frame",
-        description="How many of the six a frame may render after a change",
-        update=_notice,
-        default=6,
+    budget: bpy.props.IntProperty(
+        name="Budget (ms)",
+        description="What a frame may spend on new light after a change: as many of the six faces as fit, at "
+        "least one. Less keeps Blender quick, more lets the light follow sooner",
+        default=20,
         min=1,
-        max=6,
+        soft_max=200,
+        max=10000,
     )
 
 

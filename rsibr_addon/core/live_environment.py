@@ -4,7 +4,8 @@
 what they show for diffuse light, their mips for glossy light.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from statistics import median
 
 import numpy as np
 
@@ -174,8 +175,30 @@ def near_distances(points: Array) -> Array:
     return near
 
 
-def faces_due(due: int, next_face: int, budget: int) -> tuple[int, ...]:
-    """The faces that a frame renders: in turn, as many as are due and as the budget allows.
+def faces_within(budget: float, seconds_per_face: Sequence[float]) -> int:
+    """How many faces a frame may render.
+
+    Parameters
+    ----------
+    budget : float
+        [s] that a frame may spend.
+    seconds_per_face : sequence of float
+        What a face took in late updates, with its share of the filtering; > 0.
+
+    Returns
+    -------
+    int
+        1 to 6: one while nothing is known, and the budget by the median of what is, as a single update
+        may take long for other reasons, such as programs that are compiled.
+    """
+    if not seconds_per_face:
+        return 1
+    affordable = int(budget / median(seconds_per_face))
+    return min(max(affordable, 1), FACE_COUNT)
+
+
+def faces_due(due: int, next_face: int, most: int) -> tuple[int, ...]:
+    """The faces that a frame renders: in turn, as many as are due and as it may.
 
     Parameters
     ----------
@@ -183,11 +206,11 @@ def faces_due(due: int, next_face: int, budget: int) -> tuple[int, ...]:
         How many faces are older than the scene.
     next_face : int
         The oldest of them.
-    budget : int
+    most : int
         How many a frame may render.
 
     Returns
     -------
     tuple of int
     """
-    return tuple((next_face + number) % FACE_COUNT for number in range(min(due, budget)))
+    return tuple((next_face + number) % FACE_COUNT for number in range(min(due, most)))

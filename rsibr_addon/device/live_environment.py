@@ -1,8 +1,8 @@
 """Light that changes while one looks, filtered on the GPU: [Kautz2004] section 5.
 
 Six renders lie side by side in a strip. From it come the mips, in the atlas that `mip_chain` shades from,
-and nine harmonics; nothing of it is read back. A pass cannot read the texture that it writes, so each mip
-is halved from the atlas into another strip, and goes from there into its borders in the atlas.
+and nine harmonics; nothing of it has to be read back. A pass cannot read the texture that it writes, so each
+mip is halved from the atlas into another strip, and goes from there into its borders in the atlas.
 """
 
 from collections.abc import Iterator
@@ -93,6 +93,10 @@ class LiveEnvironmentOnDevice:
                 self._halve(mip)
                 self._border(self._smaller, mip + 1)
             self._sum_harmonics()
+
+    def finish(self) -> None:
+        """Wait until the GPU has done all that it was asked for."""
+        self._harmonics.framebuffer.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
 
     def draw(self, mesh: MeshOnDevice, draw: Draw, look: MipLook) -> None:
         """See `OnDevice.draw`. Reference: core/shading/mip_chain.py.

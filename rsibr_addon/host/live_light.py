@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from operator import attrgetter
 
 import bpy
 import numpy as np
@@ -10,6 +11,11 @@ from ..core.conventions import Array
 
 _SHADINGS = ("SOLID", "MATERIAL", "RENDERED")
 """Shadings of viewports, those that come nearer to light last."""
+
+_SHADING = [each for each in bpy.types.View3DShading.bl_rna.properties if each.type != "POINTER"]
+_COLOURS = {each.identifier for each in _SHADING if getattr(each, "is_array", False)}
+_settings_of = attrgetter(*(each.identifier for each in _SHADING if each.identifier not in _COLOURS))
+_colours_of = attrgetter(*_COLOURS)
 
 
 def live_name(item: bpy.types.Object) -> str:
@@ -53,8 +59,33 @@ def points_of(item: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Array:
     return positions.reshape(-1, 3).astype(np.float64)
 
 
-def shows_surroundings(space: bpy.types.SpaceView3D) -> bool:
+def shows_surroundings(space: bpy.types.SpaceView3D, layer: tuple[int, str]) -> bool:
     """Whether surroundings are to be rendered as a viewport shows them.
+
+    Parameters
+    ----------
+    space : bpy.types.SpaceView3D
+    layer : (int, str)
+        The view layer that it shows: its scene's number in this session, and its name.
+
+    Returns
+    -------
+    bool
+        True for one viewport of a layer at most: the first of those that come nearest to light. None does
+        where Cycles draws, or another engine that is not Blender's own.
+    """
+    spaces = [
+        area.spaces.active
+        for window in bpy.context.window_manager.windows
+        if (window.scene.session_uid, window.view_layer.name) == layer
+        for area in window.screen.areas
+        if area.type == "VIEW_3D"
+    ]
+    return _nearness(space) >= 0 and max(spaces, key=_nearness) == space
+
+
+def appearance_of(space: bpy.types.SpaceView3D) -> tuple[object, ...]:
+    """All that a viewport says of how it shows things, to be compared with what it said before.
 
     Parameters
     ----------
@@ -62,15 +93,11 @@ def shows_surroundings(space: bpy.types.SpaceView3D) -> bool:
 
     Returns
     -------
-    bool
-        False where another viewport comes nearer to light, and where Cycles or another engine that is not
-        Blender's own draws.
+    tuple
     """
-    windows = bpy.context.window_manager.windows
-    spaces = [
-        area.spaces.active for window in windows for area in window.screen.areas if area.type == "VIEW_3D"
-    ]
-    return _nearness(space) >= max(0, *map(_nearness, spaces))
+    shading = space.shading
+    colours = map(tuple, _colours_of(shading))
+    return _settings_of(shading), *colours, space.clip_start, space.clip_end, bpy.context.engine
 
 
 @contextmanager

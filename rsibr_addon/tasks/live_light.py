@@ -1,12 +1,25 @@
 """The light around an object, rendered while one looks: [Kautz2004] section 5."""
 
+import time
+from collections import deque
+
 import numpy as np
 
-from ..core.live_environment import FACE_COUNT, face_projection, face_view, faces_due, near_distances
+from ..core.live_environment import (
+    FACE_COUNT,
+    face_projection,
+    face_view,
+    faces_due,
+    faces_within,
+    near_distances,
+)
 from ..device.live_environment import LiveEnvironmentOnDevice
 from ..device.surroundings import SurroundingsCamera
-from ..host.live_light import bare, points_of
+from ..host.live_light import appearance_of, bare, points_of
 from ..host.viewport import Surface, View
+
+UPDATES_JUDGED = 5
+"""So many of the last say what the next one will take."""
 
 
 class LiveLight:
@@ -29,7 +42,8 @@ class LiveLight:
         self._missing = FACE_COUNT
         self._due = FACE_COUNT
         self._next_face = 0
-        self._shading = ""
+        self._appearance: tuple[object, ...] = ()
+        self._seconds_per_face: deque[float] = deque(maxlen=UPDATES_JUDGED)
 
     @property
     def is_ready(self) -> bool:
@@ -55,12 +69,29 @@ class LiveLight:
         bool
             Whether the light has changed.
         """
-        space = view.space
-        if space.shading.type != self._shading:
-            self._shading, self._due = space.shading.type, FACE_COUNT
-        faces = faces_due(self._due, self._next_face, surface.item.rsibr.live.faces)
+        self._look_at_viewport(view)
+        budget = 1e-3 * surface.item.rsibr.live.budget
+        faces = faces_due(self._due, self._next_face, faces_within(budget, self._seconds_per_face))
         if not faces:
             return False
+        since = time.perf_counter()
+        self._render(faces, view, surface)
+        self.on_device.filter()
+        self.on_device.finish()
+        self._seconds_per_face.append((time.perf_counter() - since) / len(faces))
+        self._next_face = (faces[-1] + 1) % FACE_COUNT
+        self._due -= len(faces)
+        self._missing = max(self._missing - len(faces), 0)
+        return True
+
+    def _look_at_viewport(self, view: View) -> None:
+        """Have all faces rendered anew where the viewport shows things in another way, as no scene tells."""
+        appearance = appearance_of(view.space)
+        if appearance != self._appearance:
+            self._appearance, self._due = appearance, FACE_COUNT
+
+    def _render(self, faces: tuple[int, ...], view: View, surface: Surface) -> None:
+        space = view.space
         reached = points_of(surface.item, view.depsgraph) @ surface.matrix[:3, :3].T + surface.matrix[:3, 3]
         centre = 0.5 * (reached.min(axis=0) + reached.max(axis=0))
         nearest = np.maximum(near_distances(reached - centre), space.clip_start)
@@ -69,8 +100,3 @@ class LiveLight:
                 projection = face_projection(nearest[face], max(space.clip_end, 2.0 * nearest[face]))
                 seen = self._camera.see(view.scene, view.layer[1], space, face_view(face, centre), projection)
                 self.on_device.set_face(face, seen)
-        self.on_device.filter()
-        self._next_face = (faces[-1] + 1) % FACE_COUNT
-        self._due -= len(faces)
-        self._missing = max(self._missing - len(faces), 0)
-        return True

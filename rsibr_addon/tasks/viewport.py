@@ -142,7 +142,7 @@ class Previews:
         bool
             Whether any light has changed, and what shows it has to be drawn again.
         """
-        if self.trouble or not (self._live and shows_surroundings(view.space)):
+        if self.trouble or not (self._live and shows_surroundings(view.space, view.layer)):
             return False
         changed = False
         try:

@@ -21,4 +21,4 @@ class RSIBR_PT_live(bpy.types.Panel):
         """Show how fine the light is, and what a frame may spend on it."""
         self.layout.use_property_split = True
         self.layout.prop(context.object.rsibr.live, "size")
-        self.layout.prop(context.object.rsibr.live, "faces")
+        self.layout.prop(context.object.rsibr.live, "budget")

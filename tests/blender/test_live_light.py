@@ -6,7 +6,14 @@ import bpy
 import numpy as np
 import pytest
 import rsibr
-from rsibr.rsibr_addon.host.live_light import bare, is_live_name, live_name, points_of
+from rsibr.rsibr_addon.host.live_light import (
+    appearance_of,
+    bare,
+    is_live_name,
+    live_name,
+    points_of,
+    shows_surroundings,
+)
 from rsibr.rsibr_addon.host.viewport import is_wanted, map_set_of
 
 
@@ -50,10 +57,54 @@ def test_points_are_the_evaluated_mesh_s_or_a_box() -> None:
     np.testing.assert_array_equal(points_of(text, depsgraph), np.array(text.bound_box))
 
 
+def viewport() -> bpy.types.SpaceView3D:
+    (space,) = (area.spaces.active for area in bpy.context.screen.areas if area.type == "VIEW_3D")
+    return space
+
+
 @pytest.mark.parametrize("shown", [True, False])
 def test_overlays_come_back(shown: bool) -> None:
-    (space,) = (area.spaces.active for area in bpy.context.screen.areas if area.type == "VIEW_3D")
+    space = viewport()
     space.overlay.show_overlays = shown
     with bare(space):
         assert space.overlay.show_overlays is False
     assert space.overlay.show_overlays is shown
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("type", "MATERIAL"),
+        ("single_color", (0.1, 0.2, 0.3)),
+        ("studiolight_rotate_z", 0.5),
+        ("use_scene_world_render", False),
+    ],
+)
+def test_a_viewport_s_settings_make_its_appearance(name: str, value: object) -> None:
+    space = viewport()
+    before = appearance_of(space)
+    assert appearance_of(space) == before
+    setattr(space.shading, name, value)
+    assert appearance_of(space) != before
+
+
+def test_one_viewport_of_a_layer_shows_surroundings() -> None:
+    scene = bpy.context.scene
+    layer = scene.session_uid, bpy.context.view_layer.name
+    other = next(area for area in bpy.context.screen.areas if area.type != "VIEW_3D")
+    other.type = "VIEW_3D"
+    both = [area.spaces.active for area in bpy.context.screen.areas if area.type == "VIEW_3D"]
+
+    def showing() -> list[bool]:
+        return [shows_surroundings(each, layer) for each in both]
+
+    assert showing() == [True, False]
+    for each in both:
+        each.shading.type = "MATERIAL"
+        assert sum(showing()) == 1
+    both[1].shading.type = "RENDERED"
+    assert showing() == [False, True]
+    scene.render.engine = "CYCLES"
+    assert showing() == [True, False]
+    both[0].shading.type = "WIREFRAME"
+    assert showing() == [False, False]

@@ -9,6 +9,7 @@ from rsibr.rsibr_addon.core.live_environment import (
     face_projection,
     face_view,
     faces_due,
+    faces_within,
     harmonics_of_faces,
     near_distances,
     solid_angle_texels,
@@ -113,3 +114,10 @@ def test_faces_take_turns() -> None:
     assert faces_due(6, 4, 3) == (4, 5, 0)
     assert faces_due(1, 2, 3) == (2,)
     assert faces_due(0, 2, 3) == ()
+
+
+def test_a_budget_in_seconds_is_faces() -> None:
+    assert faces_within(0.02, []) == 1
+    assert [faces_within(0.02, [seconds]) for seconds in (0.1, 0.02, 0.0099, 0.005, 1e-4)] == [1, 1, 2, 4, 6]
+    # One of five that compiled programs
+    assert faces_within(0.02, [10.0, 0.005, 0.005, 0.006, 0.005]) == 4

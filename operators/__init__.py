@@ -1,8 +1,10 @@
 """Operators, one per file; thin: properties to settings, then a task."""
 
+from .accept import RSIBR_OT_accept
 from .apply_quality import RSIBR_OT_apply_quality
 from .assemble_faces import RSIBR_OT_assemble_faces
 from .assign import RSIBR_OT_assign
+from .bake_again import RSIBR_OT_bake_again
 from .bake_in_background import RSIBR_OT_bake
 from .bake_mips import RSIBR_OT_bake_mips
 from .bake_stack import RSIBR_OT_bake_stack
@@ -16,7 +18,9 @@ from .fit_lobes import RSIBR_OT_fit_lobes
 from .lift_painting import RSIBR_OT_lift_painting
 from .merge_brackets import RSIBR_OT_merge_brackets
 from .open_report import RSIBR_OT_open_report
+from .pack import RSIBR_OT_pack
 from .reload_map_sets import RSIBR_OT_reload_map_sets
+from .unpack import RSIBR_OT_unpack
 from .unwrap_ball import RSIBR_OT_unwrap_ball
 
 CLASSES: tuple[type, ...] = (
@@ -32,8 +36,12 @@ CLASSES: tuple[type, ...] = (
     RSIBR_OT_fit_lobes,
     RSIBR_OT_apply_quality,
     RSIBR_OT_bake,
+    RSIBR_OT_bake_again,
     RSIBR_OT_cancel_bake,
     RSIBR_OT_assign,
+    RSIBR_OT_accept,
+    RSIBR_OT_pack,
+    RSIBR_OT_unpack,
     RSIBR_OT_open_report,
     RSIBR_OT_compare,
     RSIBR_OT_reload_map_sets,

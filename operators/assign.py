@@ -4,7 +4,7 @@ from pathlib import Path
 
 import bpy
 
-from ..rsibr_addon.host.bake_settings import assign
+from ..rsibr_addon.host.map_sets import stored_path
 from ..rsibr_addon.tasks.kinds import kind_of
 from .reporting import reporting
 
@@ -22,15 +22,16 @@ class RSIBR_OT_assign(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether there is an object."""
-        return context.object is not None
+        """Whether there is an object that may be changed."""
+        return context.object is not None and context.object.is_editable
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Assign, if the file is a map set, or a picture of an environment."""
         with reporting(self):
             path = Path(bpy.path.abspath(self.filepath))
             kind_of(path)
-            assign(context.object.session_uid, path)
+            settings = context.object.rsibr
+            settings.map_set, settings.show = stored_path(path), True
             return {"FINISHED"}
         return {"CANCELLED"}
 

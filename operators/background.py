@@ -7,6 +7,7 @@ import bpy
 from ..rsibr_addon.host.bake_settings import assign
 from ..rsibr_addon.tasks.background import BakeQueue, State
 from ..rsibr_addon.tasks.bake_order import ObjectBake, is_baked
+from ..rsibr_addon.tasks.viewport import previews
 
 SECONDS = 0.2
 """Between two looks."""
@@ -42,7 +43,8 @@ def look() -> None:
             _open(bake)
         elif _is_made(bake):
             for item in bake.items:
-                assign(item, bake.output)
+                assign(item, bake.output, bake.settings)
+            previews.reload()  # it may have replaced a file that is shown
             _push_undo("Assign Map Set")
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:

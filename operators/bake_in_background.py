@@ -5,6 +5,7 @@ import bpy
 from ..rsibr_addon.core.errors import RsibrError
 from ..rsibr_addon.host.bake_settings import assign
 from ..rsibr_addon.tasks.bake_order import bake_of, is_baked, order_for, output_for
+from ..rsibr_addon.tasks.map_set_facts import map_set_content
 from . import background
 from .reporting import reporting
 
@@ -29,15 +30,38 @@ class RSIBR_OT_bake(bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Queue the bake; where the same was baked before, its file is taken at once."""
         with reporting(self):
-            order = order_for(context.scene, context.object)
-            output = output_for(order, context.scene, context.object)
-            if (unfinished := background.queue.unfinished(output)) is not None:
-                unfinished.items.append(context.object.session_uid)
-                self.report({"INFO"}, f"Being baked already: {output.name}")
-            elif is_baked(output):
-                assign(context.object.session_uid, output)
-                self.report({"INFO"}, f"Baked before: {output.name}")
-            else:
-                background.submit(bake_of(order, context.object, output))
+            self.report({"INFO"}, queue_bake(context))
             return {"FINISHED"}
         return {"CANCELLED"}
+
+
+def queue_bake(context: bpy.types.Context, content: str = "") -> str:
+    """Bake for the active object, unless the same is being baked or was before.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    content : str
+        Hash of what a file that was baked before has to hold; empty if anything will do.
+
+    Returns
+    -------
+    str
+        What was done, in words.
+
+    Raises
+    ------
+    RsibrError
+        See `order_for`, `output_for` and `bake_of`.
+    """
+    item = context.object
+    order = order_for(context.scene, item)
+    output = output_for(order, context.scene, item)
+    if (unfinished := background.queue.unfinished(output)) is not None:
+        unfinished.items.append(item.session_uid)
+        return f"Being baked already: {output.name}"
+    if is_baked(output) and content in ("", map_set_content(output)):
+        assign(item.session_uid, output, order.settings)
+        return f"Baked before: {output.name}"
+    background.submit(bake_of(order, item, output))
+    return f"Baking {output.name}"

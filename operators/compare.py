@@ -1,9 +1,8 @@
 """Compare the active object's map set with the truth."""
 
-from pathlib import Path
-
 import bpy
 
+from ..rsibr_addon.host.map_sets import written_path
 from ..rsibr_addon.tasks.bake_order import comparison_of
 from . import background
 from .reporting import reporting
@@ -24,6 +23,6 @@ class RSIBR_OT_compare(bpy.types.Operator):
         """Queue the comparison."""
         with reporting(self):
             item = context.object
-            background.submit(comparison_of(item, Path(bpy.path.abspath(item.rsibr.map_set))))
+            background.submit(comparison_of(item, written_path(item.rsibr)))
             return {"FINISHED"}
         return {"CANCELLED"}

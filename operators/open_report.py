@@ -1,11 +1,10 @@
 """Write all of a map set on one page, and open it."""
 
-from pathlib import Path
-
 import bpy
 
 from ..rsibr_addon.core.errors import SceneError
 from ..rsibr_addon.core.progress import drain
+from ..rsibr_addon.host.map_sets import written_path
 from ..rsibr_addon.tasks.map_set_page import map_set_page, page_beside
 from .reporting import reporting
 
@@ -28,7 +27,7 @@ class RSIBR_OT_open_report(bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Write it beside the map set, in place of an earlier one."""
         with reporting(self):
-            path = Path(bpy.path.abspath(context.object.rsibr.map_set))
+            path = written_path(context.object.rsibr)
             if not path.is_file():
                 raise SceneError(f"There is no map set {path}: bake it again, or choose another.")
             page = drain(map_set_page(path, page_beside(path), force=True))

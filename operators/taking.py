@@ -4,7 +4,7 @@ from pathlib import Path
 
 import bpy
 
-from ..rsibr_addon.host.bake_settings import stored_path
+from ..rsibr_addon.host.map_sets import stored_path
 
 
 def take_picture(path: Path, load: bool, use: bool) -> None:

@@ -1,8 +1,11 @@
 """What a Blender file keeps of ours: each object's map set, and how it is to be shaded."""
 
+from collections.abc import Iterable
 from typing import Any
 
 import bpy
+
+from .host.map_sets import chosen_path, use_map_set
 
 
 def _notice(group: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
@@ -188,11 +191,23 @@ class RSIBR_PG_looks(bpy.types.PropertyGroup):
 class RSIBR_PG_preview(bpy.types.PropertyGroup):
     """What shades an object in the viewport."""
 
+    image: bpy.props.PointerProperty(
+        type=bpy.types.Image,
+        name="Image",
+        description="The map set's file as Blender keeps track of it: its path, or its packed bytes",
+        update=_notice,
+    )
+    content: bpy.props.StringProperty(
+        name="Content", description="Hash of what the map set held when it was chosen"
+    )
     map_set: bpy.props.StringProperty(
         name="Map Set",
         description="File that shades the object in the viewport; a picture of an environment is mirrored",
         update=_notice,
         subtype="FILE_PATH",
+        options={"PATH_SUPPORTS_BLEND_RELATIVE"},
+        get=chosen_path,
+        set=use_map_set,
     )
     show: bpy.props.BoolProperty(
         name="Show", description="Shade the object from its map set", update=_notice, default=True
@@ -264,6 +279,20 @@ CLASSES = (
     RSIBR_PG_view,
 )
 """In the order of registration."""
+
+OVERRIDABLE = {"LIBRARY_OVERRIDABLE"}
+"""Library overrides keep only the properties that are told to be kept."""
+
+
+def keep_in_overrides(classes: Iterable[type[bpy.types.PropertyGroup]]) -> None:
+    """Have library overrides keep what groups store; to be called before they are registered."""
+    for cls in classes:
+        for declared in cls.__annotations__.values():
+            if "get" not in declared.keywords:
+                declared.keywords["override"] = OVERRIDABLE
+
+
+keep_in_overrides(CLASSES)
 
 POINTERS = {
     "rsibr": (bpy.types.Object, RSIBR_PG_preview),

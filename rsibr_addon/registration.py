@@ -14,6 +14,8 @@ def register() -> None:
     from .. import operators
     from ..operators import background
     from . import properties, ui
+    from .host.map_sets import unpacked
+    from .host.overrides import complete_references
     from .ui import bake_properties, viewport
 
     with ExitStack() as undo:
@@ -21,8 +23,12 @@ def register() -> None:
             bpy.utils.register_class(cls)
             undo.callback(bpy.utils.unregister_class, cls)
         for name, (owner, group) in (properties.POINTERS | bake_properties.POINTERS).items():
-            setattr(owner, name, bpy.props.PointerProperty(type=group))
+            pointer = bpy.props.PointerProperty(type=group, override=properties.OVERRIDABLE)
+            setattr(owner, name, pointer)
             undo.callback(delattr, owner, name)
+        bpy.app.handlers.save_pre.append(complete_references)
+        undo.callback(bpy.app.handlers.save_pre.remove, complete_references)
+        undo.callback(unpacked.remove)
         viewport.start(undo)
         background.start(undo)
         command = bpy.utils.register_cli_command("rsibr", _run_command)

@@ -21,9 +21,9 @@ LAYERS: dict[str, set[str]] = {
     "tasks": {"core", "job", "files", "host", "device"},
     "command_line": {"core", "job", "files", "host", "device", "tasks"},
     "operators": {"core", "job", "files", "host", "device", "tasks"},
-    "properties": set(),
+    "properties": {"core", "files", "host"},
     "ui": {"core", "job", "files", "host", "device", "tasks", "properties", "operators"},
-    "registration": {"command_line", "operators", "properties", "ui"},
+    "registration": {"command_line", "host", "operators", "properties", "ui"},
     "__init__": {"registration"},
 }
 """Layer -> the other layers of ours that it may import."""

@@ -3,6 +3,8 @@
 A rule table per object: field -> (what it must be, in words; how that is checked).
 """
 
+import hashlib
+import json
 import math
 import re
 from collections.abc import Callable, Iterator
@@ -151,6 +153,22 @@ def make_header(
         "settings": settings,
         "software": software,
     }
+
+
+def content_hash(header: dict[str, Any]) -> str:
+    """A hash that map sets share if they hold the same: a description has the hash of each part's pixels.
+
+    Parameters
+    ----------
+    header : dict
+        A whole description, as `files.map_set.read_map_set_header` reads it.
+
+    Returns
+    -------
+    str
+        64 hexadecimal digits.
+    """
+    return hashlib.sha256(json.dumps(header, sort_keys=True).encode()).hexdigest()
 
 
 def check_header(header: Any, name: str) -> None:

@@ -1,10 +1,12 @@
 """What an artist has chosen to bake: the scene's settings and the active object, as names and paths."""
 
 from pathlib import Path
+from typing import Any
 
 import bpy
 
 from ..core.errors import InputFileError, OutputFileError, SceneError
+from .map_sets import stored_path
 from .materials import surface_output
 from .worlds import studio_environments, world_of
 
@@ -152,7 +154,7 @@ def blender_program() -> str:
     return bpy.app.binary_path
 
 
-def assign(uid: int, path: Path) -> str | None:
+def assign(uid: int, path: Path, settings: dict[str, Any]) -> str | None:
     """Have an object shaded from a map set.
 
     Parameters
@@ -160,6 +162,8 @@ def assign(uid: int, path: Path) -> str | None:
     uid : int
         Its `session_uid`, which stays while names change.
     path : Path
+    settings : dict
+        What it was baked with, as `plain_settings` gives them.
 
     Returns
     -------
@@ -171,14 +175,34 @@ def assign(uid: int, path: Path) -> str | None:
         return None
     item.rsibr.map_set = stored_path(path)
     item.rsibr.show = True
+    apply_settings(item.rsibr_baked, settings)
     return item.name
 
 
-def stored_path(path: Path) -> str:
-    """A path as a file keeps it: relative where that is possible."""
-    if not bpy.data.filepath:
-        return str(path)
-    try:
-        return bpy.path.relpath(str(path))
-    except ValueError:  # On another drive
-        return str(path)
+def plain_settings(group: bpy.types.PropertyGroup) -> dict[str, Any]:
+    """What a group says, less what this version of ours does not know.
+
+    Returns
+    -------
+    dict
+        Name -> text, number or truth; or of a group within, such a dict.
+    """
+    settings: dict[str, Any] = {}
+    for prop in group.bl_rna.properties:
+        if prop.identifier in bpy.types.PropertyGroup.bl_rna.properties:
+            continue
+        value = getattr(group, prop.identifier)
+        if prop.type == "POINTER":
+            settings[prop.identifier] = plain_settings(value)
+        elif prop.type != "ENUM" or value:
+            settings[prop.identifier] = value
+    return settings
+
+
+def apply_settings(group: bpy.types.PropertyGroup, settings: dict[str, Any]) -> None:
+    """Have a group say what `plain_settings` told of another."""
+    for name, value in settings.items():
+        if isinstance(value, dict):
+            apply_settings(getattr(group, name), value)
+        else:
+            setattr(group, name, value)

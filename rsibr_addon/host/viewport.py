@@ -8,6 +8,7 @@ import numpy as np
 
 from ..core.conventions import Array
 from .live_light import live_name
+from .map_sets import planned_path
 from .world_light import AS_IT_IS, WorldLight, world_light
 
 UNSHADED = ("WIRE", "BOUNDS")
@@ -127,9 +128,7 @@ def map_set_of(item: bpy.types.Object) -> str:
     settings = item.rsibr
     if settings.show and settings.live.on:
         return live_name(item)
-    if not (settings.map_set and settings.show):
-        return ""
-    return bpy.path.abspath(settings.map_set, library=item.library)
+    return planned_path(settings) if settings.show else ""
 
 
 def is_wanted() -> bool:

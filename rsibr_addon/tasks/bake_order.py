@@ -19,6 +19,7 @@ from ..host.bake_settings import (
     existing,
     open_file,
     own_material,
+    plain_settings,
     save_copy,
 )
 from ..host.materials import ORIGINAL, fingerprint
@@ -52,12 +53,15 @@ class Order:
         Name of the material, where it is one of the open file.
     measured : str or None
         Path of the file that holds the material, where there is one.
+    settings : dict
+        All that the scene says, to bake the same again.
     """
 
     environment: str | None
     method: Method
     own_material: str | None
     measured: str | None
+    settings: dict[str, Any]
 
     @property
     def needs_file(self) -> bool:
@@ -84,10 +88,13 @@ class ObjectBake(Bake):
     ----------
     items : list of int
         The objects' `session_uid`.
+    settings : dict
+        Of the order; empty where what it makes shades nothing.
     folder : TemporaryDirectory
         Holds what the bake reads.
     """
 
+    settings: dict[str, Any] = field(default_factory=dict)
     items: list[int] = field(default_factory=list)
     folder: tempfile.TemporaryDirectory[str] | None = field(default=None, repr=False)
 
@@ -121,7 +128,8 @@ def order_for(scene: Any, item: Any) -> Order:
     own = own_material(item).name if source == "OWN" else None
     measured = existing(chosen.path, "measured material", "its file") if source == "FILE" else None
     environment = chosen_environment(scene)
-    return Order(environment, METHODS[scene.rsibr_bake.kind](chosen, own or measured or ""), own, measured)
+    method = METHODS[scene.rsibr_bake.kind](chosen, own or measured or "")
+    return Order(environment, method, own, measured, plain_settings(scene.rsibr_bake))
 
 
 def output_for(order: Order, scene: Any, item: Any) -> Path:
@@ -187,7 +195,9 @@ def bake_of(order: Order, item: Any, output: Path) -> ObjectBake:
     OutputFileError
         The open file cannot be copied.
     """
-    return _in_background(f"{item.name}: {order.title}", order.job(output), item, output, order.needs_file)
+    bake = _in_background(f"{item.name}: {order.title}", order.job(output), item, output, order.needs_file)
+    bake.settings = order.settings
+    return bake
 
 
 def comparison_of(item: Any, map_set: Path) -> ObjectBake:

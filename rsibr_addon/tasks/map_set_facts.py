@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ..files.map_set import read_map_set_header
+from ..files.map_set_header import content_hash
 
 
 def map_set_facts(path: Path) -> dict[str, str]:
@@ -25,11 +26,27 @@ def map_set_facts(path: Path) -> dict[str, str]:
     MapSetError
         See `read_map_set_header`.
     """
+    return _facts(path, *_state(path))
+
+
+def map_set_content(path: Path) -> str:
+    """The `content_hash` of a map set, computed again only when its file changes.
+
+    Raises
+    ------
+    MapSetError
+        See `read_map_set_header`.
+    """
+    return _content(path, *_state(path))
+
+
+def _state(path: Path) -> tuple[int, int]:
+    """Of a file, what changes when it does: the time, and its size."""
     try:
         status = os.stat(path)
     except OSError:
-        return _facts(path, 0, 0)
-    return _facts(path, status.st_mtime_ns, status.st_size)
+        return 0, 0
+    return status.st_mtime_ns, status.st_size
 
 
 @lru_cache(maxsize=64)
@@ -44,6 +61,11 @@ def _facts(path: Path, changed: int, size: int) -> dict[str, str]:
         "Maps": f"{len(header['parts'])}, {header['size'][0]} x {header['size'][1]}",
         **{_words(name): _number(value) for name, value in (header["error_bound"] or {}).items()},
     }
+
+
+@lru_cache(maxsize=64)
+def _content(path: Path, changed: int, size: int) -> str:
+    return content_hash(read_map_set_header(path))
 
 
 def _words(name: str) -> str:

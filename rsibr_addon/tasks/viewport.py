@@ -5,7 +5,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, fields
 from itertools import product
-from pathlib import Path
 from typing import Any
 
 from ..core.conventions import Array
@@ -16,6 +15,7 @@ from ..device.drawing import MeshOnDevice, OnDevice
 from ..device.viewport import Stage, current_sight, draw_occluder
 from ..host.display import Display, display_of, displayed_colours, scale_before_display
 from ..host.live_light import is_live_name, shows_surroundings
+from ..host.map_sets import written_path
 from ..host.meshes import mesh_from_object
 from ..host.viewport import Layer, Surface, View, is_wanted, map_set_of, shown_layers, surfaces
 from ..host.world_light import AS_IT_IS
@@ -268,7 +268,7 @@ class Previews:
         if is_live_name(preview.path):
             light = self._live[preview.path] = LiveLight(int(preview.surface.item.rsibr.live.size))
             return _MapSet("mip_chain", light.on_device)
-        opened = open_map_set(Path(preview.path))
+        opened = open_map_set(written_path(preview.surface.item.rsibr))
         return _MapSet(opened.kind, opened.upload())
 
     def _draw_one(self, preview: _Preview, view: View, other: bool) -> None:

@@ -1,4 +1,4 @@
-"""What a scene keeps of ours: what is to be baked, and how."""
+"""What a scene keeps of ours: what is to be baked, and how; and each object, of what it is shaded from."""
 
 import bpy
 
@@ -6,6 +6,7 @@ from ..core.brdf.gallery import GALLERY
 from ..core.tables.material import PRESETS as TABLE_PRESETS
 from ..host.presets import PRESETS
 from ..host.worlds import studio_environments
+from ..properties import keep_in_overrides
 from ..tasks.methods import MEASURED_FORMATS
 
 _OWN_SOURCE = ("OWN", "Object's Own", "The active object's active material, whatever its nodes")
@@ -206,5 +207,10 @@ CLASSES = (
 )
 """In the order of registration."""
 
-POINTERS = {"rsibr_bake": (bpy.types.Scene, RSIBR_PG_bake)}
-"""Name of a property -> what has it, and the group it points to."""
+keep_in_overrides(CLASSES)
+
+POINTERS = {
+    "rsibr_bake": (bpy.types.Scene, RSIBR_PG_bake),
+    "rsibr_baked": (bpy.types.Object, RSIBR_PG_bake),
+}
+"""Name of a property -> what has it, and the group it points to: what is to be baked, and what was."""

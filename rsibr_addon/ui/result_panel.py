@@ -1,11 +1,11 @@
 """What the active object is shaded from."""
 
-from pathlib import Path
-
 import bpy
 
-from ..core.errors import MapSetError
+from ..core.errors import RsibrError
+from ..host.map_sets import written_path
 from ..tasks.map_set_facts import map_set_facts
+from .map_set_file import draw_file, draw_remedies
 from .sentences import tell
 
 
@@ -24,16 +24,17 @@ class RSIBR_PT_result(bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Show its file, what it is, the errors that it promises; and open its report."""
-        layout = self.layout
-        path = Path(bpy.path.abspath(context.object.rsibr.map_set))
+        layout, item = self.layout, context.object
         try:
+            path = written_path(item.rsibr)
             facts = map_set_facts(path)
-        except MapSetError as error:
+        except RsibrError as error:
             tell(layout, str(error), context.region.width)
-            layout.operator("rsibr.assign", text="Find...", icon="FILEBROWSER")
+            draw_remedies(layout)
             return
+        draw_file(layout, item, path, context.region.width)
         column = layout.column(align=True)
-        for what, which in {"File": path.name, **facts}.items():
+        for what, which in facts.items():
             row = column.split(factor=0.4)
             row.alignment = "RIGHT"
             row.label(text=what)

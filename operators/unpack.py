@@ -1,0 +1,32 @@
+"""Write the active object's packed map set to a file of its own."""
+
+import bpy
+
+from ..rsibr_addon.host.bake_settings import baked_folder
+from ..rsibr_addon.host.map_sets import is_packed, unpack
+from .reporting import reporting
+
+
+class RSIBR_OT_unpack(bpy.types.Operator):
+    """Write the active object's packed map set to where baked files go, and shade from that file"""  # noqa: D400  (a tooltip)
+
+    bl_idname = "rsibr.unpack"
+    bl_label = "Unpack"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  (Blender reads the class)
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Whether there is a packed map set of this file."""
+        return (
+            context.object is not None
+            and is_packed(settings := context.object.rsibr)
+            and settings.image.is_editable
+        )
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Write it; nothing that is there is replaced."""
+        with reporting(self):
+            path = unpack(context.object.rsibr, baked_folder())
+            self.report({"INFO"}, f"Wrote {path}")
+            return {"FINISHED"}
+        return {"CANCELLED"}

@@ -1,0 +1,47 @@
+"""The file that the active object is shaded from: whether it is packed, gone or another; and what to do."""
+
+from pathlib import Path
+
+import bpy
+
+from ..host.map_sets import is_packed
+from ..tasks.map_set_facts import map_set_content
+from .sentences import tell
+
+
+def draw_file(layout: bpy.types.UILayout, item: bpy.types.Object, path: Path, width: int) -> None:
+    """Show the name of an object's map set, the button that packs or unpacks it, and whether it has changed.
+
+    Parameters
+    ----------
+    layout : bpy.types.UILayout
+    item : bpy.types.Object
+    path : Path
+        A whole map set.
+    width : int
+        Of the region in pixels.
+    """
+    packed = is_packed(item.rsibr)
+    row = layout.row(align=True)
+    row.label(text=path.name, icon="FILE_IMAGE")
+    if packed:
+        row.operator("rsibr.unpack", text="", icon="PACKAGE")
+    else:
+        row.operator("rsibr.pack", text="", icon="UGLYPACKAGE")
+    if item.rsibr.content and item.rsibr.content != map_set_content(path):
+        tell(
+            layout,
+            f"{path.name} holds something else than when it was chosen: accept that, find the file "
+            "that it was, or bake it again.",
+            width,
+        )
+        row = draw_remedies(layout)
+        row.operator("rsibr.accept")
+
+
+def draw_remedies(layout: bpy.types.UILayout) -> bpy.types.UILayout:
+    """Offer what helps when a map set is not there: the row of buttons."""
+    row = layout.row(align=True)
+    row.operator("rsibr.assign", text="Find...", icon="FILEBROWSER")
+    row.operator("rsibr.bake_again", icon="FILE_REFRESH")
+    return row

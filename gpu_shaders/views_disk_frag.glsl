@@ -4,8 +4,6 @@
 
 void main()
 {
-  ivec3 sources = ivec3(blend.sources.xyz);
-  vec3 weights = blend.weights.xyz;
   int warping = int(mode.warping);
   vec3 normal_seen[3] = vec3[3](normal_seen_0, normal_seen_1, normal_seen_2);
   vec3 mirror_seen[3] = vec3[3](mirror_seen_0, mirror_seen_1, mirror_seen_2);

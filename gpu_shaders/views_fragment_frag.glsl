@@ -8,17 +8,14 @@ void main()
   vec3 unit_normal = normalize(world_normal);
   vec3 view_dir = view_direction(draw.eye, world_position);
   ivec3 sources = find_triangle(sphere, int(mode.last_level), view_dir);
-  vec3 source_dirs[3];
-  for (int i = 0; i < 3; i++) {
-    source_dirs[i] = geodesic_vertex(sphere, sources[i]);
-  }
-  vec3 weights = barycentric_weights(view_dir, source_dirs[0], source_dirs[1], source_dirs[2]);
+  mat3 corners = geodesic_corners(sphere, sources);
+  vec3 weights = barycentric_weights(view_dir, corners[0], corners[1], corners[2]);
   int warping = int(mode.warping);
   float cosine = dot(unit_normal, view_dir);
   radiance = vec4(0.0, 0.0, 0.0, 1.0);
   for (int warp = WARP_NORMAL; warp <= WARP_MIRROR; warp++) {
     radiance.rgb += albedo_at(albedo, warping, warp, cosine) *
                     warp_and_blend(
-                        views, albedo, warping, warp, unit_normal, view_dir, sources, source_dirs, weights);
+                        views, albedo, warping, warp, unit_normal, view_dir, sources, corners, weights);
   }
 }

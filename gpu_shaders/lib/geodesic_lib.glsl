@@ -12,6 +12,14 @@ vec3 geodesic_centre(sampler2D sphere, int index)
   return texelFetch(sphere, ivec2(index, 1), 0).xyz;
 }
 
+// Unit vectors to a triangle's corners, as columns.
+mat3 geodesic_corners(sampler2D sphere, ivec3 triangle)
+{
+  return mat3(geodesic_vertex(sphere, triangle.x),
+              geodesic_vertex(sphere, triangle.y),
+              geodesic_vertex(sphere, triangle.z));
+}
+
 ivec3 geodesic_triangle(sampler2D sphere, int level, int index)
 {
   return ivec3(texelFetch(sphere, ivec2(index, 2 + level), 0).xyz + 0.5);

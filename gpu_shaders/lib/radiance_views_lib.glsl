@@ -60,7 +60,8 @@ vec3 blend_sources(sampler2DArray views,
   return radiance;
 }
 
-// The same from a surface point on: each source is asked where it shows the point.
+// The same from a surface point on: each source, seen from a column of source_dirs, is asked where it shows
+// the point.
 vec3 warp_and_blend(sampler2DArray views,
                     sampler2D albedo,
                     int warping,
@@ -68,7 +69,7 @@ vec3 warp_and_blend(sampler2DArray views,
                     vec3 normal,
                     vec3 view_dir,
                     ivec3 sources,
-                    vec3 source_dirs[3],
+                    mat3 source_dirs,
                     vec3 weights)
 {
   vec3 seen[3] = vec3[3](seen_by(warp, normal, view_dir, source_dirs[0]),

@@ -1,5 +1,7 @@
 """Arrays to the GPU and back."""
 
+from collections import deque
+
 import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
@@ -117,15 +119,19 @@ def uniform_block(*fields: Array) -> gpu.types.GPUUniformBuf:
     return gpu.types.GPUUniformBuf(_block(fields))
 
 
+FRAMES_IN_FLIGHT = 3
+"""Drivers draw up to so many frames behind the program; some wait for them before a buffer changes."""
+
+
 class KeptBlock:
-    """A uniform block that is filled anew for each draw, and allocated for the first.
+    """A uniform block that is filled anew for each draw, and allocated for the first few.
 
     Keep it with what is drawn: Blender binds a block without a reference to it, and it has to outlive the
     draw. Filling and drawing are commands in one order, so the draws of a frame may share a block.
     """
 
     def __init__(self) -> None:
-        self._uploaded: gpu.types.GPUUniformBuf | None = None
+        self._uploaded: deque[gpu.types.GPUUniformBuf] = deque(maxlen=FRAMES_IN_FLIGHT)
 
     def filled(self, *fields: Array) -> gpu.types.GPUUniformBuf:
         """Upload fields, as many each time.
@@ -138,14 +144,14 @@ class KeptBlock:
         Returns
         -------
         GPUUniformBuf
-            The same each time.
         """
         values = _block(fields)
-        if self._uploaded is None:
-            self._uploaded = gpu.types.GPUUniformBuf(values)
+        if len(self._uploaded) < FRAMES_IN_FLIGHT:
+            self._uploaded.append(gpu.types.GPUUniformBuf(values))
         else:
-            self._uploaded.update(values)
-        return self._uploaded
+            self._uploaded.rotate(-1)
+            self._uploaded[-1].update(values)
+        return self._uploaded[-1]
 
 
 def pixels(framebuffer: gpu.types.GPUFrameBuffer, size: int) -> Array:

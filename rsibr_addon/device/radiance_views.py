@@ -7,10 +7,10 @@ disk and shades from it; `texel` warps that map per texel; `fragment` needs no m
 import gpu
 import numpy as np
 
-from ..core.conventions import Array, ArrayLike
+from ..core.conventions import Array
 from ..core.directions import camera_frame
 from ..core.disk_mesh import disk_mesh
-from ..core.geodesic import GeodesicSphere, barycentric_weights, find_triangle
+from ..core.geodesic import GeodesicSphere
 from ..core.radiance_views import RadianceViews
 from ..core.shading.radiance_views import LEAST_ALBEDO, Mode, ViewsLook, Warping
 from . import buffers, shaders
@@ -33,7 +33,6 @@ class RadianceViewsOnDevice:
     """
 
     def __init__(self, views: RadianceViews) -> None:
-        self._sphere = views.sphere
         self._views = buffers.texture_array(_layers(views))
         self._albedo = buffers.texture(_albedo_texels(views))
         self._geodesic = buffers.texture(_geodesic_texels(views.sphere))
@@ -42,7 +41,7 @@ class RadianceViewsOnDevice:
             warping: buffers.uniform_block(np.array([float(number), float(last_level)]))
             for number, warping in enumerate(Warping)
         }
-        self._blend = buffers.KeptBlock()
+        self._frame = buffers.KeptBlock()
         self._targets = (buffers.render_target(views.size), buffers.render_target(views.size))
         self._destination = gpu.types.GPUFrameBuffer(color_slots=self._targets)
         self._disk = buffers.triangles(
@@ -60,18 +59,20 @@ class RadianceViewsOnDevice:
             shader.uniform_sampler("views", self._views)
             shader.uniform_sampler("sphere", self._geodesic)
         else:
-            blend = self._blend.filled(*_blend_fields(self._sphere, draw.view_dir))
-            self._make_destination(blend, look)
+            frame = np.eye(4)
+            frame[:3, :3] = camera_frame(draw.view_dir)
+            destination = self._frame.filled(frame)
+            self._make_destination(destination, look)
             shader = shaders.views_destination_shader()
             shader.bind()
-            shader.uniform_block("blend", blend)
+            shader.uniform_block("destination", destination)
             shader.uniform_sampler("by_normal", self._targets[0])
             shader.uniform_sampler("by_mirror", self._targets[1])
         shader.uniform_block("mode", self._modes[look.warping])
         shader.uniform_sampler("albedo", self._albedo)
         mesh.draw(shader, draw)
 
-    def _make_destination(self, blend: gpu.types.GPUUniformBuf, look: ViewsLook) -> None:
+    def _make_destination(self, destination: gpu.types.GPUUniformBuf, look: ViewsLook) -> None:
         if look.mode is Mode.PAPER:
             shader, surface = shaders.views_disk_shader(), self._disk
         else:
@@ -80,10 +81,11 @@ class RadianceViewsOnDevice:
         with self._destination.bind():
             gpu.state.depth_test_set("NONE")
             shader.bind()
-            shader.uniform_block("blend", blend)
+            shader.uniform_block("destination", destination)
             shader.uniform_block("mode", self._modes[look.warping])
             shader.uniform_sampler("views", self._views)
             shader.uniform_sampler("albedo", self._albedo)
+            shader.uniform_sampler("sphere", self._geodesic)
             surface.draw(shader)
         gpu.state.depth_test_set(depth_test)
 
@@ -110,12 +112,3 @@ def _geodesic_texels(sphere: GeodesicSphere) -> Array:
     for texel_row, row in zip(texels, rows, strict=True):
         texel_row[: len(row), :3] = row
     return texels
-
-
-def _blend_fields(sphere: GeodesicSphere, view_dir: ArrayLike) -> tuple[Array, ...]:
-    """The block `Blend`: the destination's axes, and the three sources around it."""
-    frame = np.eye(4)
-    frame[:3, :3] = camera_frame(view_dir)
-    sources = find_triangle(sphere, view_dir)
-    corners = sphere.vertices[sources]
-    return frame, corners, barycentric_weights(view_dir, corners), sources

@@ -13,7 +13,7 @@ from .shader_source import shader_source
 _DRAW_BLOCK = (
     "struct Draw { mat4 model; mat4 normal_matrix; mat4 view; mat4 projection; mat4 turn; vec4 eye; };"
 )
-_BLEND_BLOCK = "struct Blend { mat4 frame; vec4 source_dirs[3]; vec4 weights; vec4 sources; };"
+_DESTINATION_BLOCK = "struct Destination { mat4 frame; };"
 _MODE_BLOCK = "struct Mode { float warping; float last_level; float unused_0; float unused_1; };"
 
 
@@ -55,8 +55,8 @@ def views_fragment_shader() -> gpu.types.GPUShader:
 @kept_until_exit
 def views_destination_shader() -> gpu.types.GPUShader:
     """Draws a mesh from the destination maps of one view."""
-    info = _views_interface(_BLEND_BLOCK)
-    info.uniform_buf(2, "Blend", "blend")
+    info = _views_interface(_DESTINATION_BLOCK)
+    info.uniform_buf(2, "Destination", "destination")
     info.sampler(1, "FLOAT_2D", "by_normal")
     info.sampler(2, "FLOAT_2D", "by_mirror")
     return build("views_destination", info, "mesh_vert.glsl", "views_destination_frag.glsl")
@@ -65,22 +65,20 @@ def views_destination_shader() -> gpu.types.GPUShader:
 @kept_until_exit
 def views_texel_shader() -> gpu.types.GPUShader:
     """Makes the destination maps of one view, `texel` mode."""
-    info = _destination_interface()
     varyings = gpu.types.GPUStageInterfaceInfo("rsibr_screen")
     varyings.smooth("VEC2", "map_uv")
-    info.vertex_out(varyings)
-    return build("views_texel", info, "screen_vert.glsl", "views_texel_frag.glsl")
+    info = _destination_interface(varyings)
+    return build("views_texel", info, "views_texel_vert.glsl", "views_texel_frag.glsl")
 
 
 @kept_until_exit
 def views_disk_shader() -> gpu.types.GPUShader:
     """Makes the destination maps of one view, `paper` mode, drawn on the tessellated disk."""
-    info = _destination_interface()
     varyings = gpu.types.GPUStageInterfaceInfo("rsibr_disk")
     for warp in ("normal", "mirror"):
         for source in range(3):
             varyings.smooth("VEC3", f"{warp}_seen_{source}")
-    info.vertex_out(varyings)
+    info = _destination_interface(varyings)
     return build("views_disk", info, "views_disk_vert.glsl", "views_disk_frag.glsl")
 
 
@@ -118,13 +116,17 @@ def _views_interface(more_blocks: str = "") -> gpu.types.GPUShaderCreateInfo:
     return info
 
 
-def _destination_interface() -> gpu.types.GPUShaderCreateInfo:
+def _destination_interface(varyings: gpu.types.GPUStageInterfaceInfo) -> gpu.types.GPUShaderCreateInfo:
     info = gpu.types.GPUShaderCreateInfo()
-    info.typedef_source(_BLEND_BLOCK + _MODE_BLOCK)
-    info.uniform_buf(0, "Blend", "blend")
+    info.typedef_source(_DESTINATION_BLOCK + _MODE_BLOCK)
+    info.uniform_buf(0, "Destination", "destination")
     info.uniform_buf(1, "Mode", "mode")
     info.sampler(0, "FLOAT_2D", "albedo")
     info.sampler(1, "FLOAT_2D_ARRAY", "views")
+    info.sampler(2, "FLOAT_2D", "sphere")
+    varyings.flat("IVEC3", "sources")
+    varyings.flat("VEC3", "weights")
+    info.vertex_out(varyings)
     info.vertex_in(0, "VEC2", "position")
     info.fragment_out(0, "VEC4", "by_normal")
     info.fragment_out(1, "VEC4", "by_mirror")

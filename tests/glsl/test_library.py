@@ -164,6 +164,19 @@ def test_geodesic_vertex(count: int) -> None:
     np.testing.assert_array_equal(found[:, 0, :3], single(geodesic_sphere(count).vertices))
 
 
+def test_geodesic_corners() -> None:
+    sphere = geodesic_sphere(42)
+    found = evaluate(
+        "geodesic_lib.glsl",
+        "mat3 corners = geodesic_corners(sphere, ivec3(in_0.xyz));"
+        "result_0.xyz = corners[0]; result_1.xyz = corners[1]; result_2.xyz = corners[2];",
+        [single(sphere.triangles)],
+        results=3,
+        samplers=geodesic_sampler(42)(),
+    )
+    np.testing.assert_array_equal(found[:, :, :3], single(sphere.vertices[sphere.triangles]))
+
+
 def test_geodesic_centre() -> None:
     index = np.arange(20, dtype=np.float64)[:, None]
     samplers = geodesic_sampler(42)()
@@ -335,7 +348,7 @@ VERTICES = ", ".join(f"vec3({x!r}, {y!r}, {z!r})" for x, y, z in VIEWS.sphere.ve
 SOURCES = (
     f"vec3 vertices[12] = vec3[12]({VERTICES});"
     "ivec3 sources = ivec3(in_2.xyz + 0.5);"
-    "vec3 source_dirs[3] = vec3[3](vertices[sources.x], vertices[sources.y], vertices[sources.z]);"
+    "mat3 source_dirs = mat3(vertices[sources.x], vertices[sources.y], vertices[sources.z]);"
 )
 
 

@@ -97,7 +97,7 @@ def test_a_missing_include_is_named(shader_folder: Path) -> None:
         shader_source("nowhere.glsl")
 
 
-@pytest.mark.parametrize("broken", ["screen_vert.glsl", "views_texel_frag.glsl"])
+@pytest.mark.parametrize("broken", ["views_texel_vert.glsl", "views_texel_frag.glsl"])
 def test_a_program_that_does_not_compile_is_named(broken: str, monkeypatch: pytest.MonkeyPatch) -> None:
     ensure_context()
 

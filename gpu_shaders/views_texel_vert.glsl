@@ -1,0 +1,13 @@
+// Twin of core/shading `destination_by_texel`, what it does once: one triangle that holds the whole map,
+// and the three sources around the view.
+#include "lib/geodesic_lib.glsl"
+
+void main()
+{
+  vec3 view_dir = destination.frame[2].xyz;
+  sources = find_triangle(sphere, int(mode.last_level), view_dir);
+  mat3 corners = geodesic_corners(sphere, sources);
+  weights = barycentric_weights(view_dir, corners[0], corners[1], corners[2]);
+  map_uv = 0.5 * position + 0.5;
+  gl_Position = vec4(position, 0.0, 1.0);
+}

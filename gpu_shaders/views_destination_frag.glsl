@@ -6,7 +6,7 @@ void main()
 {
   vec3 unit_normal = normalize(world_normal);
   vec3 view_dir = view_direction(draw.eye, world_position);
-  mat3 frame = mat3(destination.frame);
+  mat3 frame = camera_frame(destination.view_dir.xyz);
   vec2 normal_uv = uv_from_normal(unit_normal * frame);
   vec2 mirror_uv = uv_from_direction(reflect_dir(view_dir, unit_normal) * frame);
   int warping = int(mode.warping);

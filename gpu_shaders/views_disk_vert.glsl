@@ -5,8 +5,8 @@
 
 void main()
 {
-  vec3 unit_normal = mat3(destination.frame) * normal_from_uv(0.5 * position + 0.5);
-  vec3 view_dir = destination.frame[2].xyz;
+  vec3 view_dir = destination.view_dir.xyz;
+  vec3 unit_normal = camera_frame(view_dir) * normal_from_uv(0.5 * position + 0.5);
   sources = find_triangle(sphere, int(mode.last_level), view_dir);
   mat3 corners = geodesic_corners(sphere, sources);
   weights = barycentric_weights(view_dir, corners[0], corners[1], corners[2]);

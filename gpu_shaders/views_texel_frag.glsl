@@ -4,8 +4,8 @@
 
 void main()
 {
-  vec3 unit_normal = mat3(destination.frame) * normal_from_uv(map_uv);
-  vec3 view_dir = destination.frame[2].xyz;
+  vec3 view_dir = destination.view_dir.xyz;
+  vec3 unit_normal = camera_frame(view_dir) * normal_from_uv(map_uv);
   mat3 corners = geodesic_corners(sphere, sources);
   int warping = int(mode.warping);
   by_normal = by_mirror = vec4(1.0);

@@ -4,7 +4,7 @@
 
 void main()
 {
-  vec3 view_dir = destination.frame[2].xyz;
+  vec3 view_dir = destination.view_dir.xyz;
   sources = find_triangle(sphere, int(mode.last_level), view_dir);
   mat3 corners = geodesic_corners(sphere, sources);
   weights = barycentric_weights(view_dir, corners[0], corners[1], corners[2]);

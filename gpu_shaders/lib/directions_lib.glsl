@@ -13,6 +13,14 @@ vec3 refract_dir(vec3 view_dir, vec3 normal, float eta)
   return normalize(along - sqrt(max(1.0 - dot(along, along), 0.0)) * normal);
 }
 
+// The normal of a surface that a matrix transforms, of another length: by the matrix of cofactors, which is
+// the inverse's transpose times the determinant, and is there when a scale is 0.
+vec3 transformed_normal(mat3 model, vec3 normal)
+{
+  mat3 cofactors = mat3(cross(model[1], model[2]), cross(model[2], model[0]), cross(model[0], model[1]));
+  return (determinant(model) < 0.0) ? -(cofactors * normal) : cofactors * normal;
+}
+
 // Columns are the camera's x (right), y (up) and z (towards the camera) in world coordinates.
 mat3 camera_frame(vec3 view_dir)
 {

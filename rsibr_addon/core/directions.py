@@ -98,6 +98,34 @@ def refract(view_dir: ArrayLike, normal: ArrayLike, eta: float) -> Array:
     return refracted / np.linalg.norm(refracted, axis=-1, keepdims=True)
 
 
+def transformed_normal(matrix: ArrayLike, normal: ArrayLike) -> Array:
+    """The normal of a surface after its points have been transformed.
+
+    Parameters
+    ----------
+    matrix : array_like, shape (..., 3, 3)
+        What the points are multiplied by; it may mirror, and flatten.
+    normal : array_like, shape (..., 3)
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        Not of length 1.
+
+    Notes
+    -----
+    The matrix's cofactors are its inverse, transposed, times its determinant; they are there also where a
+    scale is 0. GLSL twin: gpu_shaders/lib/directions_lib.glsl `transformed_normal`, 1e-6 of the product of
+    the columns' lengths.
+    """
+    matrix = np.asarray(matrix, dtype=np.float64)
+    columns = np.moveaxis(matrix, -1, 0)
+    cofactors = np.stack([np.cross(columns[i - 2], columns[i - 1]) for i in range(3)], axis=-1)
+    outwards = np.where(np.linalg.det(matrix) < 0.0, -1.0, 1.0)
+    transformed: Array = outwards[..., None] * np.einsum("...ij,...j->...i", cofactors, np.asarray(normal))
+    return transformed
+
+
 def camera_frame(view_dir: ArrayLike) -> Array:
     """The axes of a camera that looks at the origin, upright.
 

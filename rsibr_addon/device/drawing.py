@@ -35,10 +35,9 @@ class Draw:
 
     def fields(self) -> tuple[Array, ...]:
         """The block `Draw` of the shaders, as `buffers.KeptBlock` takes it."""
-        normal_matrix, turn = np.eye(4), np.eye(4)
-        normal_matrix[:3, :3] = self.turn @ np.linalg.inv(self.model[:3, :3]).T
+        turn = np.eye(4)
         turn[:3, :3] = self.turn
-        return self.model, normal_matrix, self.view, self.projection, turn, turn @ self.eye
+        return self.model, self.view, self.projection, turn, turn @ self.eye
 
 
 class MeshOnDevice:

@@ -8,7 +8,6 @@ import gpu
 import numpy as np
 
 from ..core.conventions import Array
-from ..core.directions import camera_frame
 from ..core.disk_mesh import disk_mesh
 from ..core.geodesic import GeodesicSphere
 from ..core.radiance_views import RadianceViews
@@ -41,7 +40,7 @@ class RadianceViewsOnDevice:
             warping: buffers.uniform_block(np.array([float(number), float(last_level)]))
             for number, warping in enumerate(Warping)
         }
-        self._frame = buffers.KeptBlock()
+        self._view_dir = buffers.KeptBlock()
         self._targets = (buffers.render_target(views.size), buffers.render_target(views.size))
         self._destination = gpu.types.GPUFrameBuffer(color_slots=self._targets)
         self._disk = buffers.triangles(
@@ -59,9 +58,7 @@ class RadianceViewsOnDevice:
             shader.uniform_sampler("views", self._views)
             shader.uniform_sampler("sphere", self._geodesic)
         else:
-            frame = np.eye(4)
-            frame[:3, :3] = camera_frame(draw.view_dir)
-            destination = self._frame.filled(frame)
+            destination = self._view_dir.filled(draw.view_dir)
             self._make_destination(destination, look)
             shader = shaders.views_destination_shader()
             shader.bind()

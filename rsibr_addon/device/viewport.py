@@ -56,11 +56,11 @@ class Sight:
 
 def current_sight() -> Sight:
     """What Blender is drawing."""
-    view = np.array(gpu.matrix.get_model_view_matrix())
-    projection = np.array(gpu.matrix.get_projection_matrix())
-    # The camera's origin, or where a parallel projection's rays come from: what the view maps there.
-    in_view = [0.0, 0.0, 0.0, 1.0] if projection[3, 3] == 0.0 else [0.0, 0.0, 1.0, 0.0]
-    return Sight(view, projection, np.linalg.inv(view) @ in_view)
+    view, projection = gpu.matrix.get_model_view_matrix(), gpu.matrix.get_projection_matrix()
+    pose = view.inverted()
+    # The camera's origin, or where a parallel projection's rays come from
+    eye = pose.col[3] if projection[3][3] == 0.0 else pose.col[2]
+    return Sight(np.array(view), np.array(projection), np.array(eye))
 
 
 def draw_occluder(mesh: MeshOnDevice, draw: Draw) -> None:

@@ -12,7 +12,7 @@ from ..core.display import table_radiance
 from ..core.errors import RsibrError
 from ..device import buffers
 from ..device.drawing import MeshOnDevice, OnDevice
-from ..device.viewport import Stage, current_sight, draw_occluder
+from ..device.viewport import Sight, Stage, current_sight, draw_occluder
 from ..host.display import Display, display_of, displayed_colours, scale_before_display
 from ..host.live_light import is_live_name, shows_surroundings
 from ..host.map_sets import written_path
@@ -174,32 +174,38 @@ class Previews:
         if display is None:
             return False
         hidden_by = [each for each in contents.others or () if _is_seen(each, view)]
+        sight = current_sight()
         for side, (strength, group) in product(view.sides, _by_strength(seen, view).items()):
             behind = (
                 [] if view.has_depth else hidden_by + [each.surface for each in seen if each not in group]
             )
-            self._set(self._stage, behind, group, view, side.other)
+            self._set(self._stage, behind, group, view, sight, side.other)
             difference = (self._other_stage, side.difference) if side.difference else None
             if difference:
-                self._set(self._other_stage, behind, group, view, not side.other)
+                self._set(self._other_stage, behind, group, view, sight, not side.other)
             scale = strength * scale_before_display(view.scene)
             self._stage.show(display, scale, (side.left, side.right), view.has_depth, difference)
         return True
 
     def _set(
-        self, stage: Stage, behind: list[Surface], group: list[_Preview], view: View, other: bool
+        self,
+        stage: Stage,
+        behind: list[Surface],
+        group: list[_Preview],
+        view: View,
+        sight: Sight,
+        other: bool,
     ) -> None:
         """Draw previews, in their first or their other look, onto a stage."""
         with stage.drawing():
-            self._hide(behind)
+            self._hide(behind, sight)
             for each in group:
-                self._draw_one(each, view, other)
+                self._draw_one(each, view, sight, other)
 
-    def _hide(self, behind: list[Surface]) -> None:
+    def _hide(self, behind: list[Surface], sight: Sight) -> None:
         """Let surfaces hide what is drawn after them."""
-        sight, turn = current_sight(), AS_IT_IS.turn
         for surface in behind:
-            draw_occluder(self._meshes[surface.mesh], sight.on(surface.matrix, turn))
+            draw_occluder(self._meshes[surface.mesh], sight.on(surface.matrix, AS_IT_IS.turn))
 
     def _contents_of(self, view: View) -> _Contents:
         contents = self._contents.get(view.layer)
@@ -271,12 +277,12 @@ class Previews:
         opened = open_map_set(written_path(preview.surface.item.rsibr))
         return _MapSet(opened.kind, opened.upload())
 
-    def _draw_one(self, preview: _Preview, view: View, other: bool) -> None:
+    def _draw_one(self, preview: _Preview, view: View, sight: Sight, other: bool) -> None:
         map_set, surface = self._map_sets[preview.path], preview.surface
         with self._faults_noted(surface.item):
             looks = surface.item.rsibr.other if other else surface.item.rsibr
             look = KINDS[map_set.kind].look(**_look_settings(looks, map_set.kind))
-            placed = current_sight().on(surface.matrix, view.light_of(surface.item).turn)
+            placed = sight.on(surface.matrix, view.light_of(surface.item).turn)
             map_set.on_device.draw(self._meshes[surface.mesh], placed, look)
 
     def _display(self, view: View) -> Any:

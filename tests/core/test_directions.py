@@ -2,7 +2,14 @@
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.directions import camera_frame, dot, normalize, reflect, refract
+from rsibr.rsibr_addon.core.directions import (
+    camera_frame,
+    dot,
+    normalize,
+    reflect,
+    refract,
+    transformed_normal,
+)
 from rsibr.rsibr_addon.core.errors import RangeError
 
 RNG = np.random.default_rng(1)
@@ -66,6 +73,19 @@ def test_refraction_in_numbers() -> None:
 
 
 POLES = np.array([(0.0, 0.0, 1.0), (0.0, 0.0, -1.0)])
+
+
+def test_a_transformed_normal_is_that_of_the_transformed_surface() -> None:
+    rng = np.random.default_rng(8)
+    matrix, along, across = rng.normal(size=(50, 3, 3)), rng.normal(size=(50, 3)), rng.normal(size=(50, 3))
+    normal = transformed_normal(matrix, np.cross(along, across))
+    for tangent in (along, across):
+        np.testing.assert_allclose(dot(normal, np.einsum("nij,nj->ni", matrix, tangent)), 0.0, atol=1e-12)
+    # What was outside stays outside, in a mirror too
+    outside = along + across + np.cross(along, across)
+    assert np.all(dot(normal, np.einsum("nij,nj->ni", matrix, outside)) > 0.0)
+    flat = np.diag([1.0, 2.0, 0.0])
+    np.testing.assert_array_equal(transformed_normal(flat, (0.6, 0.0, 0.8)), (0.0, 0.0, 1.6))
 
 
 def test_a_camera_stands_upright_and_looks_at_the_origin() -> None:

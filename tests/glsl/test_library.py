@@ -45,6 +45,13 @@ DIRECTIONS = {
         directions.reflect,
         1e-6,
     ),
+    "transformed_normal": Twin(
+        "directions_lib.glsl",
+        "result_0.xyz = transformed_normal(mat3(in_0.xyz, in_1.xyz, in_2.xyz), in_3.xyz);",
+        lambda: [unit_vectors(seed) for seed in (1, 2, 3, 4)],
+        lambda x, y, z, normal: directions.transformed_normal(np.stack([x, y, z], axis=-1), normal),
+        1e-6,
+    ),
     "camera_frame": Twin(
         "directions_lib.glsl",
         "mat3 frame = camera_frame(in_0.xyz);"

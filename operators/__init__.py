@@ -5,6 +5,7 @@ from .apply_quality import RSIBR_OT_apply_quality
 from .assemble_faces import RSIBR_OT_assemble_faces
 from .assign import RSIBR_OT_assign
 from .bake_again import RSIBR_OT_bake_again
+from .bake_bank import RSIBR_OT_bake_bank
 from .bake_in_background import RSIBR_OT_bake
 from .bake_mips import RSIBR_OT_bake_mips
 from .bake_stack import RSIBR_OT_bake_stack
@@ -33,6 +34,7 @@ CLASSES: tuple[type, ...] = (
     RSIBR_OT_bake_mips,
     RSIBR_OT_bake_tables,
     RSIBR_OT_bake_stack,
+    RSIBR_OT_bake_bank,
     RSIBR_OT_fit_lobes,
     RSIBR_OT_apply_quality,
     RSIBR_OT_bake,

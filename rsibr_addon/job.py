@@ -9,7 +9,7 @@ from .core.geodesic import VERTEX_COUNTS
 FORMAT = 1
 """Of a job's JSON."""
 
-COMMANDS = ("capture", "bake", "tables", "mips", "illuminate", "compare")
+COMMANDS = ("capture", "bake", "tables", "mips", "bank", "illuminate", "compare")
 """What a job may be of."""
 
 

@@ -152,6 +152,38 @@ class RSIBR_PG_environment(bpy.types.PropertyGroup):
     )
 
 
+class RSIBR_PG_kernel_bank(bpy.types.PropertyGroup):
+    """The fields of `core.shading.kernel_bank.BankLook`."""
+
+    brdf: bpy.props.StringProperty(
+        name="Model",
+        description="Reflectance model and its parameters, as ggx:alpha=0.1,metal=gold",
+        update=_notice,
+        default="ggx:alpha=0.3,metal=copper",
+    )
+    use_roughness: bpy.props.BoolProperty(
+        name="Set Roughness",
+        description="Give every layer of the model the roughness below, instead of its own",
+        update=_notice,
+    )
+    roughness: bpy.props.FloatProperty(
+        name="Roughness",
+        description="Of the model's layers; their alpha is its square",
+        update=_notice,
+        default=0.5,
+        min=0.1,
+        max=1.0,
+    )
+    lobe_count: bpy.props.IntProperty(
+        name="Lobes",
+        description="For each layer of the model; more follow its reflectance more closely, and take longer",
+        update=_notice,
+        default=3,
+        min=1,
+        max=12,
+    )
+
+
 class RSIBR_PG_live(bpy.types.PropertyGroup):
     """Light rendered around the object while one looks."""
 
@@ -186,6 +218,7 @@ class RSIBR_PG_looks(bpy.types.PropertyGroup):
     lobe_stack: bpy.props.PointerProperty(type=RSIBR_PG_lobe_stack)
     mip_chain: bpy.props.PointerProperty(type=RSIBR_PG_mip_chain)
     environment: bpy.props.PointerProperty(type=RSIBR_PG_environment)
+    kernel_bank: bpy.props.PointerProperty(type=RSIBR_PG_kernel_bank)
 
 
 class RSIBR_PG_preview(bpy.types.PropertyGroup):
@@ -224,6 +257,7 @@ class RSIBR_PG_preview(bpy.types.PropertyGroup):
     lobe_stack: bpy.props.PointerProperty(type=RSIBR_PG_lobe_stack)
     mip_chain: bpy.props.PointerProperty(type=RSIBR_PG_mip_chain)
     environment: bpy.props.PointerProperty(type=RSIBR_PG_environment)
+    kernel_bank: bpy.props.PointerProperty(type=RSIBR_PG_kernel_bank)
     live: bpy.props.PointerProperty(type=RSIBR_PG_live)
 
 
@@ -273,6 +307,7 @@ CLASSES = (
     RSIBR_PG_lobe_stack,
     RSIBR_PG_mip_chain,
     RSIBR_PG_environment,
+    RSIBR_PG_kernel_bank,
     RSIBR_PG_live,
     RSIBR_PG_looks,
     RSIBR_PG_preview,

@@ -3,7 +3,7 @@
 import argparse
 from typing import Any
 
-from .options import colour, whole_numbers
+from .options import colour, positive, whole_numbers
 
 WEIGHTS = ("w_diffuse", "w_specular", "w_coat", "w_retro", "w_refraction")
 
@@ -17,8 +17,10 @@ KIND_OF: dict[str, tuple[str, ...]] = {
     "f_lambda": ("mip_chain", "environment"),
     "k_d": ("mip_chain",),
     "bias": ("mip_chain",),
-    "roughness": ("mip_chain",),
+    "roughness": ("mip_chain", "kernel_bank"),
     "borders": ("mip_chain",),
+    "brdf": ("kernel_bank",),
+    "lobe_count": ("kernel_bank",),
 }
 """Name of an option's value, and of the look's field -> the kinds of map sets that have it."""
 
@@ -81,7 +83,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--bias", metavar="B", type=float, help="mip that glossy light comes from, 2.3 say (default: 0)"
     )
     mips.add_argument(
-        "--roughness", metavar="R", type=float, help="instead of the bias, of a chain of the filter ggx"
+        "--roughness",
+        metavar="R",
+        type=float,
+        help="instead of the bias, of a chain of the filter ggx; or of a kernel bank's model, whose alpha is "
+        "its square",
     )
     mips.add_argument(
         "--borders",
@@ -95,6 +101,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action=argparse.BooleanOptionalAction,
         help="average what each pixel reflects: specular and coat of reflection tables, environments "
         "(default: of environments)",
+    )
+    banks = parser.add_argument_group("kernel banks", argument_default=argparse.SUPPRESS)
+    banks.add_argument(
+        "--brdf",
+        metavar="SPEC",
+        help="the reflectance model, as rsibr bake takes it (default: ggx:alpha=0.3,metal=copper)",
+    )
+    banks.add_argument(
+        "--lobe-count", metavar="J", type=positive, help="for each layer of the model (default: 3)"
     )
 
 

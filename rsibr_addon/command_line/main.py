@@ -12,7 +12,7 @@ from types import ModuleType
 from typing import Any
 
 from ..core.errors import RsibrError
-from . import bake, capture, compare, convert, fit, illuminate, info, job, mips, page, preview, tables
+from . import bake, bank, capture, compare, convert, fit, illuminate, info, job, mips, page, preview, tables
 from .report import Report, result_stream
 
 COMMANDS = {
@@ -26,6 +26,7 @@ COMMANDS = {
     "tables": tables,
     "fit": fit,
     "bake": bake,
+    "bank": bank,
     "report": page,
     "job": job,
 }

@@ -55,6 +55,11 @@ def analysis_degree(series: Sequence[ZonalSeries]) -> int:
     return max(lobe.degree for lobe in series)
 
 
+def resolved_width(height: int) -> float:
+    """Width [rad] of the narrowest lobe that a map of so many rows is filtered with: three texels."""
+    return _TEXELS_ACROSS * np.pi / height
+
+
 def prefilter(
     harmonics: EnvironmentHarmonics, series: Sequence[ZonalSeries], directions: ArrayLike
 ) -> Prefiltered:
@@ -163,7 +168,7 @@ def _polar_angles(directions: ArrayLike) -> tuple[Array, Array, tuple[int, ...]]
 
 
 def _check_resolved(harmonics: EnvironmentHarmonics, lobe: ZonalSeries, number: int) -> None:
-    least = _TEXELS_ACROSS * np.pi / harmonics.height
+    least = resolved_width(harmonics.height)
     if lobe.width < least:
         raise RangeError(
             f"Lobe {number} is {np.degrees(lobe.width):.3g} degrees wide, and a map of {harmonics.height} "

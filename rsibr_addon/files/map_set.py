@@ -31,7 +31,7 @@ class MapSet:
     Attributes
     ----------
     kind : str
-        "radiance_views", "lobe_stack", "reflection_tables" or "mip_chain".
+        "radiance_views", "lobe_stack", "reflection_tables", "mip_chain" or "kernel_bank".
     maps : dict of str to ndarray, shape (height, width, 3), float32
         Radiance by part name, finite, row 0 at the bottom.
     header : dict

@@ -87,6 +87,7 @@ MATERIAL_FIELDS: dict[str, dict[str, Rule]] = {
     "lobe_stack": {"brdf": TEXT, "method": TEXT},
     "reflection_tables": {},
     "mip_chain": {},
+    "kernel_bank": {},
 }
 """Kind -> what it says of the material; its keys are the kinds that there are."""
 
@@ -100,6 +101,7 @@ ROLE_FIELDS: dict[tuple[str, str], dict[str, Rule]] = {
     ("reflection_tables", "refraction"): {"eta": NUMBER},
     ("mip_chain", "prefiltered"): {"mip": INDEX, "roughness": NUMBER_OR_NULL},
     ("mip_chain", "harmonics"): {},
+    ("kernel_bank", "prefiltered"): {"concentration": NUMBER, "bound": COLOUR, "interpolation": NUMBER},
 }
 """Kind and role -> what a part says beyond `PART_FIELDS`; parts of other roles say no more."""
 

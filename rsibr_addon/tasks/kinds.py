@@ -7,6 +7,7 @@ from typing import Any
 
 from ..core.environment import Environment
 from ..core.shading.environment import EnvironmentLook
+from ..core.shading.kernel_bank import BankLook
 from ..core.shading.lobe_stack import StackLook
 from ..core.shading.mip_chain import MipLook
 from ..core.shading.radiance_views import ViewsLook
@@ -18,8 +19,16 @@ from ..device.lobe_stack import LobeStackOnDevice
 from ..device.mip_chain import MipChainOnDevice
 from ..device.radiance_views import RadianceViewsOnDevice
 from ..device.reflection_tables import ReflectionTablesOnDevice
-from ..files.kinds import environment, lobe_stack, mip_chain, radiance_views, reflection_tables
+from ..files.kinds import (
+    environment,
+    kernel_bank,
+    lobe_stack,
+    mip_chain,
+    radiance_views,
+    reflection_tables,
+)
 from ..files.map_set import MapSet, read_map_set, read_map_set_header
+from .live_materials import LiveMaterials
 
 
 @dataclass(frozen=True)
@@ -34,11 +43,14 @@ class Kind:
         The subject to an `OnDevice`.
     look : type
         How it is shaded; its defaults are this kind's best.
+    is_ready : callable
+        Whether what is uploaded can be drawn in a look, with what that needs made in the background.
     """
 
     from_map_set: Callable[[Path, MapSet], Any]
     on_device: Callable[[Any], OnDevice]
     look: type
+    is_ready: Callable[[Any, Any], bool] = lambda on_device, look: True
 
 
 KINDS = {
@@ -47,6 +59,7 @@ KINDS = {
     "reflection_tables": Kind(reflection_tables.from_map_set, ReflectionTablesOnDevice, TablesLook),
     "mip_chain": Kind(mip_chain.from_map_set, MipChainOnDevice, MipLook),
     environment.KIND: Kind(environment.from_map_set, EnvironmentOnDevice, EnvironmentLook),
+    "kernel_bank": Kind(kernel_bank.from_map_set, LiveMaterials, BankLook, LiveMaterials.is_ready),
 }
 
 

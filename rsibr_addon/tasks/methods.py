@@ -280,6 +280,39 @@ class Mips:
         )
 
 
+@dataclass(frozen=True)
+class Bank:
+    """An environment filtered with kernels that the lobes of any material are sums of.
+
+    Attributes
+    ----------
+    size : int
+        Of a map in texels.
+    """
+
+    kind: ClassVar[str] = "kernel_bank"
+
+    size: int
+
+    @property
+    def subject(self) -> str:
+        """See `Method`."""
+        return ""
+
+    def arguments(self) -> tuple[str, ...]:
+        """See `Method`."""
+        return "bank", "--size", str(self.size)
+
+    def cost(self) -> Cost:
+        """See `Method`; two paraboloids for each kernel, two kernels more when maps are twice as wide."""
+        maps = 2 * log2(self.size) * 2 * self.size**2 * RGB
+        return Cost(
+            BLENDER_SECONDS + 0.5 + 1e-7 * maps,
+            BLENDER_MEMORY + 100e6 + 6 * maps,
+            STORED * (maps + ENVIRONMENT_TEXELS * RGB),
+        )
+
+
 def _views(chosen: Any, source: str) -> Views:
     material = f":{source}" if chosen.source == "OWN" else chosen.preset
     return Views(material, int(chosen.views), chosen.size, chosen.samples, chosen.denoise)
@@ -301,6 +334,7 @@ METHODS: dict[str, Callable[[Any, str], Method]] = {
     Lobes.kind: _lobes,
     Tables.kind: lambda chosen, source: Tables(chosen.preset, chosen.diffuse_rows, chosen.rows),
     Mips.kind: lambda chosen, source: Mips(chosen.filter, int(chosen.size), chosen.roughness),
+    Bank.kind: lambda chosen, source: Bank(int(chosen.size)),
 }
 """Kind -> what makes a method of its settings, as `ui.bake_properties` has them, and of the name of the
 object's own material or the path of a measured one, where the settings say so."""
@@ -311,18 +345,21 @@ QUALITIES: dict[str, dict[str, dict[str, Any]]] = {
         Lobes.kind: {"lobes": 2, "slices": 8, "size": 32, "half": True},
         Tables.kind: {"diffuse_rows": 18, "rows": 128},
         Mips.kind: {"size": "64"},
+        Bank.kind: {"size": "64"},
     },
     "GOOD": {
         Views.kind: {"views": "12", "size": 256, "samples": 32, "denoise": True},
         Lobes.kind: {"lobes": 3, "slices": 16, "size": 0, "half": True},
         Tables.kind: {"diffuse_rows": 36, "rows": 0},
         Mips.kind: {"size": "256"},
+        Bank.kind: {"size": "128"},
     },
     "FINAL": {
         Views.kind: {"views": "42", "size": 512, "samples": 128, "denoise": False},
         Lobes.kind: {"lobes": 5, "slices": 32, "size": 0, "half": False},
         Tables.kind: {"diffuse_rows": 72, "rows": 1024},
         Mips.kind: {"size": "512"},
+        Bank.kind: {"size": "256"},
     },
 }
 """Quality -> kind -> settings in a file that it stands for."""

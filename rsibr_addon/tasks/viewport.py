@@ -76,6 +76,7 @@ class Previews:
         self._live: dict[str, LiveLight] = {}
         self._displays: dict[Display, Any] = {}
         self._learnt: dict[Display, Array] = {}
+        self._looks: dict[tuple[int, str, bool], Any] = {}
         self._faults: dict[int, _Fault] = {}
         self.trouble: str | None = None
 
@@ -247,6 +248,7 @@ class Previews:
         self._meshes = {key: mesh for key, mesh in self._meshes.items() if key in meshes}
         self._map_sets = {path: map_set for path, map_set in self._map_sets.items() if path in paths}
         self._live = {name: light for name, light in self._live.items() if name in paths}
+        self._looks = {shown: look for shown, look in self._looks.items() if shown[1] in paths}
 
     def _in_live_light(self, view: View) -> dict[str, Surface]:
         """The first of the surfaces in each light; instances share their object's."""
@@ -280,10 +282,20 @@ class Previews:
     def _draw_one(self, preview: _Preview, view: View, sight: Sight, other: bool) -> None:
         map_set, surface = self._map_sets[preview.path], preview.surface
         with self._faults_noted(surface.item):
-            looks = surface.item.rsibr.other if other else surface.item.rsibr
-            look = KINDS[map_set.kind].look(**_look_settings(looks, map_set.kind))
-            placed = sight.on(surface.matrix, view.light_of(surface.item).turn)
-            map_set.on_device.draw(self._meshes[surface.mesh], placed, look)
+            look = self._look(preview, other)
+            if look is not None:
+                placed = sight.on(surface.matrix, view.light_of(surface.item).turn)
+                map_set.on_device.draw(self._meshes[surface.mesh], placed, look)
+
+    def _look(self, preview: _Preview, other: bool) -> Any:
+        """How an object is shaded: as before, while a new look is being made; None before there is any."""
+        item, map_set = preview.surface.item, self._map_sets[preview.path]
+        kind = KINDS[map_set.kind]
+        look = kind.look(**_look_settings(item.rsibr.other if other else item.rsibr, map_set.kind))
+        shown = item.session_uid, preview.path, other
+        if kind.is_ready(map_set.on_device, look):
+            self._looks[shown] = look
+        return self._looks.get(shown)
 
     def _display(self, view: View) -> Any:
         """The texture of how a view's scene shows radiance; None if that is not known yet."""

@@ -4,7 +4,7 @@ from . import bake_properties
 from .bake_panel import RSIBR_PT_bake
 from .environment_panel import RSIBR_MT_pictures, RSIBR_PT_environment
 from .live_panel import RSIBR_PT_live
-from .material_panel import RSIBR_MT_models, RSIBR_PT_material
+from .material_panel import RSIBR_MT_live_models, RSIBR_MT_models, RSIBR_PT_material
 from .method_panel import RSIBR_PT_method
 from .panel import RSIBR_PT_preview
 from .preferences import RSIBR_AP_preferences
@@ -14,6 +14,7 @@ CLASSES: tuple[type, ...] = (
     *bake_properties.CLASSES,
     RSIBR_AP_preferences,
     RSIBR_MT_models,
+    RSIBR_MT_live_models,
     RSIBR_MT_pictures,
     RSIBR_PT_environment,
     RSIBR_PT_material,

@@ -148,6 +148,17 @@ class RSIBR_PG_bake_mips(bpy.types.PropertyGroup):
     )
 
 
+class RSIBR_PG_bake_bank(bpy.types.PropertyGroup):
+    """The fields of `tasks.methods.Bank`."""
+
+    size: bpy.props.EnumProperty(
+        name="Size",
+        description="Width of a map in texels; sharper materials need more",
+        items=[(str(size), str(size), "") for size in (64, 128, 256, 512)],
+        default="128",
+    )
+
+
 _studios: list[tuple[str, str, str, int, int]] = []
 """Blender needs the texts of a property's items to stay."""
 
@@ -190,12 +201,14 @@ class RSIBR_PG_bake(bpy.types.PropertyGroup):
             ("lobe_stack", "Lobe Stack", "A glossy material's highlights, for each view elevation"),
             ("reflection_tables", "Reflection Tables", "Simple materials: diffuse, mirror, varnish, glass"),
             ("mip_chain", "Mip Chain", "Light alone, for any roughness: as game engines use it"),
+            ("kernel_bank", "Kernel Bank", "Light alone, for any reflectance model: chosen while you look"),
         ],
     )
     radiance_views: bpy.props.PointerProperty(type=RSIBR_PG_bake_views)
     lobe_stack: bpy.props.PointerProperty(type=RSIBR_PG_bake_stack)
     reflection_tables: bpy.props.PointerProperty(type=RSIBR_PG_bake_tables)
     mip_chain: bpy.props.PointerProperty(type=RSIBR_PG_bake_mips)
+    kernel_bank: bpy.props.PointerProperty(type=RSIBR_PG_bake_bank)
 
 
 CLASSES = (
@@ -203,6 +216,7 @@ CLASSES = (
     RSIBR_PG_bake_stack,
     RSIBR_PG_bake_tables,
     RSIBR_PG_bake_mips,
+    RSIBR_PG_bake_bank,
     RSIBR_PG_bake,
 )
 """In the order of registration."""

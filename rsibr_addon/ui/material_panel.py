@@ -5,10 +5,11 @@ import bpy
 from ..core.brdf.gallery import GALLERY
 
 
-class RSIBR_MT_models(bpy.types.Menu):
+class _Models:
     """Choose a reflectance model"""  # noqa: D400  (a tooltip)
 
     bl_label = "Models"
+    data_path: str
 
     def draw(self, context: bpy.types.Context) -> None:
         """Show what comes with the extension, by groups."""
@@ -19,7 +20,19 @@ class RSIBR_MT_models(bpy.types.Menu):
             column.separator()
             for name, spec in models.items():
                 choose = column.operator("wm.context_set_string", text=name)
-                choose.data_path, choose.value = "scene.rsibr_bake.lobe_stack.brdf", spec
+                choose.data_path, choose.value = self.data_path, spec
+
+
+class RSIBR_MT_models(_Models, bpy.types.Menu):
+    """Choose a reflectance model to bake"""  # noqa: D400  (a tooltip)
+
+    data_path = "scene.rsibr_bake.lobe_stack.brdf"
+
+
+class RSIBR_MT_live_models(_Models, bpy.types.Menu):
+    """Choose a reflectance model to shade the object as"""  # noqa: D400  (a tooltip)
+
+    data_path = "object.rsibr.kernel_bank.brdf"
 
 
 class RSIBR_PT_material(bpy.types.Panel):
@@ -38,6 +51,9 @@ class RSIBR_PT_material(bpy.types.Panel):
             case "mip_chain":
                 layout.label(text="Mips hold light alone:", icon="INFO")
                 layout.label(text="choose colours in Preview.", icon="BLANK1")
+            case "kernel_bank":
+                layout.label(text="A bank is for any material:", icon="INFO")
+                layout.label(text="choose a model in Preview.", icon="BLANK1")
             case "reflection_tables":
                 layout.prop(chosen, "preset", text="")
             case _:

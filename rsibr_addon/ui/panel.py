@@ -45,6 +45,8 @@ class RSIBR_PT_preview(bpy.types.Panel):
         if kind is None:
             return
         layout.label(text=kind.replace("_", " ").capitalize())
+        if kind == "kernel_bank":
+            layout.menu("RSIBR_MT_live_models", text="Choose...", icon="MATERIAL")
         _show_look(layout, getattr(item.rsibr, kind, None))
         view = context.window_manager.rsibr_view
         row = layout.row(heading="Split")

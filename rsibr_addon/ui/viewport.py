@@ -10,9 +10,13 @@ from ..device.shaders import release_programs
 from ..host.map_sets import unpacked
 from ..host.viewport import current_view
 from ..tasks.viewport import previews
+from ..tasks.workshop import workshop
 
 RETRY_SECONDS = 0.5
 """While a render goes on, no data may come and go for the display's table."""
+
+NEWS_SECONDS = 0.03
+"""How often to look whether a material has been made."""
 
 
 def start(undo: ExitStack) -> None:
@@ -25,6 +29,8 @@ def start(undo: ExitStack) -> None:
     """
     if bpy.app.background:
         return
+    workshop.open()
+    undo.callback(workshop.close)
     undo.callback(release_programs)
     undo.callback(previews.release)
     for function, when in ((_draw, "POST_VIEW"), (_render_surroundings, "POST_PIXEL")):
@@ -40,12 +46,22 @@ def start(undo: ExitStack) -> None:
 def _draw() -> None:
     if not previews.draw(current_view()) and not bpy.app.timers.is_registered(_add_displays):
         bpy.app.timers.register(_add_displays, first_interval=0.0)
+    if workshop.is_busy and not bpy.app.timers.is_registered(_show_news):
+        bpy.app.timers.register(_show_news, first_interval=NEWS_SECONDS)
 
 
 def _render_surroundings() -> None:
     """Blender renders no view while it draws another, but when it comes to what lies over it."""
     if previews.render_surroundings(current_view()) and not bpy.app.timers.is_registered(_draw_again):
         bpy.app.timers.register(_draw_again, first_interval=0.0)
+
+
+def _show_news() -> float | None:
+    """While materials are made, show what there is of them."""
+    goes_on = workshop.is_busy
+    if workshop.take_news():
+        _draw_again()
+    return NEWS_SECONDS if goes_on else None
 
 
 def _draw_again() -> None:
@@ -66,7 +82,7 @@ def _add_displays() -> float | None:
 
 
 def _stop_timers() -> None:
-    for timer in filter(bpy.app.timers.is_registered, (_add_displays, _draw_again)):
+    for timer in filter(bpy.app.timers.is_registered, (_add_displays, _draw_again, _show_news)):
         bpy.app.timers.unregister(timer)
 
 

@@ -25,7 +25,7 @@ def test_a_job_survives_json() -> None:
         ('{"format": 1, "arguments": "capture"}', "arguments that are no list of text"),
         ('{"format": 1, "arguments": ["capture", 3]}', "arguments that are no list of text"),
         ('{"format": 1, "arguments": []}', "job.json cannot be done. A job begins with what is to be made"),
-        ('{"format": 1, "arguments": ["info", "a"]}', "one of capture, bake, tables, mips, illuminate"),
+        ('{"format": 1, "arguments": ["info", "a"]}', "one of capture, bake, tables, mips, bank, illuminate"),
     ],
 )
 def test_what_is_no_job_is_refused(text: str, words: str) -> None:

@@ -59,7 +59,7 @@ def hemisphere_quadrature(
     # Arc angle psi counts from straight down; the horizon cuts the start, the other half the end
     start = np.arccos(np.minimum(1.0, cot * mu / sine))
     end = np.arccos(-np.minimum(1.0, cot * sine / mu))
-    node, node_weight = np.polynomial.legendre.leggauss(arc_nodes)
+    node, node_weight = _gauss_legendre(arc_nodes)
     psi = start[:, None] + (end - start)[:, None] * (node + 1.0) / 2.0
     weight = (radial_weight * np.sin(radius) * (end - start) / 2.0)[:, None] * node_weight
     along, down = np.cos(radius)[:, None], np.sin(radius)[:, None] * np.cos(psi)
@@ -129,9 +129,14 @@ def warn_of_gain(brdf: BrdfFunction, name: str) -> None:
 
 
 @cache
+def _gauss_legendre(nodes: int) -> tuple[Array, Array]:
+    return np.polynomial.legendre.leggauss(nodes)
+
+
+@cache
 def _panel(nodes: int) -> tuple[Array, Array]:
     """Gauss-Legendre nodes and weights on [0, 1] in t^2."""
-    node, weight = np.polynomial.legendre.leggauss(nodes)
+    node, weight = _gauss_legendre(nodes)
     t = (node + 1.0) / 2.0
     return t**2, weight * t
 

@@ -14,6 +14,7 @@ A material of Blender, ``blend:FILE.blend:NAME``, is measured first: see tasks/b
 """
 
 import dataclasses
+import re
 from collections.abc import Callable
 from typing import Any, get_type_hints
 
@@ -52,6 +53,7 @@ MEASURED = ("merl", "cornell", "rgl")
 """Names of the formats of measured models, whose only key is path: all that follows it."""
 
 A_MODEL = "a model in parentheses, as (lambert:kd=0.5)"
+_ALPHA = re.compile(r"(?<=[:,])\s*alpha\s*=[^,()]*")
 FRESNEL_KEYS = ("metal", "eta", "k", "f0", "f90")
 
 
@@ -115,6 +117,33 @@ def spec_from_brdf(brdf: Brdf) -> str:
         if type(brdf) is owner:
             return f"{name}:{','.join(_assignments(brdf))}"
     raise RangeError(f"No text describes a {type(brdf).__name__}: describe what it is made of.")
+
+
+def with_alpha(spec: str, alpha: float) -> str:
+    """A model with another roughness.
+
+    Parameters
+    ----------
+    spec : str
+        As `brdf_from_spec` takes it.
+    alpha : float
+        For every layer that has one.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    RangeError
+        No layer has an alpha.
+    """
+    changed, count = _ALPHA.subn(f"alpha={alpha:g}", spec)
+    if not count:
+        raise RangeError(
+            f'"{spec}" has no alpha to set: write one, as in ggx:alpha=0.3, or set no roughness.'
+        )
+    return changed
 
 
 def arguments_from_text(owner: type, text: str, read_measured: ReadMeasured) -> dict[str, Any]:

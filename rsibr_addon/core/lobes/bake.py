@@ -1,9 +1,6 @@
-"""From a fit and an environment to a stack of maps, as large as its lobes need.
+"""From an environment to a bank of maps, one for each kernel; and to a fit's stack, summed from one."""
 
-All profiles are sums of the same kernels. So the environment is filtered once with every kernel, and each
-map is a sum of these few, weighted with small numbers.
-"""
-
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,9 +9,11 @@ from ..conventions import Array
 from ..errors import RangeError
 from ..harmonics.analysis import analyse_environment
 from ..harmonics.coefficients import EnvironmentHarmonics
-from ..prefilter import analysis_degree, prefilter
+from ..prefilter import analysis_degree, prefilter, resolved_width
 from ..progress import Progress, Steps
 from ..zonal import TOLERANCE, ZonalSeries, expand
+from .bank import KernelBank, octaves
+from .filtered_bank import FilteredBank, stack_from_bank
 from .fit import Fit
 from .stack import LobeStack, stack_representation
 
@@ -23,6 +22,11 @@ SIZES = (16, 32, 64, 128, 256, 512)
 
 ALLOWED_INTERPOLATION = 0.0025
 """Relative root-mean-square error that bilinear lookups may cost where no size is asked for."""
+
+ALLOWED_OF_A_KERNEL = 0.05
+"""What they may cost a bank's sharpest kernel: in a material's lobes it is the small tip of the peak."""
+
+_SHARPEST_BY_TEXELS = 0.25
 
 
 @dataclass(frozen=True)
@@ -43,6 +47,62 @@ class BakedStack:
     stack: LobeStack
     bound: Array
     interpolation: float
+
+
+@dataclass(frozen=True)
+class BakedBank:
+    """A bank, and how near lookups in it are to its kernels.
+
+    Attributes
+    ----------
+    filtered : FilteredBank
+    interpolation : tuple of float
+        What bilinear lookups in each kernel's map are expected to cost: relative root-mean-square error.
+    """
+
+    filtered: FilteredBank
+    interpolation: tuple[float, ...]
+
+
+def bake_bank(radiance: Array, layout: str, size: int) -> Steps[BakedBank]:
+    """Filter an environment with every kernel that environment and maps resolve.
+
+    Parameters
+    ----------
+    radiance : ndarray, shape (height, 2 * height, 3)
+        Latitude-longitude map, not negative.
+    layout : str
+        One of `stack.LAYOUTS`.
+    size : int
+        Width of the maps in texels.
+
+    Yields
+    ------
+    Progress
+
+    Returns
+    -------
+    BakedBank
+        Of the kernels of `bank.octaves` for which `ALLOWED_OF_A_KERNEL` is kept.
+
+    Raises
+    ------
+    RangeError
+        The layout is none, the size is out of range, or nothing is resolved.
+    """
+    stack_representation(layout, size)
+    yield Progress(0, 2, "analysing the environment")
+    least = resolved_width(len(radiance))
+    bank = octaves(_SHARPEST_BY_TEXELS * size**2)
+    series = [lobe for lobe in _expanded(bank) if lobe.width >= least]
+    if not series:
+        raise RangeError(f"An environment of {len(radiance)} rows resolves no kernel: use a larger one.")
+    harmonics = analyse_environment(radiance, analysis_degree(series))
+    costs = [_interpolation(_curvature_of_kernel(lobe, harmonics), layout, size) for lobe in series]
+    count = max(sum(cost <= ALLOWED_OF_A_KERNEL for cost in costs), 1)
+    yield Progress(1, 2, f"filtering {count} maps of {size} texels")
+    bank = KernelBank(bank.concentrations[:count])
+    return BakedBank(_filtered(harmonics, bank, series[:count], layout, size), tuple(costs[:count]))
 
 
 def bake_stack(radiance: Array, fit: Fit, layout: str, size: int | None = None) -> Steps[BakedStack]:
@@ -76,42 +136,66 @@ def bake_stack(radiance: Array, fit: Fit, layout: str, size: int | None = None) 
         stack_representation(layout, size)
     used = np.flatnonzero(np.any(fit.weights, axis=(0, 1, 3)))
     yield Progress(0, 2, "analysing the environment")
-    kernels = fit.bank.lobes()
-    series = [expand(kernels[kernel], TOLERANCE) for kernel in used]
+    bank = KernelBank(tuple(fit.bank.concentrations[kernel] for kernel in used))
+    series = _expanded(bank)
     harmonics = analyse_environment(radiance, analysis_degree(series))
-    weights = fit.weights[:, :, used]
-    curvature = _curvature(fit, weights, series, harmonics)
+    curvature = _curvature(fit, fit.weights[:, :, used], series, harmonics)
     if size is None:
         size = next(
             (n for n in SIZES if _interpolation(curvature, layout, n) <= ALLOWED_INTERPOLATION), SIZES[-1]
         )
     yield Progress(1, 2, f"filtering {fit.weights.shape[0] * fit.weights.shape[1]} maps of {size} texels")
     try:
-        filtered = prefilter(harmonics, series, stack_representation(layout, size).texel_directions(size))
+        filtered = _filtered(harmonics, bank, series, layout, size)
     except RangeError as error:
         raise RangeError(f"The fit has lobes that this environment is too coarse for. {error}") from error
-    maps = np.einsum("lpkc,k...c->lp...c", weights, filtered.radiance).astype(np.float32)
-    bound = np.einsum("lpkc,kc->lpc", np.abs(weights), filtered.bound).max(axis=(0, 1))
-    stack = LobeStack(layout, fit.mu, maps, fit.scale, fit.offsets, fit.taps, fit.albedo)
-    return BakedStack(stack, bound, _interpolation(curvature, layout, size))
+    return BakedStack(*stack_from_bank(filtered, fit), _interpolation(curvature, layout, size))
+
+
+def _expanded(bank: KernelBank) -> list[ZonalSeries]:
+    return [expand(kernel, TOLERANCE) for kernel in bank.lobes()]
+
+
+def _filtered(
+    harmonics: EnvironmentHarmonics, bank: KernelBank, series: Sequence[ZonalSeries], layout: str, size: int
+) -> FilteredBank:
+    filtered = prefilter(harmonics, series, stack_representation(layout, size).texel_directions(size))
+    return FilteredBank(layout, bank, filtered.radiance, filtered.bound)
+
+
+def _light(harmonics: EnvironmentHarmonics, degree: int) -> Array:
+    """Power of every degree of an environment, shape (degree + 1, 3)."""
+    power: Array = harmonics.ceilings()[: degree + 1] ** 2 / (2 * np.arange(degree + 1)[:, None] + 1)
+    return power
+
+
+def _laplacian(degree: int) -> Array:
+    """What degree l of a map has times itself for a Laplacian: l (l + 1), shape (degree + 1, 1)."""
+    l = np.arange(degree + 1.0)[:, None]
+    return l * (l + 1.0)
+
+
+def _curvature_of_kernel(kernel: ZonalSeries, harmonics: EnvironmentHarmonics) -> float:
+    """Root mean square of the Laplacian of a kernel's map over that of the map itself."""
+    power = kernel.coefficients[:, None] ** 2 * _light(harmonics, kernel.degree)
+    return float(np.sqrt(np.sum(power * _laplacian(kernel.degree) ** 2) / np.sum(power)))
 
 
 def _curvature(fit: Fit, weights: Array, series: list[ZonalSeries], harmonics: EnvironmentHarmonics) -> float:
     """Root mean square of the maps' Laplacians over that of the radiance, on a sphere seen from afar.
 
-    Degree l of a map has the Laplacian l (l + 1) times itself. A sphere's rings count by mu. What several
-    lookups get wrong is taken as independent; radiance is taken as if the lobes of a view had one axis.
+    A sphere's rings count by mu. What several lookups get wrong is taken as independent; radiance is taken as
+    if the lobes of a view had one axis.
     """
     degree = analysis_degree(series)
     gains = np.zeros((len(series), degree + 1))
     for row, lobe in zip(gains, series, strict=True):
         row[: lobe.degree + 1] = lobe.coefficients
-    l = np.arange(degree + 1)[:, None]
-    light = harmonics.ceilings() ** 2 / (2 * l + 1)
+    light = _light(harmonics, degree)
     # Of every lobe and elevation, degree by degree
     amplitude = fit.scale[:, :, None] * np.einsum("lpkc,kd->lpdc", weights, gains)
     lookups = np.sum(fit.taps**2, axis=2)
-    bent = np.einsum("s,ls,lsdc,dc->", fit.mu, lookups, amplitude**2, light * (l * (l + 1.0)) ** 2)
+    bent = np.einsum("s,ls,lsdc,dc->", fit.mu, lookups, amplitude**2, light * _laplacian(degree) ** 2)
     together = np.einsum("ls,lsdc->sdc", fit.taps.sum(axis=2), amplitude)
     return float(np.sqrt(bent / np.einsum("s,sdc,dc->", fit.mu, together**2, light)))
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..conventions import Array
-from .bank import KernelBank, octaves
+from .bank import SHARPEST, KernelBank, octaves
 from .descent import descend
 from .fit import Fit
 from .projection import Lookups, Projector
@@ -42,13 +42,13 @@ class State:
     weights: Array
 
 
-def bank_for(slices: Sequence[TargetSlice]) -> KernelBank:
-    """Kernels for targets in ascending order of elevation.
+def bank_for(slices: Sequence[TargetSlice], sharpest: float = SHARPEST) -> KernelBank:
+    """Kernels for targets in ascending order of elevation, none sharper than asked for.
 
     Down to a 20th of the last lobe's width, for its peak, or a third of the thinnest one's.
     """
     thinnest = min(target.radius for target in slices)
-    return octaves(max(_SHARPNESS / slices[-1].radius, _THINNEST / thinnest) ** 2)
+    return octaves(min(max(_SHARPNESS / slices[-1].radius, _THINNEST / thinnest) ** 2, sharpest))
 
 
 class JointFitter:
@@ -64,14 +64,21 @@ class JointFitter:
         Directions in which each lobe's map is looked up.
     non_negative : bool
         Whether no kernel may have a negative weight.
+    sharpest : float
+        Concentration that no kernel exceeds, one of `octaves`.
     """
 
     def __init__(
-        self, slices: Sequence[TargetSlice], brdf: str, taps: int = 1, non_negative: bool = False
+        self,
+        slices: Sequence[TargetSlice],
+        brdf: str,
+        taps: int = 1,
+        non_negative: bool = False,
+        sharpest: float = SHARPEST,
     ) -> None:
         self._slices, self._brdf, self._taps = slices, brdf, taps
         self._non_negative = non_negative
-        self._bank = bank_for(slices)
+        self._bank = bank_for(slices, sharpest)
         self._first = int(_START * len(slices))
         self._projector = Projector(slices[self._first], self._bank, non_negative=non_negative)
         self._angles: Array = np.zeros((0, 1))

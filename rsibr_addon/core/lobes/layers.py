@@ -1,6 +1,6 @@
 """Joint fits of whole models, layer by layer: each layer has one kind of lobe, which is easier to fit."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,9 +10,10 @@ from ..brdf.spec import spec_from_brdf
 from ..conventions import Array
 from ..progress import Progress, Steps
 from .accuracy import fit_errors
+from .bank import SHARPEST
 from .fit import Fit, joined
 from .joint import JointFitter
-from .target import target_slices
+from .target import TargetSlice, target_slices
 
 NEGLIGIBLE = 0.1
 """A layer whose error is below this share of the whole's gets no more lobes."""
@@ -48,6 +49,7 @@ def layered_fit(
     error: float | None = None,
     taps: int = 1,
     non_negative: bool = False,
+    sharpest: float = SHARPEST,
 ) -> Steps[Fit]:
     """Fit the sum of a model's layers.
 
@@ -64,6 +66,8 @@ def layered_fit(
         Directions in which each lobe's map is looked up.
     non_negative : bool
         Whether no kernel may have a negative weight.
+    sharpest : float
+        Concentration that no kernel exceeds, one of `bank.octaves`.
 
     Yields
     ------
@@ -80,7 +84,7 @@ def layered_fit(
     """
     spec = spec_from_brdf(brdf)
     yield Progress(0, 1, "sampling the reflectance")
-    layers = _layers(brdf, mu, spec, taps, non_negative)
+    layers = list(_layers(brdf, mu, lambda slices: JointFitter(slices, spec, taps, non_negative, sharpest)))
     if error is None and len(layers) == 1:
         return (yield from _at_once(layers[0].fitter, lobes))
     total = len(layers) * lobes
@@ -106,12 +110,11 @@ def _at_once(fitter: JointFitter, lobes: int) -> Steps[Fit]:
 
 
 def _layers(
-    brdf: Brdf, mu: Sequence[float] | Array, spec: str, taps: int, non_negative: bool
-) -> list[_Layer]:
-    whole = np.array([target.power for target in target_slices(brdf, mu)])
-    layers = []
+    brdf: Brdf, mu: Sequence[float] | Array, fitter: Callable[[tuple[TargetSlice, ...]], JointFitter]
+) -> Iterator[_Layer]:
+    whole = target_slices(brdf, mu)
     for layer in brdf.layers:
-        slices = target_slices(layer, mu)
-        share = np.array([target.power for target in slices]) / whole
-        layers.append(_Layer(layer, JointFitter(slices, spec, taps, non_negative), share))
-    return layers
+        # Most models are their own and only layer: sampling costs as much as fitting
+        slices = whole if layer is brdf else target_slices(layer, mu)
+        share = np.array([part.power / all_.power for part, all_ in zip(slices, whole, strict=True)])
+        yield _Layer(layer, fitter(slices), share)

@@ -13,6 +13,7 @@ from ...core.errors import MapSetError, RangeError, ShapeError
 from ...core.lobes.stack import LobeStack, stack_representation
 from ..map_set import MapSet
 from ..map_set_header import ENVIRONMENT, TAP_FIELDS, make_header
+from .sheets import sheets_from_strip, strip_from_sheets
 
 KIND = "lobe_stack"
 
@@ -46,7 +47,7 @@ def to_map_set(
         shared = len(lobe_maps) == 1
         for number, sheets in enumerate(lobe_maps):
             name = f"lobe{lobe:02d}.slice{number:03d}"
-            maps[name] = _strip(sheets)
+            maps[name] = strip_from_sheets(sheets)
             served = elevations if shared else [elevations[number]]
             parts.append({"name": name, "role": "prefiltered", "lobe": lobe, "elevations": served})
     header = make_header(
@@ -95,7 +96,7 @@ def from_map_set(path: Path, map_set: MapSet) -> LobeStack:
     )
     try:
         sheets = stack_representation(layout, size).shape(size)
-        maps = [[_sheets(map_set.maps[part["name"]], sheets) for part in lobe] for lobe in lobes]
+        maps = [[sheets_from_strip(map_set.maps[part["name"]], sheets) for part in lobe] for lobe in lobes]
         return LobeStack(
             layout=layout,
             mu=np.array([mu for mu, _ in used_at[0]]),
@@ -139,16 +140,3 @@ def _elevation(stack: LobeStack, lobe: int, number: int) -> dict[str, Any]:
 def _array(tables: list[list[dict[str, Any]]], value: Callable[[dict[str, Any]], Any]) -> Array:
     """One value of every elevation of every lobe."""
     return np.array([[value(elevation) for elevation in table] for table in tables], dtype=np.float64)
-
-
-def _strip(sheets: Array) -> Array:
-    """Sheets below each other, the first at the top, each with its row 0 at the bottom."""
-    return sheets[::-1].reshape(-1, *sheets.shape[2:])
-
-
-def _sheets(strip: Array, shape: tuple[int, int, int]) -> Array:
-    """The inverse of `_strip`."""
-    count, height, width = shape
-    if strip.shape[:2] != (count * height, width):
-        raise ShapeError(f"A map of {width}x{strip.shape[0]} has not {count} sheets: bake it again.")
-    return strip.reshape(*shape, -1)[::-1]

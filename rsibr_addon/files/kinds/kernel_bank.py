@@ -1,0 +1,100 @@
+"""Map sets of kind `kernel_bank`."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...core.environment import Environment
+from ...core.errors import MapSetError, RangeError, ShapeError
+from ...core.lobes.bake import BakedBank
+from ...core.lobes.bank import KernelBank
+from ...core.lobes.filtered_bank import FilteredBank
+from ...core.lobes.stack import stack_representation
+from ..map_set import MapSet
+from ..map_set_header import ENVIRONMENT, make_header
+from .sheets import sheets_from_strip, strip_from_sheets
+
+KIND = "kernel_bank"
+
+
+def to_map_set(baked: BakedBank, environment: Environment, settings: dict[str, Any], software: str) -> MapSet:
+    """A kernel bank as a map set holds it.
+
+    Parameters
+    ----------
+    baked : BakedBank
+    environment : Environment
+        What it was made of; embedded.
+    settings, software
+        See docs/map-set-format.md.
+
+    Returns
+    -------
+    MapSet
+    """
+    filtered = baked.filtered
+    maps = {ENVIRONMENT: environment.radiance}
+    parts: list[dict[str, Any]] = [{"name": ENVIRONMENT, "role": ENVIRONMENT}]
+    for number, sheets in enumerate(filtered.maps.astype(np.float32)):
+        name = f"kernel{number:02d}"
+        maps[name] = strip_from_sheets(sheets)
+        parts.append(
+            {
+                "name": name,
+                "role": "prefiltered",
+                "concentration": filtered.bank.concentrations[number],
+                "bound": filtered.bound[number].tolist(),
+                "interpolation": baked.interpolation[number],
+            }
+        )
+    header = make_header(
+        layout=filtered.layout,
+        size=(filtered.size, filtered.size * filtered.maps.shape[1]),
+        environment=environment,
+        embedded=True,
+        material={},
+        parts=parts,
+        error_bound={
+            "filter": filtered.bound.max(axis=0).tolist(),
+            "interpolation": max(baked.interpolation),
+        },
+        settings=settings,
+        software=software,
+    )
+    return MapSet(KIND, maps, header)
+
+
+def from_map_set(path: Path, map_set: MapSet) -> FilteredBank:
+    """A kernel bank as a map set holds it.
+
+    Parameters
+    ----------
+    path : Path
+        The map set's file, for messages.
+    map_set : MapSet
+        Of this kind.
+
+    Returns
+    -------
+    FilteredBank
+
+    Raises
+    ------
+    MapSetError
+        Its layout is none of a kernel bank's, it has no kernels or two alike, or a map is not as large as the
+        header says.
+    """
+    parts = [part for part in map_set.header["parts"] if part["role"] == "prefiltered"]
+    parts.sort(key=lambda part: part["concentration"])
+    size = map_set.header["size"][0]
+    try:
+        shape = stack_representation(map_set.header["layout"], size).shape(size)
+        return FilteredBank(
+            map_set.header["layout"],
+            KernelBank(tuple(part["concentration"] for part in parts)),
+            np.array([sheets_from_strip(map_set.maps[part["name"]], shape) for part in parts]),
+            np.array([part["bound"] for part in parts], dtype=np.float64),
+        )
+    except (RangeError, ShapeError) as error:
+        raise MapSetError(f"{path} holds no kernel bank. {error}") from error

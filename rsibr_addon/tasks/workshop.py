@@ -1,0 +1,111 @@
+"""A thread that makes what viewports wish for, while they go on showing what they have."""
+
+import threading
+from collections.abc import Hashable, Iterator
+from dataclasses import dataclass
+
+
+@dataclass
+class _Wish:
+    """Work to be done, and what for.
+
+    Attributes
+    ----------
+    key : Hashable
+        The same for the same.
+    steps : iterator of bool
+        Does the work, a step each; True where it has made something that can be shown.
+    is_urgent : bool
+        Whether there is nothing to be shown yet.
+    """
+
+    key: Hashable
+    steps: Iterator[bool]
+    is_urgent: bool
+
+
+class Workshop:
+    """Works off wishes in a thread of its own.
+
+    A view wishes anew at every redraw, and so the last wish is the one that counts: one waits at most of
+    those that are urgent, and one of the others. What is being made makes room for an urgent wish once
+    it can be shown itself, and is wished for again.
+    """
+
+    def __init__(self) -> None:
+        self._changed = threading.Condition()
+        self._waiting: dict[bool, _Wish] = {}
+        self._at_work: _Wish | None = None
+        self._thread: threading.Thread | None = None
+        self._has_news = False
+
+    @property
+    def is_open(self) -> bool:
+        """Whether there is a thread; without one, whoever needs something makes it."""
+        return self._thread is not None
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether something is being made, or waits."""
+        with self._changed:
+            return bool(self._at_work or self._waiting)
+
+    def open(self) -> None:
+        """Start the thread."""
+        self._thread = threading.Thread(target=self._work, name="rsibr workshop", daemon=True)
+        self._thread.start()
+
+    def close(self) -> None:
+        """Drop all wishes and end the thread, which takes as long as a step."""
+        thread, self._thread = self._thread, None
+        with self._changed:
+            self._waiting.clear()
+            self._has_news = False
+            self._changed.notify()
+        if thread is not None:
+            thread.join()
+
+    def wish(self, key: Hashable, steps: Iterator[bool], is_urgent: bool) -> None:
+        """Have something made, unless it is being made.
+
+        Parameters
+        ----------
+        key : Hashable
+        steps : iterator of bool
+            Runs in the thread, without Blender's data; to its end, or until it is closed.
+        is_urgent : bool
+            Whether there is nothing to be shown yet.
+        """
+        with self._changed:
+            if self._at_work is None or self._at_work.key != key:
+                self._waiting[is_urgent] = _Wish(key, steps, is_urgent)
+                self._changed.notify()
+
+    def take_news(self) -> bool:
+        """Whether something new can be shown since one asked last."""
+        with self._changed:
+            news, self._has_news = self._has_news, False
+        return news
+
+    def _work(self) -> None:
+        while (wish := self._next()) is not None:
+            for can_be_shown in wish.steps:
+                with self._changed:
+                    self._has_news |= can_be_shown
+                    wish.is_urgent &= not can_be_shown
+                    if self._thread is None or (True in self._waiting and not wish.is_urgent):
+                        break
+
+    def _next(self) -> _Wish | None:
+        """The next wish; None when the workshop closes."""
+        with self._changed:
+            self._at_work = None
+            self._changed.wait_for(lambda: self._waiting or self._thread is None)
+            if self._thread is None:
+                return None
+            self._at_work = self._waiting.pop(max(self._waiting))
+            return self._at_work
+
+
+workshop = Workshop()
+"""Of this Blender; closed where there are no viewports."""

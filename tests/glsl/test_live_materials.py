@@ -1,0 +1,120 @@
+"""Materials chosen while one looks: drawn from a kernel bank, they are what a bake would have made."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.core.brdf.spec import brdf_from_spec
+from rsibr.rsibr_addon.core.camera import Camera
+from rsibr.rsibr_addon.core.errors import RangeError, RsibrWarning
+from rsibr.rsibr_addon.core.lobes.bake import bake_bank, bake_stack
+from rsibr.rsibr_addon.core.lobes.filtered_bank import FilteredBank
+from rsibr.rsibr_addon.core.lobes.layers import layered_fit
+from rsibr.rsibr_addon.core.lobes.target import elevation_slices
+from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.core.shading.kernel_bank import BankLook
+from rsibr.rsibr_addon.core.shading.lobe_stack import StackLook
+from rsibr.rsibr_addon.device.context import ensure_context
+from rsibr.rsibr_addon.device.lobe_stack import LobeStackOnDevice
+from rsibr.rsibr_addon.device.preview import PreviewRenderer
+from rsibr.rsibr_addon.tasks import live_materials
+from rsibr.rsibr_addon.tasks.live_materials import KEPT, SLICES, LiveMaterials
+from rsibr.rsibr_addon.tasks.workshop import Workshop
+from rsibr.tests.core.test_workshop import wait_until_idle
+from rsibr.tests.glsl.test_preview_renderer import SPHERE
+
+CAMERA = Camera((0.4, -1.0, 0.5))
+PIXELS = 64
+LOOK = BankLook("ggx:alpha=0.4,f0=0.3/0.6/0.9", lobe_count=2)
+LIGHT = 0.2 + np.random.default_rng(7).random((64, 128, 3)) ** 6
+
+
+@pytest.fixture(scope="module")
+def filtered() -> FilteredBank:
+    ensure_context()
+    return drain(bake_bank(LIGHT, "dual_paraboloid", 32)).filtered
+
+
+@pytest.fixture
+def shop(monkeypatch: pytest.MonkeyPatch) -> Iterator[Workshop]:
+    shop = Workshop()
+    monkeypatch.setattr(live_materials, "workshop", shop)
+    shop.open()
+    yield shop
+    shop.close()
+
+
+def picture(subject: LiveMaterials | LobeStackOnDevice, look: BankLook | StackLook) -> np.ndarray:
+    return PreviewRenderer(subject).draw(*SPHERE, CAMERA, PIXELS, look)
+
+
+def test_a_look_is_drawn_as_the_stack_that_a_bake_makes(filtered: FilteredBank) -> None:
+    brdf = brdf_from_spec(LOOK.spec, lambda name, path: pytest.fail("nothing is measured"))
+    fit = drain(layered_fit(brdf, elevation_slices(SLICES), 2, sharpest=filtered.sharpest))
+    stack = drain(bake_stack(LIGHT, fit, "dual_paraboloid", 32)).stack
+    expected = picture(LobeStackOnDevice(stack), StackLook())
+    drawn = picture(LiveMaterials(filtered), LOOK)
+    # Both are half floats on the GPU, 2^-11 of each lobe's map, and signed lobes are louder than their sum
+    np.testing.assert_allclose(drawn, expected, atol=8.0 * 2.0**-11 * expected.max())
+    assert np.array_equal(drawn[..., 3], expected[..., 3])
+
+
+def test_going_back_fits_nothing(filtered: FilteredBank, monkeypatch: pytest.MonkeyPatch) -> None:
+    materials, other = LiveMaterials(filtered), BankLook("ward:alpha=0.5,ks=0.7", lobe_count=1)
+    first = picture(materials, LOOK)
+    assert not np.array_equal(picture(materials, other), first)
+    monkeypatch.setattr(live_materials, "layered_fit", lambda *_, **__: pytest.fail("fitted again"))
+    assert np.array_equal(picture(materials, LOOK), first)
+    # In another light too
+    assert LiveMaterials(filtered).is_ready(LOOK)
+
+
+def test_stacks_that_are_not_drawn_any_more_are_let_go(filtered: FilteredBank) -> None:
+    materials = LiveMaterials(filtered)
+    looks = [BankLook(f"lambert:kd={0.1 + 0.05 * n:g}", lobe_count=1) for n in range(KEPT + 4)]
+    for look in looks:
+        assert materials.is_ready(look)
+        assert materials.is_ready(looks[0])  # always in sight
+    assert looks[0] in materials._shown
+    assert looks[1] not in materials._shown
+    assert len(materials._shown) <= KEPT + 2
+
+
+def test_what_is_no_model_is_told_every_time(filtered: FilteredBank) -> None:
+    materials = LiveMaterials(filtered)
+    for _ in range(2):
+        with pytest.raises(RangeError, match='There is no BRDF model "gold"'):
+            picture(materials, BankLook("gold"))
+
+
+def test_a_lobe_too_sharp_for_the_maps_is_told(filtered: FilteredBank) -> None:
+    with pytest.warns(
+        RsibrWarning, match=r"Maps of 32 texels blur ggx:alpha=0\.02.*bake a larger kernel bank"
+    ):
+        LiveMaterials(filtered).is_ready(BankLook("ggx:alpha=0.02,f0=0.5", lobe_count=1))
+
+
+def test_in_a_workshop_a_draft_comes_first(filtered: FilteredBank, shop: Workshop) -> None:
+    materials, look = LiveMaterials(filtered), BankLook("ward:alpha=0.45,ks=0.6", lobe_count=2)
+    empty = picture(materials, look)
+    assert not empty.any()
+    drafts = []
+    while not materials.is_ready(look) or not materials._shown[look].is_final:
+        if look in materials._shown:
+            drafts.append(materials._shown[look])
+    wait_until_idle(shop)
+    assert len({id(draft) for draft in drafts}) <= 1
+    assert shop.take_news()
+    final = picture(materials, look)
+    assert final.any()
+    monkey = LiveMaterials(filtered)
+    shop.close()
+    assert np.array_equal(picture(monkey, look), final)
+
+
+def test_errors_come_out_of_the_workshop(filtered: FilteredBank, shop: Workshop) -> None:
+    materials, look = LiveMaterials(filtered), BankLook("gold")
+    assert not materials.is_ready(look)
+    wait_until_idle(shop)
+    with pytest.raises(RangeError, match='There is no BRDF model "gold"'):
+        materials.is_ready(look)

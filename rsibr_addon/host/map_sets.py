@@ -1,7 +1,7 @@
 """The file that an object is shaded from, as one of Blender's images.
 
-So Blender looks after it: an image's path follows when its .blend is saved elsewhere, appended from or linked;
-and it may be packed. What it shows is of no interest here: nothing asks for its pixels.
+So Blender looks after it. Its path follows when the .blend is saved elsewhere, appended from or linked; and
+it may be packed. What it shows is of no interest here: nothing asks for its pixels.
 """
 
 import hashlib

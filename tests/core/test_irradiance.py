@@ -151,6 +151,7 @@ def test_under_the_light_probes_more_harmonics_come_closer(probe: str) -> None:
     assert error[4].mean() < 0.5 * error[2].mean()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("probe", "table", "scale"),
     [

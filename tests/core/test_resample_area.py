@@ -58,6 +58,7 @@ def brute_force(
     return np.einsum("nij,nijc->nc", density, values) / density.sum(axis=(1, 2))[:, None]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("target_name", REPRESENTATIONS)
 @pytest.mark.parametrize("source_name", REPRESENTATIONS)
 def test_shrinking_keeps_power_and_constants(source_name: str, target_name: str) -> None:

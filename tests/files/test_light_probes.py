@@ -20,6 +20,7 @@ def correlation(a: np.ndarray, b: np.ndarray, weight: np.ndarray) -> float:
     return float(np.sum(weight * a * b) / np.sqrt(np.sum(weight * a * a) * np.sum(weight * b * b)))
 
 
+@pytest.mark.slow
 def test_an_angular_map_shows_the_same_room_as_a_latlong_of_others(probes: Path) -> None:
     # The file's first row, which should be the top, is the floor, and its unit is another one
     latlong = read_exr(probes / "latlong" / "grace_latlong_pbrt2.exr")[::-1, :, :3]
@@ -39,6 +40,7 @@ def test_an_angular_map_shows_the_same_room_as_a_latlong_of_others(probes: Path)
     assert np.median(np.abs(ratio - np.median(ratio))) < 0.01
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("probe", ["kitchen", "galileo"])
 def test_paraboloid_pairs_show_the_same_room_as_the_angular_maps(probes: Path, probe: str) -> None:
     angular = read_hdr(probes / "angular" / f"{probe}_probe.hdr")[None]

@@ -18,6 +18,10 @@ void main()
 #endif
   vec3 diffuse = look.k_d.rgb / 3.14159265 * max(light, 0.0);
   vec3 mirror_dir = reflect_dir(view_dir, unit_normal);
-  vec3 glossy = glossy_radiance(atlas, mirror_dir, look.level, look.clamped > 0.5);
+  // What the pixel reflects, taking neighbours' differences for its own; nothing but the middle if not wanted.
+  vec3 across = look.antialiased * dFdx(mirror_dir);
+  vec3 up = look.antialiased * dFdy(mirror_dir);
+  vec3 glossy = glossy_mean(
+      atlas, mirror_dir, across, up, look.level, look.last_level, look.clamped > 0.5);
   radiance = vec4(mix(diffuse, glossy, fresnel), 1.0);
 }

@@ -130,6 +130,12 @@ class RSIBR_PG_mip_chain(bpy.types.PropertyGroup):
             ("clamped", "Clamped", "The face's own texels, as the hardware of 2004"),
         ],
     )
+    antialiased: bpy.props.BoolProperty(
+        name="Antialiased",
+        description="Average glossy light over what each pixel reflects, so that small lamps do not shimmer",
+        update=_notice,
+        default=True,
+    )
 
 
 class RSIBR_PG_environment(bpy.types.PropertyGroup):

@@ -1,5 +1,7 @@
 """A wrinkled mirror ball under a small lamp: what [Miller1984] section 8 is about, in closed form."""
 
+from collections.abc import Callable
+
 import numpy as np
 from rsibr.rsibr_addon.core.antialiased.footprint import footprint_box, pixel_footprints
 from rsibr.rsibr_addon.core.antialiased.quadrilateral import quadrilateral_mean
@@ -44,6 +46,21 @@ def reflected_directions(across: np.ndarray, wrinkles: float, turn: float) -> np
     return direction @ np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
 
 
+def footprints(size: int, wrinkles: float, turn: float) -> tuple[np.ndarray, np.ndarray]:
+    """What a picture's pixels reflect: at their middles, shape (size, size, 3), and at their corners."""
+    middle = reflected_directions((np.arange(size) + 0.5) / size, wrinkles, turn)
+    return middle, pixel_footprints(reflected_directions(np.arange(size + 1) / size, wrinkles, turn))
+
+
+def supersampled(
+    lookup: Callable[[np.ndarray], np.ndarray], size: int, wrinkles: float, turn: float
+) -> np.ndarray:
+    """A picture whose pixels are means of 16 x 16 lookups, shape (size, size, channels)."""
+    across = (np.arange(size * SAMPLES) + 0.5) / (size * SAMPLES)
+    seen = lookup(reflected_directions(across, wrinkles, turn))
+    return seen.reshape(size, SAMPLES, size, SAMPLES, -1).mean(axis=(1, 3))
+
+
 def lamp_table(height: int, row: int, column: int, size: int, radiance: float) -> np.ndarray:
     """A black table of shape (height, 2 * height, 1) with a square lamp, columns counted past the seam."""
     table = np.zeros((height, 2 * height, 1))
@@ -66,17 +83,16 @@ def pictures(table: np.ndarray, size: int, wrinkles: float, turn: float) -> dict
     -------
     dict of str to ndarray, shape (size, size, channels)
     """
-    height, width, channels = table.shape
+    height, width = table.shape[:2]
 
-    def lookup(lookups: int) -> np.ndarray:
-        across = (np.arange(size * lookups) + 0.5) / (size * lookups)
-        columns, rows = table_entry(table, reflected_directions(across, wrinkles, turn))
-        return table[rows, columns].reshape(size, lookups, size, lookups, channels).mean(axis=(1, 3))
+    def lookup(direction: np.ndarray) -> np.ndarray:
+        columns, rows = table_entry(table, direction)
+        return table[rows, columns]
 
-    corners = pixel_footprints(reflected_directions(np.arange(size + 1) / size, wrinkles, turn))
+    middle, corners = footprints(size, wrinkles, turn)
     return {
-        "reference": lookup(SAMPLES),
-        "point": lookup(1),
+        "reference": supersampled(lookup, size, wrinkles, turn),
+        "point": lookup(middle),
         "recursive": recursive_mean(table, corners),
         "quadrilateral": quadrilateral_mean(table, corners),
         "summed_area": box_mean(summed_area_table(table), footprint_box(corners, width, height)),
@@ -92,6 +108,16 @@ def flicker(frames: list[dict[str, np.ndarray]], way: str) -> float:
     """Relative variation of that energy from frame to frame."""
     found = energy(frames, way)
     return float(np.std(found) / np.mean(found))
+
+
+def error(frames: list[dict[str, np.ndarray]], way: str) -> float:
+    """Root mean square of a way's error, relative to that of the reference."""
+    squares = [
+        (np.mean((frame[way] - frame["reference"]) ** 2), np.mean(frame["reference"] ** 2))
+        for frame in frames
+    ]
+    wrong, whole = np.mean(squares, axis=0)
+    return float(np.sqrt(wrong / whole))
 
 
 def missing(frames: list[dict[str, np.ndarray]], way: str) -> float:

@@ -25,6 +25,14 @@ vec3 cube_place(vec3 direction)
   return vec3(0.5 * st / abs(major) + 0.5, (major < 0.0) ? face + 1.0 : face);
 }
 
+// How far texels are apart around a unit direction, in radians.
+float cube_texel_angle(vec3 direction, float size)
+{
+  vec3 part = abs(direction);
+  float major = max(part.x, max(part.y, part.z));
+  return 2.0 / size * major * sqrt(major);
+}
+
 // Directions of growing s, of growing t and of the face itself, as columns: OpenGL 4.6, table 8.19.
 mat3 cube_axes(int face)
 {

@@ -8,3 +8,20 @@ void parallelogram(vec3 middle, vec3 across, vec3 up, out vec3 corners[4])
   corners = vec3[4](
       lower - 0.5 * across, lower + 0.5 * across, upper + 0.5 * across, upper - 0.5 * across);
 }
+
+// From here on, twin of rsibr_addon/core/antialiased/sampling.py.
+
+// How many lookups a pixel takes along its sides: a texel apart, but four at most.
+ivec2 sample_counts(vec3 across, vec3 up, float texel_angle)
+{
+  vec2 sides = vec2(length(across), length(up));
+  return ivec2(clamp(ceil(sides / texel_angle), 1.0, 4.0));
+}
+
+// The direction of one of them; number runs over the product of the counts.
+vec3 sample_direction(vec3 middle, vec3 across, vec3 up, ivec2 counts, int number)
+{
+  ivec2 cell = ivec2(number % counts.x, number / counts.x);
+  vec2 place = (vec2(cell) + 0.5) / vec2(counts) - 0.5;
+  return normalize(middle + place.x * across + place.y * up);
+}

@@ -2,6 +2,7 @@
 // The atlas (see device/mip_chain.py) holds a row of six faces for each mip, the first at the bottom, and
 // around every face a border of one texel: what lies there on the cube.
 #include "lib/cube_map_lib.glsl"
+#include "lib/footprint_lib.glsl"
 
 // Bilinear within a face, and with its border unless clamped.
 vec3 mip_radiance(sampler2D atlas, int mip, vec3 place, bool clamped)
@@ -27,4 +28,28 @@ vec3 glossy_radiance(sampler2D atlas, vec3 direction, float level, bool clamped)
     return near;
   }
   return mix(near, mip_radiance(atlas, int(mip) + 1, place, clamped), level - mip);
+}
+
+// The mean over what a pixel reflects, whose sides are across and up: lookups a texel apart, or as far apart as
+// the texels of the mip that they are taken from.
+vec3 glossy_mean(sampler2D atlas,
+                 vec3 mirror_dir,
+                 vec3 across,
+                 vec3 up,
+                 float level,
+                 float last_level,
+                 bool clamped)
+{
+  float first_size = float(textureSize(atlas, 0).x) / 6.0 - 2.0;
+  float texel = exp2(level) * cube_texel_angle(mirror_dir, first_size);
+  ivec2 counts = sample_counts(across, up, texel);
+  vec2 apart = vec2(length(across), length(up)) / vec2(counts);
+  float missed = log2(max(max(apart.x, apart.y) / texel, 1.0));
+  int lookups = counts.x * counts.y;
+  vec3 sum = vec3(0.0);
+  for (int number = 0; number < lookups; number++) {
+    vec3 direction = sample_direction(mirror_dir, across, up, counts, number);
+    sum += glossy_radiance(atlas, direction, min(level + missed, last_level), clamped);
+  }
+  return sum / float(lookups);
 }

@@ -13,7 +13,7 @@ KIND_OF: dict[str, tuple[str, ...]] = {
     "lobes": ("lobe_stack",),
     "shown": ("reflection_tables",),
     **dict.fromkeys(WEIGHTS, ("reflection_tables",)),
-    "antialiased": ("reflection_tables", "environment"),
+    "antialiased": ("reflection_tables", "mip_chain", "environment"),
     "f_lambda": ("mip_chain", "environment"),
     "k_d": ("mip_chain",),
     "bias": ("mip_chain",),
@@ -99,8 +99,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     several.add_argument(
         "--antialiased",
         action=argparse.BooleanOptionalAction,
-        help="average what each pixel reflects: specular and coat of reflection tables, environments "
-        "(default: of environments)",
+        help="average what each pixel reflects (default: yes, but for reflection tables)",
     )
     banks = parser.add_argument_group("kernel banks", argument_default=argparse.SUPPRESS)
     banks.add_argument(

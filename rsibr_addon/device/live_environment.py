@@ -14,7 +14,7 @@ import numpy as np
 from ..core.errors import RangeError
 from ..core.live_environment import FACE_COUNT, solid_angle_texels
 from ..core.mip_chain import check_size
-from ..core.shading.mip_chain import Borders, MipLook
+from ..core.shading.mip_chain import MipLook
 from . import buffers
 from .drawing import Draw, MeshOnDevice
 from .live_environment_shaders import (
@@ -26,6 +26,7 @@ from .live_environment_shaders import (
     rows_shader,
     tent_shader,
 )
+from .mip_chain_shaders import look_fields
 
 _SCREEN_TRIANGLE = np.array([[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]])
 
@@ -109,11 +110,7 @@ class LiveEnvironmentOnDevice:
         if look.roughness is not None:
             raise RangeError("Live light knows no roughness: choose a bias instead.")
         level = min(look.bias, self._mip_count - 1.0)
-        shading = self._shading.filled(
-            np.array(look.f_lambda),
-            np.array(look.k_d),
-            np.array([level, float(look.borders is Borders.CLAMPED)]),
-        )
+        shading = self._shading.filled(*look_fields(look, level, self._mip_count))
         shader = live_mip_chain_shader()
         shader.bind()
         shader.uniform_block("look", shading)

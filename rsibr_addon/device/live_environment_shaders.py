@@ -2,12 +2,10 @@
 
 import gpu
 
+from .mip_chain_shaders import LOOK_FIELDS
 from .shaders import build, kept_until_exit, mesh_interface
 
-_LOOK_BLOCK = (
-    "struct LiveLook { vec4 f_lambda; vec4 k_d; "
-    "float level; float clamped; float unused_0; float unused_1; };"
-)
+_LOOK_BLOCK = f"struct LiveLook {{ {LOOK_FIELDS} }};"
 
 
 @kept_until_exit

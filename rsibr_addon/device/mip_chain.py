@@ -10,10 +10,10 @@ from ..core.conventions import Array
 from ..core.irradiance import irradiance_matrix
 from ..core.mip_chain import MipChain
 from ..core.mips.texture_space import with_borders
-from ..core.shading.mip_chain import Borders, MipLook
+from ..core.shading.mip_chain import MipLook
 from . import buffers
 from .drawing import Draw, MeshOnDevice
-from .mip_chain_shaders import mip_chain_shader
+from .mip_chain_shaders import look_fields, mip_chain_shader
 
 
 class MipChainOnDevice:
@@ -34,9 +34,7 @@ class MipChainOnDevice:
         """See `OnDevice.draw`. Reference: core/shading/mip_chain.py."""
         shading = self._shading.filled(
             *self._irradiance,
-            np.array(look.f_lambda),
-            np.array(look.k_d),
-            np.array([look.level(self._chain), float(look.borders is Borders.CLAMPED)]),
+            *look_fields(look, look.level(self._chain), len(self._chain.mips)),
         )
         shader = mip_chain_shader()
         shader.bind()

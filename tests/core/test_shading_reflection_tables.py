@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.directions import dot, normalize
-from rsibr.rsibr_addon.core.errors import RangeError, ShapeError
+from rsibr.rsibr_addon.core.errors import RangeError
 from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.core.radial_lobes import phong_lobe
 from rsibr.rsibr_addon.core.reflection_tables import ReflectionTables, Role
@@ -118,8 +118,6 @@ def test_antialiased_tables_are_means_over_the_pixel() -> None:
     )
     shown = reflect_tables(tables, normal, view_dir, TablesLook(antialiased=True), corners)
     np.testing.assert_allclose(shown, expected, rtol=1e-12)
-    with pytest.raises(ShapeError, match="need the footprint of each pixel"):
-        reflect_tables(tables, normal, view_dir, TablesLook(antialiased=True))
 
 
 def test_a_look_names_tables_that_there_are() -> None:

@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
+from rsibr.rsibr_addon.core.antialiased.footprint import parallelogram
 from rsibr.rsibr_addon.core.brdf.fresnel import fresnel_schlick
 from rsibr.rsibr_addon.core.directions import normalize
 from rsibr.rsibr_addon.core.irradiance import irradiance_from_harmonics, irradiance_matrix
 from rsibr.rsibr_addon.core.maps import cube_map
 from rsibr.rsibr_addon.core.mip_chain import MipChain
 from rsibr.rsibr_addon.core.mips.texture_space import filtered_mips, tent_halved
-from rsibr.rsibr_addon.core.shading.mip_chain import Borders, glossy_radiance
+from rsibr.rsibr_addon.core.shading.mip_chain import Borders, glossy_mean, glossy_radiance
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.mip_chain import atlas_texels
 from rsibr.tests.glsl.evaluation import Samplers, evaluate
@@ -77,6 +78,14 @@ TWINS = {
         # A quotient up to 1, halved, and a sum.
         3 * ULP,
     ),
+    "cube_texel_angle": Twin(
+        "cube_map_lib.glsl",
+        "result_0.x = cube_texel_angle(in_0.xyz, 32.0);",
+        lambda: [unit_vectors(27, np.concatenate([np.eye(3), -np.eye(3), CORNERS, EDGES]))],
+        lambda direction: cube_map.texel_angle(direction, 32)[:, None],
+        # A root, two products and a quotient.
+        8 * ULP * 2.0 / 32,
+    ),
 }
 
 
@@ -103,3 +112,17 @@ def test_glossy_radiance(level: float) -> None:
     code = f"result_0.rgb = glossy_radiance(atlas, in_0.xyz, {level}, false);"
     found = evaluate("mip_chain_lib.glsl", code, [direction], samplers=atlas())[:, 0, :3]
     assert np.abs(found - glossy_radiance(CHAIN, direction, level, Borders.SEAMLESS)).max() < 5e-3
+
+
+@pytest.mark.parametrize("level", [0.0, 1.3])
+def test_glossy_mean(level: float) -> None:
+    direction = unit_vectors(28, np.concatenate([CORNERS, EDGES]))
+    rng = np.random.default_rng(29)
+    size = 10.0 ** rng.uniform(-3.0, 0.3, (COUNT, 1))
+    across, up = (single(size * rng.normal(size=(COUNT, 3))) for _ in range(2))
+    code = f"result_0.rgb = glossy_mean(atlas, in_0.xyz, in_1.xyz, in_2.xyz, {level}, 4.0, false);"
+    found = evaluate("mip_chain_lib.glsl", code, [direction, across, up], samplers=atlas())[:, 0, :3]
+    corners = parallelogram(direction, across, up)
+    expected = glossy_mean(CHAIN, direction, corners, level, Borders.SEAMLESS)
+    # As of single lookups; a side of whole texels may count one lookup more or less, which none of these is.
+    assert np.abs(found - expected).max() < 5e-3

@@ -48,6 +48,41 @@ def parallelogram(middle: ArrayLike, across: ArrayLike, up: ArrayLike) -> Array:
     return np.stack(corners, axis=-2)
 
 
+def footprint_or_point(corners: ArrayLike | None, middle: Array) -> Array:
+    """Footprints as they are, or those of points, which reflect one direction each.
+
+    Parameters
+    ----------
+    corners : array_like, shape (..., 4, 3), or None
+    middle : ndarray, shape (..., 3)
+        Unit directions that the points reflect.
+
+    Returns
+    -------
+    ndarray, shape (..., 4, 3)
+    """
+    if corners is None:
+        return parallelogram(middle, np.zeros(3), np.zeros(3))
+    return np.asarray(corners, dtype=np.float64)
+
+
+def footprint_sides(corners: Array) -> tuple[Array, Array]:
+    """The sides of footprints, taken as parallelograms.
+
+    Parameters
+    ----------
+    corners : ndarray, shape (..., 4, 3)
+
+    Returns
+    -------
+    across, up : ndarray, shape (..., 3)
+        Means of opposite sides, as `parallelogram` takes them.
+    """
+    across = 0.5 * (corners[..., 1, :] - corners[..., 0, :] + corners[..., 2, :] - corners[..., 3, :])
+    up = 0.5 * (corners[..., 3, :] - corners[..., 0, :] + corners[..., 2, :] - corners[..., 1, :])
+    return across, up
+
+
 def footprint_box(corners: ArrayLike, width: int, height: int) -> Array:
     """The smallest rectangle of a table that holds a footprint's corners, at least a texel wide and high.
 

@@ -99,6 +99,31 @@ def texel_solid_angle(size: int) -> Array:
     return np.repeat(face[None], 6, axis=0)
 
 
+def texel_angle(direction: ArrayLike, size: int) -> Array:
+    """How far texels are apart around a direction.
+
+    Parameters
+    ----------
+    direction : array_like, shape (..., 3)
+        Unit directions.
+    size : int
+        Width and height of a face in texels.
+
+    Returns
+    -------
+    ndarray, shape (...,)
+        [rad], the square root of a texel's solid angle: a texel is 2 / size wide on a face at distance 1,
+        which the direction meets farther away and aslant, m^3 of that area, m being its largest component.
+
+    Notes
+    -----
+    GLSL twin: gpu_shaders/lib/cube_map_lib.glsl `cube_texel_angle`, 1e-6 of it.
+    """
+    major = np.max(np.abs(direction), axis=-1)
+    angle: Array = 2.0 / size * major**1.5
+    return angle
+
+
 def wrap(
     columns: Indices, rows: Indices, sheet: Indices, width: int, height: int
 ) -> tuple[Indices, Indices, Indices]:

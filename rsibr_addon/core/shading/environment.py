@@ -4,13 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..antialiased.footprint import footprint_box
+from ..antialiased.footprint import footprint_box, footprint_or_point
 from ..antialiased.summed_area import box_mean, summed_area_table
 from ..brdf.fresnel import fresnel_schlick
 from ..conventions import Array, ArrayLike
 from ..directions import dot, reflect
 from ..environment import Environment
-from ..errors import ShapeError
 from ..maps import equirect
 from ..resample import bilinear
 from .checks import check_shares
@@ -56,18 +55,13 @@ def mirrored_environment(
         Unit vectors in world coordinates.
     look : EnvironmentLook
     mirror_footprint : array_like, shape (..., 4, 3), optional
-        Mirrored view directions at the corners of each point's pixel, see `core.antialiased`; what
-        `look.antialiased` needs.
+        Mirrored view directions at the corners of each point's pixel, see `core.antialiased`; what an
+        antialiased look averages over. None for points, which reflect one direction each.
 
     Returns
     -------
     ndarray, shape (..., 3), float64
         The environment's radiance by the mirror direction, times Schlick's F.
-
-    Raises
-    ------
-    ShapeError
-        An antialiased look without a footprint.
 
     Notes
     -----
@@ -77,13 +71,13 @@ def mirrored_environment(
     """
     normal, view_dir = np.broadcast_arrays(np.asarray(normal, np.float64), np.asarray(view_dir, np.float64))
     cosine = np.clip(dot(normal, view_dir), 0.0, 1.0)
-    radiance = environment.radiance
+    mirror_dir, radiance = reflect(view_dir, normal), environment.radiance
     if look.antialiased:
-        if mirror_footprint is None:
-            raise ShapeError("An antialiased mirror needs each pixel's footprint: give mirrored directions.")
-        box = footprint_box(mirror_footprint, radiance.shape[1], radiance.shape[0])
-        light = box_mean(summed_area_table(radiance), box)
+        corners = footprint_or_point(mirror_footprint, mirror_dir)
+        light = box_mean(
+            summed_area_table(radiance), footprint_box(corners, radiance.shape[1], radiance.shape[0])
+        )
     else:
-        light = bilinear(radiance, equirect.uv_from_direction(reflect(view_dir, normal)), equirect.wrap)
+        light = bilinear(radiance, equirect.uv_from_direction(mirror_dir), equirect.wrap)
     shaded: Array = fresnel_schlick(cosine[..., None], look.f_lambda) * light
     return shaded

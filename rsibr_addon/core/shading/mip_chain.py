@@ -8,6 +8,8 @@ from enum import StrEnum
 
 import numpy as np
 
+from ..antialiased.footprint import footprint_or_point, footprint_sides
+from ..antialiased.sampling import sample_counts, samples
 from ..brdf.fresnel import fresnel_schlick
 from ..conventions import Array, ArrayLike, Indices
 from ..directions import dot, reflect
@@ -50,6 +52,8 @@ class MipLook:
         In [0, 1]: takes the bias of that roughness; of GGX chains only.
     borders : Borders
         Or its value, as text.
+    antialiased : bool
+        Whether glossy light is averaged over what a pixel reflects.
 
     Raises
     ------
@@ -62,6 +66,7 @@ class MipLook:
     bias: float = 0.0
     roughness: float | None = None
     borders: Borders = Borders.SEAMLESS
+    antialiased: bool = True
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "borders", Borders(self.borders))
@@ -96,16 +101,21 @@ class MipLook:
 
         Notes
         -----
-        Hardware adds b to the level that a pixel's footprint asks for. Here the footprint plays no part,
-        as if every pixel saw a texel of mip 0: a mip is then a material, at any distance. Pictures
-        are antialiased by samples instead.
+        Hardware adds b to the level that a pixel's footprint asks for. Here a mip is a material, at any
+        distance, and what a pixel reflects is averaged over that: see `glossy_mean`.
         """
         if self.roughness is not None:
             return chain.bias(self.roughness)
         return min(self.bias, len(chain.mips) - 1.0)
 
 
-def mip_chain_radiance(chain: MipChain, normal: ArrayLike, view_dir: ArrayLike, look: MipLook) -> Array:
+def mip_chain_radiance(
+    chain: MipChain,
+    normal: ArrayLike,
+    view_dir: ArrayLike,
+    look: MipLook,
+    mirror_footprint: ArrayLike | None = None,
+) -> Array:
     """Radiance of surface points: [Kautz2004] Eq. 8.
 
     Parameters
@@ -114,6 +124,9 @@ def mip_chain_radiance(chain: MipChain, normal: ArrayLike, view_dir: ArrayLike, 
     normal, view_dir : array_like, shape (..., 3)
         Unit vectors in world coordinates.
     look : MipLook
+    mirror_footprint : array_like, shape (..., 4, 3), optional
+        Mirrored view directions at the corners of each point's pixel, see `core.antialiased`; what an
+        antialiased look averages over. None for points, which reflect one direction each.
 
     Returns
     -------
@@ -133,7 +146,9 @@ def mip_chain_radiance(chain: MipChain, normal: ArrayLike, view_dir: ArrayLike, 
     cosine = np.clip(dot(normal, view_dir), 0.0, 1.0)
     fresnel = fresnel_schlick(cosine[..., None], look.f_lambda)
     diffuse = diffuse_radiance(chain, normal, look.k_d)
-    glossy = glossy_radiance(chain, reflect(view_dir, normal), look.level(chain), look.borders)
+    mirror_dir = reflect(view_dir, normal)
+    corners = footprint_or_point(mirror_footprint if look.antialiased else None, mirror_dir)
+    glossy = glossy_mean(chain, mirror_dir, corners, look.level(chain), look.borders)
     shaded: Array = (1.0 - fresnel) * diffuse + fresnel * glossy
     return shaded
 
@@ -164,7 +179,46 @@ def diffuse_radiance(chain: MipChain, normal: ArrayLike, k_d: ArrayLike) -> Arra
     return radiance
 
 
-def glossy_radiance(chain: MipChain, direction: ArrayLike, level: float, borders: Borders) -> Array:
+def glossy_mean(
+    chain: MipChain, mirror_dir: ArrayLike, corners: ArrayLike, level: float, borders: Borders
+) -> Array:
+    """Light of a level, averaged over what pixels reflect.
+
+    Parameters
+    ----------
+    chain : MipChain
+    mirror_dir : array_like, shape (..., 3)
+        Unit directions that the pixels' middles reflect.
+    corners : array_like, shape (..., 4, 3)
+        Their footprints.
+    level : float
+        In [0, mips - 1].
+    borders : Borders
+
+    Returns
+    -------
+    ndarray, shape (..., 3), float64
+
+    Notes
+    -----
+    Up to `sampling.MOST` lookups along each side of a pixel, a texel of that level apart. Where they do not
+    suffice they come from a mip whose texels are as far apart as they are, so that no light is missed
+    however much a pixel reflects. GLSL twin: gpu_shaders/lib/mip_chain_lib.glsl `glossy_mean`.
+    """
+    mirror_dir = np.asarray(mirror_dir, dtype=np.float64)
+    across, up = footprint_sides(np.asarray(corners, dtype=np.float64))
+    texel = 2.0**level * cube_map.texel_angle(mirror_dir, chain.size)
+    counts = sample_counts(across, up, texel)
+    apart = np.linalg.norm(np.stack([across, up], axis=-2), axis=-1) / counts
+    missed = np.log2(np.maximum(np.max(apart, axis=-1) / texel, 1.0))
+    levels = np.minimum(level + missed, len(chain.mips) - 1.0)
+    mean = np.zeros(mirror_dir.shape)
+    for chosen, direction, weight in samples(mirror_dir, across, up, counts):
+        mean[chosen] += weight * glossy_radiance(chain, direction, levels[chosen], borders)
+    return mean
+
+
+def glossy_radiance(chain: MipChain, direction: ArrayLike, level: ArrayLike, borders: Borders) -> Array:
     """Light of a mip, or of two neighbouring mips, linear between them.
 
     Parameters
@@ -172,7 +226,7 @@ def glossy_radiance(chain: MipChain, direction: ArrayLike, level: float, borders
     chain : MipChain
     direction : array_like, shape (..., 3)
         Unit directions in world coordinates.
-    level : float
+    level : array_like, shape (...,)
         In [0, mips - 1].
     borders : Borders
 
@@ -185,11 +239,14 @@ def glossy_radiance(chain: MipChain, direction: ArrayLike, level: float, borders
     GLSL twin: gpu_shaders/lib/mip_chain_lib.glsl `glossy_radiance`; hardware may round the weights of
     texels to 1/256.
     """
-    mip = min(int(level), len(chain.mips) - 1)
-    next_mip = min(mip + 1, len(chain.mips) - 1)
-    near, far = (_mip_radiance(chain.mips[i], direction, borders) for i in (mip, next_mip))
-    mixed: Array = near + (level - mip) * (far - near)
-    return mixed
+    direction = np.asarray(direction, dtype=np.float64)
+    level = np.broadcast_to(level, direction.shape[:-1])
+    light = np.zeros(direction.shape)
+    for mip, faces in enumerate(chain.mips):
+        share = np.maximum(1.0 - np.abs(level - mip), 0.0)
+        counts = share > 0.0
+        light[counts] += share[counts][:, None] * _mip_radiance(faces, direction[counts], borders)
+    return light
 
 
 def _mip_radiance(faces: Array, direction: ArrayLike, borders: Borders) -> Array:

@@ -4,11 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..antialiased.footprint import footprint_box
+from ..antialiased.footprint import footprint_box, footprint_or_point
 from ..antialiased.summed_area import box_mean, summed_area_table
 from ..conventions import Array, ArrayLike
 from ..directions import dot, reflect, refract
-from ..errors import RangeError, ShapeError
+from ..errors import RangeError
 from ..maps import equirect, sphere_map
 from ..reflection_tables import ReflectionTables, Role
 from ..resample import bilinear
@@ -118,18 +118,13 @@ def reflect_tables(
         Unit vectors in world coordinates.
     look : TablesLook
     mirror_footprint : array_like, shape (..., 4, 3), optional
-        Mirrored view directions at the corners of each point's pixel, see `core.antialiased`; what
-        `look.antialiased` needs.
+        Mirrored view directions at the corners of each point's pixel, see `core.antialiased`; what an
+        antialiased look averages over. None for points, which reflect one direction each.
 
     Returns
     -------
     ndarray, shape (..., 3), float64
         Radiance: Wd(E.N) D[N] + Ws(E.N) S[R] of [Miller1984] section 3, and so for the other tables.
-
-    Raises
-    ------
-    ShapeError
-        An antialiased look without a footprint.
 
     Notes
     -----
@@ -138,9 +133,7 @@ def reflect_tables(
     gpu_shaders/reflection_tables_frag.glsl.
     """
     normal, view_dir = np.broadcast_arrays(np.asarray(normal, np.float64), np.asarray(view_dir, np.float64))
-    footprint = mirror_footprint if look.antialiased else None
-    if look.antialiased and footprint is None:
-        raise ShapeError("Antialiased tables need the footprint of each pixel: give the mirrored directions.")
+    corners = footprint_or_point(mirror_footprint, reflect(view_dir, normal))
     cosine = dot(normal, view_dir)
     radiance = np.zeros(normal.shape)
     for number, role in enumerate(Role):
@@ -151,8 +144,8 @@ def reflect_tables(
             tables.weights, np.stack([cosine, row], axis=-1), sphere_map.wrap
         )
         table = tables.maps[role]
-        if footprint is not None and role in MIRRORED:
-            box = footprint_box(footprint, table.shape[1], table.shape[0])
+        if look.antialiased and role in MIRRORED:
+            box = footprint_box(corners, table.shape[1], table.shape[0])
             radiance += weight * box_mean(summed_area_table(table), box)
         else:
             uv = equirect.uv_from_direction(lookup_direction(role, normal, view_dir, tables.eta))

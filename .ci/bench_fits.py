@@ -37,7 +37,7 @@ def joint(spec: str, lobes: int, taps: int = 1, non_negative: bool = False) -> F
     fitter = JointFitter(target_slices(brdf_from_spec(spec), MU), spec, taps, non_negative)
     for _ in range(lobes):
         fitter.grow()
-    return fitter.fit()
+    return fitter.fit()[0]
 
 
 def layered(spec: str) -> Fit:

@@ -43,14 +43,14 @@ class Kind:
         The subject to an `OnDevice`.
     look : type
         How it is shaded; its defaults are this kind's best.
-    is_ready : callable
-        Whether what is uploaded can be drawn in a look, with what that needs made in the background.
+    newest : callable
+        What is uploaded and looks that were asked for, oldest first, to the last that can be drawn, or None.
     """
 
     from_map_set: Callable[[Path, MapSet], Any]
     on_device: Callable[[Any], OnDevice]
     look: type
-    is_ready: Callable[[Any, Any], bool] = lambda on_device, look: True
+    newest: Callable[[Any, list[Any]], Any] = lambda on_device, looks: looks[-1]
 
 
 KINDS = {
@@ -59,7 +59,7 @@ KINDS = {
     "reflection_tables": Kind(reflection_tables.from_map_set, ReflectionTablesOnDevice, TablesLook),
     "mip_chain": Kind(mip_chain.from_map_set, MipChainOnDevice, MipLook),
     environment.KIND: Kind(environment.from_map_set, EnvironmentOnDevice, EnvironmentLook),
-    "kernel_bank": Kind(kernel_bank.from_map_set, LiveMaterials, BankLook, LiveMaterials.is_ready),
+    "kernel_bank": Kind(kernel_bank.from_map_set, LiveMaterials, BankLook, LiveMaterials.newest),
 }
 
 

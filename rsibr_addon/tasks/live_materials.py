@@ -117,10 +117,39 @@ class LiveMaterials:
             raise shown.error
         return True
 
+    def newest(self, looks: list[BankLook]) -> BankLook | None:
+        """The last of some looks that can be drawn. The very last one is made, where it cannot.
+
+        Parameters
+        ----------
+        looks : list of BankLook
+            At least one.
+
+        Returns
+        -------
+        BankLook or None
+
+        Raises
+        ------
+        RsibrError, OSError
+            As `is_ready`, of the last look.
+        """
+        if self.is_ready(looks[-1]):
+            return looks[-1]
+        return next(filter(self._can_be_drawn, reversed(looks)), None)
+
     def draw(self, mesh: MeshOnDevice, draw: Draw, look: BankLook) -> None:
         """See `OnDevice.draw`; a look that is not ready is not drawn."""
-        if self.is_ready(look):
+        if self._can_be_drawn(look) or self.is_ready(look):
             self._shown[look].on_device.draw(mesh, draw, StackLook())
+
+    def _can_be_drawn(self, look: BankLook) -> bool:
+        """The same as `is_ready`, but nothing is made, and nothing raised."""
+        shown = self._taken(look) or self._shown.get(look)
+        if shown is None or shown.error is not None:
+            return False
+        shown.used_at = self._uploads
+        return True
 
     def _have_made(self, look: BankLook, is_urgent: bool) -> None:
         steps = self._making(look)

@@ -76,7 +76,7 @@ class Previews:
         self._live: dict[str, LiveLight] = {}
         self._displays: dict[Display, Any] = {}
         self._learnt: dict[Display, Array] = {}
-        self._looks: dict[tuple[int, str, bool], Any] = {}
+        self._looks: dict[tuple[int, str, bool], list[Any]] = {}
         self._faults: dict[int, _Fault] = {}
         self.trouble: str | None = None
 
@@ -248,7 +248,7 @@ class Previews:
         self._meshes = {key: mesh for key, mesh in self._meshes.items() if key in meshes}
         self._map_sets = {path: map_set for path, map_set in self._map_sets.items() if path in paths}
         self._live = {name: light for name, light in self._live.items() if name in paths}
-        self._looks = {shown: look for shown, look in self._looks.items() if shown[1] in paths}
+        self._looks = {shown: looks for shown, looks in self._looks.items() if shown[1] in paths}
 
     def _in_live_light(self, view: View) -> dict[str, Surface]:
         """The first of the surfaces in each light; instances share their object's."""
@@ -292,10 +292,14 @@ class Previews:
         item, map_set = preview.surface.item, self._map_sets[preview.path]
         kind = KINDS[map_set.kind]
         look = kind.look(**_look_settings(item.rsibr.other if other else item.rsibr, map_set.kind))
-        shown = item.session_uid, preview.path, other
-        if kind.is_ready(map_set.on_device, look):
-            self._looks[shown] = look
-        return self._looks.get(shown)
+        asked = self._looks.setdefault((item.session_uid, preview.path, other), [])
+        if look in asked:
+            asked.remove(look)
+        asked.append(look)
+        newest = kind.newest(map_set.on_device, asked)
+        if newest is not None:
+            del asked[: asked.index(newest)]
+        return newest
 
     def _display(self, view: View) -> Any:
         """The texture of how a view's scene shows radiance; None if that is not known yet."""

@@ -112,6 +112,26 @@ def test_in_a_workshop_a_draft_comes_first(filtered: FilteredBank, shop: Worksho
     assert np.array_equal(picture(monkey, look), final)
 
 
+def test_until_a_look_is_there_the_one_before_it_is_shown(filtered: FilteredBank, shop: Workshop) -> None:
+    materials = LiveMaterials(filtered)
+    looks = [BankLook(f"ward:alpha={0.3 + 0.1 * n:g},ks=0.5", lobe_count=1) for n in range(4)]
+    assert materials.newest(looks[:1]) is None
+    while materials.newest(looks[:1]) is None:
+        wait_until_idle(shop)
+    assert materials.newest(looks) == looks[0]
+    # Drawing what is shown wishes for nothing: the last look is made, those passed over are not
+    assert picture(materials, looks[0]).any()
+    wait_until_idle(shop)
+    assert materials.newest(looks) == looks[3]
+    assert looks[1] not in materials._shown
+    wrong = BankLook("gold")
+    assert materials.newest([*looks, wrong]) == looks[3]
+    wait_until_idle(shop)
+    with pytest.raises(RangeError, match="no BRDF model"):
+        materials.newest([*looks, wrong])
+    assert materials.newest([looks[3], wrong, looks[0]]) == looks[0]
+
+
 def test_errors_come_out_of_the_workshop(filtered: FilteredBank, shop: Workshop) -> None:
     materials, look = LiveMaterials(filtered), BankLook("gold")
     assert not materials.is_ready(look)

@@ -95,6 +95,37 @@ def test_a_material_is_edited_without_a_bake(told: Told) -> None:
     assert answer["trouble"] is None
 
 
+DRAG = """
+def scenario(told):
+    material = previewed_cube()
+    material.brdf, material.use_roughness, material.lobe_count = "ggx:alpha=0.3,metal=gold", True, 2
+    yield from drawn()
+    seen = [pixels()]
+    value = 0.3
+    while len(seen) < 4 and value < 0.9:
+        # A new value at each step: what is shown follows, if it is always a little late
+        value += 0.002
+        material.roughness = value
+        yield
+        now = pixels()
+        if not np.array_equal(now, seen[-1]):
+            seen.append(now)
+    told["pictures"] = len(seen)
+    yield from drawn()
+    told["trouble"] = module.previews.trouble
+    asked = next(iter(module.previews._looks.values()))
+    told["asked"] = [[round(look.roughness, 4), look.lobe_count] for look in asked]
+    told["value"] = round(material.roughness, 4)
+"""
+
+
+def test_a_slider_shows_on_its_way(told: Told) -> None:
+    answer = told(PRELUDE + DRAG)
+    assert answer["pictures"] == 4
+    assert answer["asked"] == [[answer["value"], 2]]
+    assert answer["trouble"] is None
+
+
 TWO = """
 def scenario(told):
     material = previewed_cube()

@@ -36,10 +36,13 @@ class State:
     lookups : Lookups
     weights : ndarray, shape (J, K, 3)
         Of the kernels.
+    error : float
+        sqrt(integral of |fit - target|^2 / integral of |target|^2), with what ridges add to it.
     """
 
     lookups: Lookups
     weights: Array
+    error: float
 
 
 def bank_for(slices: Sequence[TargetSlice], sharpest: float = SHARPEST) -> KernelBank:
@@ -92,19 +95,21 @@ class JointFitter:
         """Add a lobe, at the elevation where tracking begins."""
         self._angles = _added_lobe(self._projector, self._angles)
 
-    def fit(self) -> Fit:
+    def fit(self) -> tuple[Fit, Array]:
         """Track the lobes, at least one, over all elevations.
 
         Returns
         -------
-        Fit
+        fit : Fit
+        errors : ndarray, shape (S,)
+            `State.error` of each elevation.
         """
         start = Lookups(self._angles, np.ones_like(self._angles))
         for _ in range(self._taps - 1):
             wider = _added_tap(start, self._projector.target.radius)
             start, _ = descend(self._projector, wider, with_taps=True)
         states = _tracked(self._slices, self._bank, start, self._first, self._non_negative)
-        return _fit(self._slices, self._bank, states, self._brdf)
+        return _fit(self._slices, self._bank, states, self._brdf), np.array([state.error for state in states])
 
 
 def amplification(bank: KernelBank, state: State, target: TargetSlice) -> float:
@@ -183,7 +188,7 @@ def _settled(target: TargetSlice, bank: KernelBank, lookups: Lookups, non_negati
         projector = Projector(target, bank, stiffness, non_negative)
         with_taps = lookups.taps.shape[1] > 1
         lookups, projection = descend(projector, lookups, with_taps, _TIE)
-        state = State(lookups, projection.weights)
+        state = State(lookups, projection.weights, float(np.sqrt(projection.objective)))
         if amplification(bank, state, target) <= most or stiffness > _STIFFEST:
             return state
         stiffness *= _STIFFER

@@ -9,7 +9,6 @@ from ..brdf.model import Brdf
 from ..brdf.spec import spec_from_brdf
 from ..conventions import Array
 from ..progress import Progress, Steps
-from .accuracy import fit_errors
 from .bank import SHARPEST
 from .fit import Fit, joined
 from .joint import JointFitter
@@ -38,8 +37,8 @@ class _Layer:
     def grow(self) -> None:
         """Add a lobe."""
         self.fitter.grow()
-        self.fit = self.fitter.fit()
-        self.error = float(np.sqrt(np.mean(fit_errors(self.fit, self.brdf).shape ** 2 * self.share)))
+        self.fit, errors = self.fitter.fit()
+        self.error = float(np.sqrt(np.mean(errors**2 * self.share)))
 
 
 def layered_fit(
@@ -106,7 +105,8 @@ def _at_once(fitter: JointFitter, lobes: int) -> Steps[Fit]:
         yield Progress(done, lobes + 1, f"adding lobe {done + 1}")
         fitter.grow()
     yield Progress(lobes, lobes + 1, "tracking lobes over elevations")
-    return fitter.fit()
+    fit, _ = fitter.fit()
+    return fit
 
 
 def _layers(

@@ -1,5 +1,6 @@
 """What an artist has chosen to bake: the scene's settings and the active object, as names and paths."""
 
+import os
 from pathlib import Path
 from typing import Any
 
@@ -69,6 +70,24 @@ def existing(path: str, what: str, wanted: str) -> str:
     return absolute
 
 
+def check_choices(chosen: bpy.types.PropertyGroup) -> None:
+    """Refuse a choice that a newer version has, and this one does not.
+
+    Parameters
+    ----------
+    chosen : bpy.types.PropertyGroup
+
+    Raises
+    ------
+    SceneError
+    """
+    for prop in chosen.bl_rna.properties:
+        if prop.type == "ENUM" and not getattr(chosen, prop.identifier):
+            raise SceneError(
+                f"{prop.name} was chosen in another version, and is unknown here: choose another."
+            )
+
+
 def check_object(item: bpy.types.Object | None) -> None:
     """Refuse to bake for nothing.
 
@@ -78,6 +97,11 @@ def check_object(item: bpy.types.Object | None) -> None:
     """
     if item is None:
         raise SceneError("There is no object to bake for: select one.")
+    if item.is_missing:
+        raise SceneError(
+            f"Object {item.name} is missing in {item.library.filepath}: bring that file back, and open this "
+            f"one again."
+        )
     if item.type not in SHAPED:
         raise SceneError(f"Object {item.name} has no surface: select one that has.")
     if not item.is_editable:
@@ -108,7 +132,7 @@ def baked_folder() -> Path:
     Raises
     ------
     OutputFileError
-        It cannot be made.
+        It cannot be made, or written to.
     """
     addon = bpy.context.preferences.addons.get(EXTENSION)
     wished = (addon and addon.preferences and addon.preferences.folder) or FOLDER
@@ -120,6 +144,10 @@ def baked_folder() -> Path:
         raise OutputFileError(
             f"{folder} cannot be made ({error.strerror}): choose another folder in the add-on's preferences."
         ) from error
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise OutputFileError(
+            f"{folder} cannot be written to: choose another folder in the add-on's preferences."
+        )
     return folder
 
 

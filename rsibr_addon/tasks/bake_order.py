@@ -14,6 +14,7 @@ from ..host.bake_settings import (
     EXTENSION,
     baked_folder,
     blender_program,
+    check_choices,
     check_object,
     chosen_environment,
     existing,
@@ -123,7 +124,9 @@ def order_for(scene: Any, item: Any) -> Order:
         Something is missing; says what to do.
     """
     check_object(item)
+    check_choices(scene.rsibr_bake)
     chosen = getattr(scene.rsibr_bake, scene.rsibr_bake.kind)
+    check_choices(chosen)
     source = getattr(chosen, "source", None)
     own = own_material(item).name if source == "OWN" else None
     measured = existing(chosen.path, "measured material", "its file") if source == "FILE" else None

@@ -35,13 +35,12 @@ def draw_file(layout: bpy.types.UILayout, item: bpy.types.Object, path: Path, wi
             "that it was, or bake it again.",
             width,
         )
-        row = draw_remedies(layout)
-        row.operator("rsibr.accept")
+        layout.operator("rsibr.accept", icon="CHECKMARK")
+        draw_remedies(layout)
 
 
-def draw_remedies(layout: bpy.types.UILayout) -> bpy.types.UILayout:
-    """Offer what helps when a map set is not there: the row of buttons."""
+def draw_remedies(layout: bpy.types.UILayout) -> None:
+    """Offer what helps when a map set is not there."""
     row = layout.row(align=True)
     row.operator("rsibr.assign", text="Find...", icon="FILEBROWSER")
     row.operator("rsibr.bake_again", icon="FILE_REFRESH")
-    return row

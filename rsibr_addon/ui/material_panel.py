@@ -43,6 +43,11 @@ class RSIBR_PT_material(bpy.types.Panel):
     bl_region_type = "UI"
     bl_category = "RSIBR"
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Whether the method is one that this version has."""
+        return bool(context.scene.rsibr_bake.kind)
+
     def draw(self, context: bpy.types.Context) -> None:
         """Show what the method can take."""
         chosen = getattr(context.scene.rsibr_bake, context.scene.rsibr_bake.kind)

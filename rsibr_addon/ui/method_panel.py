@@ -17,6 +17,8 @@ class RSIBR_PT_method(bpy.types.Panel):
         """Show the method, qualities for it, and its own settings."""
         scene, layout = context.scene.rsibr_bake, self.layout
         layout.prop(scene, "kind", text="")
+        if not scene.kind:  # one of a newer version
+            return
         chosen = getattr(scene, scene.kind)
         row = layout.row(align=True)
         for quality, settings in QUALITIES.items():

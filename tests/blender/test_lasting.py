@@ -249,9 +249,3 @@ def test_nothing_that_was_written_out_stays(baked: Path) -> None:
     assert not path.parent.exists()
     rsibr.register()
     assert unpacked.write(cube().rsibr.image) == path
-
-
-def test_a_newer_version_s_settings_are_its_defaults_here() -> None:
-    item = cube()
-    item.rsibr.radiance_views.bl_system_properties_get(do_create=True)["mode"] = 77
-    assert item.rsibr.radiance_views.mode == ""

@@ -85,7 +85,8 @@ def scenario(told):
             with bpy.context.temp_override(window=window()):
                 bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
             save("/job/lasting/elsewhere/scene.blend")
-            with bpy.data.libraries.load(f"/job/lasting/{source}.blend", link=link, relative=True) as (_, wanted):
+            library = f"/job/lasting/{source}.blend"
+            with bpy.data.libraries.load(library, link=link, relative=True) as (_, wanted):
                 wanted.objects = ["Cube"]
             bpy.context.scene.collection.objects.link(wanted.objects[0])
             yield from looked_at()
@@ -98,6 +99,12 @@ def scenario(told):
     yield from looked_at()
     module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport")
     told["missing library"] = [len(pixels()) > 0, module.previews.trouble]
+    bpy.context.view_layer.objects.active = bpy.data.objects["Cube"]
+    order = importlib.import_module(ROOT + ".rsibr_addon.tasks.bake_order")
+    try:
+        order.order_for(bpy.context.scene, bpy.context.object)
+    except order.SceneError as error:
+        told["sentence"] = str(error)
 """
 
 
@@ -110,7 +117,9 @@ def test_a_preview_is_the_same_in_every_file_that_has_the_object(told: Told) -> 
         "undone": [True, True],
         "redone": [True, True],
     }
-    assert told(PRELUDE + OPEN) == {
+    opened = told(PRELUDE + OPEN)
+    assert opened.pop("sentence").startswith("Object Cube is missing in //../packed.blend: bring")
+    assert opened == {
         "opened": True,
         "copied": True,
         "car, appended": True,

@@ -1,8 +1,32 @@
 """What looks of several kinds demand of their values."""
 
 from collections.abc import Sequence
+from enum import StrEnum
 
 from ..errors import RangeError
+
+
+def member[Choice: StrEnum](choices: type[Choice], value: str, name: str) -> Choice:
+    """The choice of some name; a file of a newer version may have another.
+
+    Parameters
+    ----------
+    choices : type
+    value : str
+    name : str
+        Of the look's field, for the message.
+
+    Raises
+    ------
+    RangeError
+        There is no such choice.
+    """
+    try:
+        return choices(value)
+    except ValueError as error:
+        raise RangeError(
+            f"There is no {name} {value!r} in this version: choose from {', '.join(choices)}."
+        ) from error
 
 
 def check_shares(name: str, values: Sequence[float]) -> None:

@@ -19,7 +19,7 @@ from ..maps import cube_map
 from ..maps.representation import representation
 from ..mip_chain import MipChain
 from ..resample import bilinear, lookup
-from .checks import check_shares
+from .checks import check_shares, member
 
 _CUBE = representation("cube_map")
 
@@ -69,7 +69,7 @@ class MipLook:
     antialiased: bool = True
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "borders", Borders(self.borders))
+        object.__setattr__(self, "borders", member(Borders, self.borders, "borders"))
         for name, values in (("f_lambda", self.f_lambda), ("k_d", self.k_d)):
             check_shares(name, values)
         if not 0.0 <= self.bias < np.inf:

@@ -18,6 +18,7 @@ from ..maps import sphere_map
 from ..radiance_views import RadianceViews
 from ..reflection_warp import Warp, confidence, source_cosine, source_uv
 from ..resample import bilinear
+from .checks import member
 
 
 class Mode(StrEnum):
@@ -58,8 +59,8 @@ class ViewsLook:
     warping: Warping = Warping.ALBEDO
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "mode", Mode(self.mode))
-        object.__setattr__(self, "warping", Warping(self.warping))
+        object.__setattr__(self, "mode", member(Mode, self.mode, "mode"))
+        object.__setattr__(self, "warping", member(Warping, self.warping, "warp"))
 
 
 LEAST_ALBEDO = 1e-3

@@ -9,8 +9,7 @@ from .host.map_sets import chosen_path, use_map_set
 
 
 def _notice(group: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    """Have viewports drawn again, also when it is a script that sets a property."""
-    group.id_data.update_tag(refresh={"OBJECT"})
+    """Nothing: that a property has a callback is why Blender draws anew, also when a script sets it."""
 
 
 class RSIBR_PG_radiance_views(bpy.types.PropertyGroup):
@@ -267,21 +266,15 @@ class RSIBR_PG_preview(bpy.types.PropertyGroup):
     live: bpy.props.PointerProperty(type=RSIBR_PG_live)
 
 
-def _redraw(group: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            area.tag_redraw()
-
-
 class RSIBR_PG_view(bpy.types.PropertyGroup):
     """How viewports show previews, for as long as Blender runs."""
 
     split: bpy.props.BoolProperty(
-        name="Split", description="Show something else right of a line", update=_redraw
+        name="Split", description="Show something else right of a line", update=_notice
     )
     beyond: bpy.props.EnumProperty(
         name="Right of It",
-        update=_redraw,
+        update=_notice,
         items=[
             ("blender", "Blender's Shading", "What the viewport shows without previews"),
             ("other", "Another Look", "The same map sets, shaded in another way"),
@@ -291,7 +284,7 @@ class RSIBR_PG_view(bpy.types.PropertyGroup):
     difference: bpy.props.FloatProperty(
         name="Full Scale",
         description="The difference that is white, as a part of what the display shows",
-        update=_redraw,
+        update=_notice,
         default=0.1,
         min=0.001,
         max=1.0,
@@ -299,7 +292,7 @@ class RSIBR_PG_view(bpy.types.PropertyGroup):
     line: bpy.props.FloatProperty(
         name="Line",
         description="Where the one ends and the other begins",
-        update=_redraw,
+        update=_notice,
         subtype="FACTOR",
         default=0.5,
         min=0.0,

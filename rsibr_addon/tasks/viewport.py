@@ -11,16 +11,16 @@ from ..core.conventions import Array
 from ..core.display import table_radiance
 from ..core.errors import RsibrError
 from ..device import buffers
-from ..device.drawing import MeshOnDevice, OnDevice
+from ..device.drawing import OnDevice
 from ..device.viewport import Sight, Stage, current_sight, draw_occluder
 from ..host.display import Display, display_of, displayed_colours, scale_before_display
 from ..host.live_light import is_live_name, shows_surroundings
 from ..host.map_sets import written_path
-from ..host.meshes import mesh_from_object
 from ..host.viewport import Layer, Surface, View, is_wanted, map_set_of, shown_layers, surfaces
 from ..host.world_light import AS_IT_IS
 from .kinds import KINDS, open_map_set
 from .live_light import LiveLight
+from .viewport_meshes import UploadedMeshes
 
 DISPLAYS_KEPT = 4
 """Tables of 7 MB each, so that one can switch between view transforms."""
@@ -71,7 +71,7 @@ class Previews:
         """Let go of everything: the file is closed, or the extension leaves."""
         self._stage, self._other_stage = Stage(), Stage()
         self._contents: dict[Layer, _Contents] = {}
-        self._meshes: dict[int, MeshOnDevice] = {}
+        self._meshes = UploadedMeshes()
         self._map_sets: dict[str, _MapSet] = {}
         self._live: dict[str, LiveLight] = {}
         self._displays: dict[Display, Any] = {}
@@ -206,7 +206,7 @@ class Previews:
     def _hide(self, behind: list[Surface], sight: Sight) -> None:
         """Let surfaces hide what is drawn after them."""
         for surface in behind:
-            draw_occluder(self._meshes[surface.mesh], sight.on(surface.matrix, AS_IT_IS.turn))
+            draw_occluder(self._meshes[surface], sight.on(surface.matrix, AS_IT_IS.turn))
 
     def _contents_of(self, view: View) -> _Contents:
         contents = self._contents.get(view.layer)
@@ -227,11 +227,8 @@ class Previews:
                 self._faults.pop(surface.item.session_uid, None)
             if not path and contents.others is None:
                 continue
-            if surface.mesh not in self._meshes:
-                mesh = mesh_from_object(evaluated, view.depsgraph)
-                if not mesh.triangles.size:
-                    continue
-                self._meshes[surface.mesh] = MeshOnDevice(mesh.positions, mesh.normals, mesh.triangles)
+            if not self._meshes.there(surface, evaluated, view.depsgraph):
+                continue
             if path:
                 contents.previews.append(_Preview(surface, path))
             else:
@@ -243,9 +240,8 @@ class Previews:
             del self._contents[layer]
         previews = [each for contents in self._contents.values() for each in contents.previews]
         others = [each for contents in self._contents.values() for each in contents.others or ()]
-        meshes = {each.surface.mesh for each in previews} | {each.mesh for each in others}
+        self._meshes.keep([*(each.surface for each in previews), *others])
         paths = {each.path for each in previews}
-        self._meshes = {key: mesh for key, mesh in self._meshes.items() if key in meshes}
         self._map_sets = {path: map_set for path, map_set in self._map_sets.items() if path in paths}
         self._live = {name: light for name, light in self._live.items() if name in paths}
         self._looks = {shown: looks for shown, looks in self._looks.items() if shown[1] in paths}
@@ -285,7 +281,7 @@ class Previews:
             look = self._look(preview, other)
             if look is not None:
                 placed = sight.on(surface.matrix, view.light_of(surface.item).turn)
-                map_set.on_device.draw(self._meshes[surface.mesh], placed, look)
+                map_set.on_device.draw(self._meshes[surface], placed, look)
 
     def _look(self, preview: _Preview, other: bool) -> Any:
         """How an object is shaded: as before, while a new look is being made; None before there is any."""

@@ -6,7 +6,14 @@ import bpy
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import InputFileError, SceneError
-from rsibr.rsibr_addon.host.meshes import TriangleMesh, add_mesh, load_mesh, mesh_from_object
+from rsibr.rsibr_addon.host.meshes import (
+    TriangleMesh,
+    add_mesh,
+    content_of,
+    evaluated_mesh,
+    load_mesh,
+    mesh_from_object,
+)
 from rsibr.rsibr_addon.host.scenes import temporary_scene
 
 TEAPOT = Path(__file__).parents[3] / "shared" / "data" / "meshes" / "teapot_wdas.obj"
@@ -185,3 +192,24 @@ def test_the_teapot_stands_upright() -> None:
     assert extent[2] == extent.min()
     top = mesh.positions[mesh.positions[:, 2].argmax()]
     assert np.linalg.norm(top[:2]) < 0.2  # the lid's knob
+
+
+def test_a_mesh_s_content_is_all_that_its_surface_depends_on() -> None:
+    def content() -> bytes:
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        with evaluated_mesh(item, depsgraph) as mesh:
+            return content_of(mesh)
+
+    item = bpy.data.objects["Cube"]
+    contents = [content()]
+    item.update_tag(refresh={"DATA"})
+    assert content() == contents[0]
+    item.data.vertices[0].co.x -= 1e-3
+    contents.append(content())
+    item.data.shade_smooth()
+    contents.append(content())
+    item.data.flip_normals()
+    contents.append(content())
+    item.modifiers.new("Smooth", "SUBSURF")
+    contents.append(content())
+    assert len(set(contents)) == len(contents)

@@ -27,6 +27,10 @@ def held():
     previews = module.previews
     return [len(previews._meshes), len(previews._map_sets), len(previews._contents)]
 
+def uploaded():
+    previews = module.previews
+    return [*previews._meshes._uploaded.values(), *previews._map_sets.values()]
+
 def previewed_cube():
     bare(view())
     bpy.context.scene.view_settings.view_transform = "Standard"
@@ -185,7 +189,7 @@ def scenario(told):
     view(0).spaces.active.region_3d.view_perspective = "ORTHO"
     yield from drawn()
     told["both"] = [purple(0), purple(1)]
-    meshes = list(module.previews._meshes.values())
+    meshes = uploaded()
     other = bpy.data.objects.new("Other", None)
     bpy.context.collection.objects.link(other)
     bpy.ops.object.select_all(action="DESELECT")
@@ -194,7 +198,7 @@ def scenario(told):
         bpy.ops.view3d.localview()
     yield from drawn()
     told["local view on nothing"] = [purple(0), purple(1)]
-    told["meshes kept"] = list(module.previews._meshes.values()) == meshes
+    told["meshes kept"] = uploaded() == meshes
 """
 
 
@@ -311,3 +315,53 @@ def test_renders_and_previews_leave_each_other_alone(told: Told) -> None:
     assert [True, 2] not in answer["while rendering"]
     assert answer["displays"] == 2
     assert answer["trouble"] is None
+
+
+LOOKS = """
+def scenario(told):
+    cube = previewed_cube()
+    cube.modifiers.new("Smooth", "SUBSURF").levels = 2
+    yield from drawn()
+    before = uploaded()
+    seen, on_device = [], next(iter(module.previews._map_sets.values())).on_device
+    draw = on_device.draw
+
+    def recorded(mesh, placed, look):
+        seen.append([look.mode, look.warping])
+        draw(mesh, placed, look)
+
+    on_device.draw = recorded
+    settings = bpy.context.window_manager.rsibr_view
+    for group, field, value in (
+        (cube.rsibr.radiance_views, "mode", "texel"),
+        (cube.rsibr.radiance_views, "warping", "single"),
+        (cube.rsibr, "follow_world", True),
+        (settings, "split", True),
+        (settings, "line", 0.7),
+    ):
+        count = len(seen)
+        setattr(group, field, value)
+        while len(seen) == count:
+            yield
+    told["seen"], told["kept"] = seen[-1], uploaded() == before
+    cube.modifiers["Smooth"].levels = 1
+    yield from drawn()
+    told["kept another mesh"] = uploaded()[0] == before[0]
+    told["held"] = held()
+    count = len(seen)
+    cube.rsibr.show = False
+    yield from drawn()
+    told["hidden"] = [purple(), len(seen) - count]
+    cube.rsibr.show = True
+    while not purple():
+        yield
+"""
+
+
+def test_a_look_shows_at_once_and_uploads_nothing(told: Told) -> None:
+    answer = told(PRELUDE + LOOKS)
+    assert answer["seen"] == ["texel", "single"]
+    assert answer["kept"]
+    assert not answer["kept another mesh"]
+    assert answer["held"][:2] == [1, 1]
+    assert answer["hidden"] == [0, 0]

@@ -15,6 +15,7 @@ from .capture_environment import RSIBR_OT_capture_environment
 from .capture_views import RSIBR_OT_capture_views
 from .compare import RSIBR_OT_compare
 from .drag_split import RSIBR_OT_drag_split
+from .export_ktx2 import RSIBR_OT_export_ktx2
 from .fit_lobes import RSIBR_OT_fit_lobes
 from .lift_painting import RSIBR_OT_lift_painting
 from .merge_brackets import RSIBR_OT_merge_brackets
@@ -45,6 +46,7 @@ CLASSES: tuple[type, ...] = (
     RSIBR_OT_pack,
     RSIBR_OT_unpack,
     RSIBR_OT_open_report,
+    RSIBR_OT_export_ktx2,
     RSIBR_OT_compare,
     RSIBR_OT_reload_map_sets,
     RSIBR_OT_drag_split,

@@ -16,7 +16,7 @@ def register() -> None:
     from . import properties, ui
     from .host.map_sets import unpacked
     from .host.overrides import complete_references
-    from .ui import bake_properties, viewport
+    from .ui import bake_properties, export_menu, viewport
 
     with ExitStack() as undo:
         for cls in (*properties.CLASSES, *operators.CLASSES, *ui.CLASSES):
@@ -30,6 +30,7 @@ def register() -> None:
         undo.callback(bpy.app.handlers.save_pre.remove, complete_references)
         undo.callback(unpacked.remove)
         viewport.start(undo)
+        export_menu.start(undo)
         background.start(undo)
         command = bpy.utils.register_cli_command("rsibr", _run_command)
         undo.callback(bpy.utils.unregister_cli_command, command)

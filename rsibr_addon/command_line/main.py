@@ -12,7 +12,22 @@ from types import ModuleType
 from typing import Any
 
 from ..core.errors import RsibrError
-from . import bake, bank, capture, compare, convert, fit, illuminate, info, job, mips, page, preview, tables
+from . import (
+    bake,
+    bank,
+    capture,
+    compare,
+    convert,
+    export,
+    fit,
+    illuminate,
+    info,
+    job,
+    mips,
+    page,
+    preview,
+    tables,
+)
 from .report import Report, result_stream
 
 COMMANDS = {
@@ -28,6 +43,7 @@ COMMANDS = {
     "bake": bake,
     "bank": bank,
     "report": page,
+    "export": export,
     "job": job,
 }
 """Name -> the module with its arguments and its run; or with `KINDS`, such modules in turn."""

@@ -131,6 +131,31 @@ def irradiance_matrix(coefficients: ArrayLike) -> Array:
     return np.moveaxis(np.array(rows), -1, 0)
 
 
+def turned_harmonics(coefficients: Array, rotation: Array) -> Array:
+    """The coefficients of radiance that has been turned.
+
+    Parameters
+    ----------
+    coefficients : ndarray, shape (9, channels)
+        Of `real_harmonics`.
+    rotation : ndarray, shape (3, 3)
+        New directions from old ones.
+
+    Returns
+    -------
+    ndarray, shape (9, channels), float64
+
+    Notes
+    -----
+    A turned harmonic is a sum of those of its own degree. So what nine functions say in more than nine
+    directions determines the new coefficients exactly.
+    """
+    direction = normalize(np.stack(np.meshgrid(*3 * [[-1.0, 0.3, 0.8]]), axis=-1).reshape(-1, 3))
+    radiance = real_harmonics(direction @ rotation, 2) @ coefficients
+    made: Array = np.linalg.lstsq(real_harmonics(direction, 2), radiance, rcond=None)[0]
+    return made
+
+
 def irradiance_exact(radiance: Array, normal: ArrayLike) -> Array:
     """Irradiance as the sum over all texels of radiance, solid angle and cosine.
 

@@ -6,6 +6,8 @@ import numpy as np
 
 from .conventions import Array
 from .errors import RangeError, ShapeError
+from .irradiance import turned_harmonics
+from .maps import cube_map
 
 LARGEST = 1024
 """Width of the largest faces: filtering and uploading such a chain takes some 1.5 GB."""
@@ -57,6 +59,21 @@ class MipChain:
     def size(self) -> int:
         """Width and height of the first mip's faces in texels."""
         return int(self.mips[0].shape[1])
+
+    def turned(self, rotation: Array) -> "MipChain":
+        """The same light in other axes.
+
+        Parameters
+        ----------
+        rotation : ndarray, shape (3, 3)
+            New directions from old ones; takes axes to axes.
+
+        Returns
+        -------
+        MipChain
+        """
+        mips = tuple(cube_map.turned(faces, rotation) for faces in self.mips)
+        return MipChain(mips, turned_harmonics(self.harmonics, rotation), self.roughness)
 
     def bias(self, roughness: float) -> float:
         """The level of detail at which a GGX chain shows a roughness.

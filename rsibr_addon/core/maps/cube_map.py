@@ -7,7 +7,7 @@ picture, a face is therefore upside down; files turn it over (docs/conventions.m
 
 import numpy as np
 
-from ..conventions import Array, ArrayLike, Indices
+from ..conventions import Array, ArrayLike, Indices, texel_centres
 
 SHEETS = ("px", "nx", "py", "ny", "pz", "nz")
 
@@ -122,6 +122,29 @@ def texel_angle(direction: ArrayLike, size: int) -> Array:
     major = np.max(np.abs(direction), axis=-1)
     angle: Array = 2.0 / size * major**1.5
     return angle
+
+
+def turned(faces: Array, rotation: Array) -> Array:
+    """The same cube in other axes, texel for texel.
+
+    Parameters
+    ----------
+    faces : ndarray, shape (6, size, size, channels)
+    rotation : ndarray, shape (3, 3)
+        New directions from old ones; takes axes to axes, so that texels' centres meet.
+
+    Returns
+    -------
+    ndarray, shape (6, size, size, channels)
+    """
+    size = faces.shape[1]
+    uv = texel_centres(size, size)
+    made = np.empty_like(faces)
+    for face in range(len(FACES)):
+        found, sheet = uv_from_direction(direction_from_uv(uv, np.array(face)) @ rotation)
+        columns, rows = np.moveaxis(np.floor(found * size).astype(np.intp), -1, 0)
+        made[face] = faces[sheet, rows, columns]
+    return made
 
 
 def wrap(

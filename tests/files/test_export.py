@@ -1,0 +1,153 @@
+"""Map sets as KTX 2.0 textures, read back as the specification says, by nothing of ours."""
+
+import json
+import struct
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.core.environment import Environment
+from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError
+from rsibr.rsibr_addon.core.irradiance import irradiance_from_harmonics
+from rsibr.rsibr_addon.core.maps.representation import representation
+from rsibr.rsibr_addon.core.mip_chain import MipChain
+from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.core.reflection_tables import ReflectionTables, Role
+from rsibr.rsibr_addon.core.resample import lookup
+from rsibr.rsibr_addon.files.kinds import mip_chain, reflection_tables
+from rsibr.rsibr_addon.files.ktx2 import Texture, write_ktx2
+from rsibr.rsibr_addon.files.map_set import write_map_set
+from rsibr.rsibr_addon.tasks.export import Up, export
+
+RNG = np.random.default_rng(5)
+SKY = Environment(RNG.random((8, 16, 3)).astype(np.float32), "sky.exr")
+CHAIN = MipChain(
+    tuple(RNG.random((6, n, n, 3)).astype(np.float32) for n in (8, 4, 2, 1)),
+    RNG.standard_normal((9, 3)),
+    (0.0, 0.3, 0.6, 1.0),
+)
+CUBE = representation("cube_map")
+
+
+@dataclass(frozen=True)
+class Read:
+    """What a file says: its levels have shape (layers or faces, height, width, 4)."""
+
+    levels: list[np.ndarray]
+    layers: int
+    faces: int
+    notes: dict[str, str]
+    format: int
+
+    @property
+    def note(self) -> dict[str, Any]:
+        return json.loads(self.notes["rsibr"])
+
+
+def read(path: Path) -> Read:
+    data = path.read_bytes()
+    assert data[:12] == b"\xabKTX 20\xbb\r\n\x1a\n"
+    texel_format, type_size, width, height, depth, layers, faces, count, packing = struct.unpack_from(
+        "<9I", data, 12
+    )
+    described_at, described, noted_at, noted, shared_at, shared = struct.unpack_from("<4I2Q", data, 48)
+    assert (depth, packing, shared_at, shared) == (0, 0, 0, 0)
+    half = texel_format == 97
+    assert type_size == (2 if half else 4)
+    # The basic block: all of the descriptor, linear, Rec. 709, texels of so many bytes, four samples
+    assert struct.unpack_from("<IIHH", data, described_at) == (described, 0, 2, described - 4)
+    assert data[described_at + 12 : described_at + 21] == bytes((1, 1, 1, 0, 0, 0, 0, 0, 8 if half else 16))
+    samples = [struct.unpack_from("<HBB", data, described_at + 28 + 16 * i) for i in range(4)]
+    bits = 16 if half else 32
+    assert samples == [(i * bits, bits - 1, 0xC0 + c) for i, c in enumerate((0, 1, 2, 15))]
+    notes, at = {}, noted_at
+    while at < noted_at + noted:
+        (length,) = struct.unpack_from("<I", data, at)
+        key, value, _ = data[at + 4 : at + 4 + length].split(b"\0")
+        notes[key.decode()] = value.decode()
+        at += 4 + -(-length // 4) * 4
+    assert list(notes) == sorted(notes)
+    levels = []
+    for level in range(count):
+        place, length, unpacked = struct.unpack_from("<3Q", data, 80 + 24 * level)
+        assert place % (8 if half else 16) == 0
+        assert length == unpacked
+        shape = (max(layers, 1) * faces, height >> level, width >> level, 4)
+        levels.append(
+            np.frombuffer(data, "<f2" if half else "<f4", length // type_size, place).reshape(shape)
+        )
+    return Read(levels, layers, faces, notes, texel_format)
+
+
+def chain_file(folder: Path) -> Path:
+    path = folder / "sky.rsibr.exr"
+    write_map_set(path, mip_chain.to_map_set(CHAIN, SKY, {"filter": "ggx"}, None, {}, "a test"))
+    return path
+
+
+def test_a_chain_is_a_cube_with_its_mips(tmp_path: Path) -> None:
+    (path,) = drain(export(chain_file(tmp_path), tmp_path / "sky.ktx2"))
+    texture = read(path)
+    assert (texture.layers, texture.faces, len(texture.levels)) == (0, 6, 4)
+    for level, mip in zip(texture.levels, CHAIN.mips, strict=True):
+        # 11 significant bits
+        np.testing.assert_allclose(level[..., :3], mip, rtol=2.0**-11)
+        assert np.all(level[..., 3] == 1.0)
+    assert texture.notes["KTXorientation"] == "rd"
+    assert texture.note["kind"] == "mip_chain"
+    assert texture.note["roughness"] == [0.0, 0.3, 0.6, 1.0]
+    np.testing.assert_allclose(texture.note["numbers"]["harmonics"]["rows"], CHAIN.harmonics[None], rtol=1e-6)
+
+
+def test_with_y_up_directions_show_what_they_showed(tmp_path: Path) -> None:
+    (path,) = drain(export(chain_file(tmp_path), tmp_path / "sky.ktx2", Up.Y))
+    texture = read(path)
+    here = RNG.standard_normal((500, 3))
+    here /= np.linalg.norm(here, axis=-1, keepdims=True)
+    there = np.stack([here[:, 0], -here[:, 2], here[:, 1]], axis=-1)
+    for level, mip in zip(texture.levels, CHAIN.mips, strict=True):
+        found = lookup(level[..., :3].astype(np.float64), here, CUBE)
+        np.testing.assert_allclose(found, lookup(mip.astype(np.float64), there, CUBE), rtol=2.0**-10)
+    (rows,) = texture.note["numbers"]["harmonics"]["rows"]
+    # The file has the coefficients as 32-bit floats
+    np.testing.assert_allclose(
+        irradiance_from_harmonics(rows, here), irradiance_from_harmonics(CHAIN.harmonics, there), atol=1e-5
+    )
+
+
+def test_tables_of_several_sizes_are_several_textures(tmp_path: Path) -> None:
+    maps = {Role.DIFFUSE: RNG.random((4, 8, 3)), Role.SPECULAR: RNG.random((8, 16, 3))}
+    single = {role: values.astype(np.float32) for role, values in maps.items()}
+    tables = ReflectionTables(single, np.ones((len(Role), 3, 3), dtype=np.float32))
+    source = tmp_path / "tables.rsibr.exr"
+    write_map_set(source, reflection_tables.to_map_set(tables, SKY, {}, None, {}, "a test"))
+    textures = drain(export(source, tmp_path / "out.ktx2"))
+    assert [path.name for path in textures] == ["out-diffuse.ktx2", "out-specular.ktx2"]
+    for path, (role, values) in zip(textures, maps.items(), strict=True):
+        texture = read(path)
+        assert texture.notes["KTXorientation"] == "ru"
+        assert [layer["role"] for layer in texture.note["layers"]] == [role]
+        np.testing.assert_allclose(texture.levels[0][0, ..., :3], values, rtol=2.0**-11, atol=2.0**-25)
+        assert texture.note["numbers"]["weights"]["rows"] == np.ones((len(Role), 3, 3)).tolist()
+    with pytest.raises(RangeError, match=r"no mip chain: export it with Z up"):
+        drain(export(source, tmp_path / "turned.ktx2", Up.Y))
+
+
+def test_light_too_bright_for_half_floats_is_kept(tmp_path: Path) -> None:
+    sun = np.full((3, 2, 5, 3), 1e6, dtype=np.float32)
+    write_ktx2(tmp_path / "sun.ktx2", Texture((sun,)), {})
+    texture = read(tmp_path / "sun.ktx2")
+    assert (texture.format, texture.layers) == (109, 3)
+    np.testing.assert_array_equal(texture.levels[0][..., :3], sun)
+
+
+def test_what_cannot_be_exported_is_told_before_anything_is_written(tmp_path: Path) -> None:
+    source = chain_file(tmp_path)
+    with pytest.raises(OutputFileError, match=r"give a name that ends in \.ktx2"):
+        drain(export(source, tmp_path / "sky.dds"))
+    (tmp_path / "sky.ktx2").write_text("mine")
+    with pytest.raises(OutputFileError, match=r"exists"):
+        drain(export(source, tmp_path / "sky.ktx2"))
+    assert (tmp_path / "sky.ktx2").read_text() == "mine"

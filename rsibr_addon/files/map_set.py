@@ -20,6 +20,13 @@ from .reading import opened
 ATTRIBUTE = "rsibr"
 """Name of the first part's string attribute that holds the description, as JSON."""
 
+COVER = "cover"
+"""Name of the first part: black, as wide and high as the largest map, and not listed.
+
+Readers that take the first part's size for that of all parts write beyond their memory where another is
+larger; Blender's own image loader is one of them.
+"""
+
 DERIVED = ("size", "sha256")
 """Fields of a part that follow from its pixels."""
 
@@ -82,16 +89,14 @@ def write_map_set(path: str | Path, map_set: MapSet, force: bool = False, half: 
     }
     check_header(header, str(path))
     text = json.dumps(header, allow_nan=False)
+    largest = np.max([pixels.shape[:2] for pixels in stored.values()], axis=0)
+    cover = dict.fromkeys("RGB", np.zeros(largest, dtype="<f2"))
     parts = [
-        Part(
-            name,
-            {channel: pixels[..., i] for i, channel in enumerate("RGB")},
-            {ATTRIBUTE: text} if name == listed[0] else {},
-        )
+        Part(name, {channel: pixels[..., i] for i, channel in enumerate("RGB")}, {})
         for name, pixels in stored.items()
     ]
     with written_aside(path, force) as aside:
-        write_parts(aside, parts)
+        write_parts(aside, [Part(COVER, cover, {ATTRIBUTE: text}), *parts])
 
 
 def read_map_set(path: str | Path, kind: str | None = None) -> MapSet:
@@ -181,6 +186,7 @@ def read_map_set_header(path: str | Path) -> dict[str, Any]:
     check_header(header, str(path))
     listed = {part["name"]: part["size"] for part in header["parts"]}
     found = {part.get("name", ""): _size(part) for part in attributes}
+    found.pop(COVER, None)
     for name in [*listed, *found]:
         if listed.get(name) != found.get(name):
             raise MapSetError(

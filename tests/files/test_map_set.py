@@ -66,9 +66,14 @@ def test_others_see_named_parts_with_the_top_row_first(tmp_path: Path, make_view
     path, views = tmp_path / "a.rsibr.exr", make_views()
     write_map_set(path, views)
     with OpenEXR.File(str(path)) as file:
-        assert [part.name() for part in file.parts] == list(views.maps)
-        assert ["rsibr" in part.header for part in file.parts] == [True] + [False] * 4
-        for part in file.parts:
+        cover, *parts = file.parts
+        assert [part.name() for part in parts] == list(views.maps)
+        assert ["rsibr" in part.header for part in file.parts] == [True] + [False] * 5
+        # No part is wider or higher than the first, which some readers take for all
+        shapes = [part.channels["RGB"].pixels.shape for part in parts]
+        assert cover.name() == "cover"
+        assert cover.channels["RGB"].pixels.shape == tuple(np.max(shapes, axis=0))
+        for part in parts:
             assert part.compression() == OpenEXR.ZIP_COMPRESSION
             np.testing.assert_array_equal(part.channels["RGB"].pixels, views.maps[part.name()][::-1])
 
@@ -169,12 +174,14 @@ def test_radiance_that_cannot_be_stored_is_counted_and_refused(
 # ---- files that are no good map sets
 
 
-def rewrite(path: Path, edit: Callable[[dict[str, Any], list[Any]], object]) -> None:
-    """Change the description and the parts of a file, with the package alone."""
+def rewrite(
+    path: Path, edit: Callable[[dict[str, Any], list[Any]], object], description: str | None = None
+) -> None:
+    """Change the description, or replace it, and the listed parts of a file, with the package alone."""
     with OpenEXR.File(str(path)) as file:
         header = json.loads(file.parts[0].header["rsibr"])
         # The package's own fields go; it writes them anew
-        kept = [
+        cover, *kept = [
             (
                 {key: part.header[key] for key in ("type", "compression", "displayWindow")},
                 {"RGB": part.channels["RGB"].pixels.copy()},
@@ -183,8 +190,8 @@ def rewrite(path: Path, edit: Callable[[dict[str, Any], list[Any]], object]) -> 
             for part in file.parts
         ]
     edit(header, kept)
-    kept[0][0].setdefault("rsibr", json.dumps(header))
-    OpenEXR.File([OpenEXR.Part(*part) for part in kept]).write(str(path))
+    cover[0]["rsibr"] = json.dumps(header) if description is None else description
+    OpenEXR.File([OpenEXR.Part(*part) for part in (cover, *kept)]).write(str(path))
 
 
 def refusal(path: Path) -> str:
@@ -227,7 +234,7 @@ def test_a_picture_is_told_from_a_map_set(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("text", ["", "{", "[" * 100000, '{"format": 1', "{'format': 1}"])
 def test_a_description_that_is_no_json_is_refused(path: Path, text: str) -> None:
-    rewrite(path, lambda header, parts: parts[0][0].update(rsibr=text))
+    rewrite(path, lambda header, parts: None, text)
     assert "holds a description that is not JSON" in refusal(path)
 
 
@@ -235,7 +242,7 @@ def test_a_description_that_is_no_json_is_refused(path: Path, text: str) -> None
     "text", ["null", "[]", "1", "{}", '{"format": "1"}', '{"format": 0}', '{"format": true}']
 )
 def test_a_description_without_a_version_is_refused(path: Path, text: str) -> None:
-    rewrite(path, lambda header, parts: parts[0][0].update(rsibr=text))
+    rewrite(path, lambda header, parts: None, text)
     assert "states no format version" in refusal(path)
 
 

@@ -34,10 +34,10 @@ HEAD = "| fit | E | grazing | between | albedo error | amplification | s |\n|---
 
 def joint(spec: str, lobes: int, taps: int = 1, non_negative: bool = False) -> Fit:
     """Fit a model of one layer."""
-    fitter = JointFitter(target_slices(brdf_from_spec(spec), MU), spec, taps, non_negative)
+    fitter = JointFitter(target_slices(brdf_from_spec(spec), MU), spec, non_negative)
     for _ in range(lobes):
         fitter.grow()
-    return fitter.fit()[0]
+    return fitter.fit(taps)[0]
 
 
 def layered(spec: str) -> Fit:

@@ -40,7 +40,11 @@ class RSIBR_OT_fit_lobes(Stepwise, bpy.types.Operator):
     )
     slices: bpy.props.IntProperty(name="Slices", description="View elevations", default=16, min=1, max=256)
     taps: bpy.props.IntProperty(
-        name="Taps", description="Directions in which each lobe's map is looked up", default=1, min=1, max=9
+        name="Taps",
+        description="Directions in which each lobe's map is looked up; 0 for as many as pay",
+        default=0,
+        min=0,
+        max=9,
     )
     force: bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
 
@@ -50,7 +54,7 @@ class RSIBR_OT_fit_lobes(Stepwise, bpy.types.Operator):
         material = item and item.active_material
         if not self.brdf and not material:
             raise SceneError("There is no material to fit: select an object that has one, or name a model.")
-        settings = FitSettings(self.method, self.lobes, self.slices, self.taps)
+        settings = FitSettings(self.method, self.lobes, self.slices, self.taps or None)
         output = Path(bpy.path.abspath(self.filepath))
         return fit_lobes(self.brdf or f"blend::{material.name}", settings, output, self.force)
 

@@ -95,6 +95,10 @@ vec3 stack_radiance(sampler3D maps,
     vec3 scale = elevation_value(elevations, row, elevation);
     for (int tap = 1; tap <= taps; tap++) {
       vec3 lookup = elevation_value(elevations, row + tap, elevation);
+      if (lookup.z == 0.0) {
+        // Lobes of one tap, among others of several
+        continue;
+      }
       vec3 axis = lobe_axis(normal, mirror_dir, lookup.xy);
       radiance += lookup.z * scale *
                   map_radiance(maps, layout_number, slices, lobe, axis, elevation.x + elevation.y);

@@ -26,7 +26,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     fitting.add_argument("--lobes", metavar="J", type=options.positive, help="for each layer (default: 3)")
     fitting.add_argument("--slices", metavar="K", type=options.positive, help="elevations (default: 16)")
     fitting.add_argument(
-        "--taps", metavar="T", type=options.positive, help="lookups of each lobe's map (default: 1)"
+        "--taps",
+        metavar="T",
+        type=options.positive,
+        help="lookups of each lobe's map (default: as many as pay)",
     )
     fitting.add_argument("--error", metavar="E", type=float, help="as few lobes as keep this error, 0.05 say")
     parser.add_argument(

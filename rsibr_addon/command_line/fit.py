@@ -37,8 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--taps",
         metavar="T",
         type=options.whole,
-        default=1,
-        help="directions in which each lobe's map is looked up (default: %(default)s)",
+        help="directions in which each lobe's map is looked up (default: as many as pay)",
     )
     parser.add_argument(
         "--error", metavar="E", type=float, help="add lobes only until the error is at most this"

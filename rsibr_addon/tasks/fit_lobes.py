@@ -37,8 +37,9 @@ class FitSettings:
         For each layer of the model, 1 to `MOST_LOBES`.
     slices : int
         View elevations, 1 to 256.
-    taps : int
-        Directions in which each lobe's map is looked up, 1 to `MOST_TAPS`; of the method joint.
+    taps : int or None
+        Directions in which each lobe's map is looked up, 1 to `MOST_TAPS`; None for as many as pay, see
+        `core.lobes.layers.layered_fit`; of the method joint.
     error : float or None
         Use fewer lobes where E is at most this, above 0 and below 1; of the method joint.
     non_negative : bool
@@ -55,7 +56,7 @@ class FitSettings:
     method: str = "joint"
     lobes: int = 3
     slices: int = 16
-    taps: int = 1
+    taps: int | None = None
     error: float | None = None
     non_negative: bool = False
     seek: str = "peaks"
@@ -65,14 +66,14 @@ class FitSettings:
             raise RangeError(f"There is no method {self.method}: choose one of {', '.join(METHODS)}.")
         if not 1 <= self.lobes <= MOST_LOBES:
             raise RangeError(f"{self.lobes} lobes are out of range: choose 1 to {MOST_LOBES}, 3 for most.")
-        if not 1 <= self.taps <= MOST_TAPS:
+        if self.taps is not None and not 1 <= self.taps <= MOST_TAPS:
             raise RangeError(f"{self.taps} taps are out of range: choose 1 to {MOST_TAPS}.")
         if self.error is not None and not 0.0 < self.error < 1.0:
             raise RangeError(f"An error of {self.error} is out of range: choose one between 0 and 1.")
         if self.seek not in SEEKING:
             raise RangeError(f"Lobes are not sought by {self.seek}: choose one of {', '.join(SEEKING)}.")
         elevation_slices(self.slices)
-        joint = self.taps > 1 or self.error is not None or self.non_negative
+        joint = (self.taps or 1) > 1 or self.error is not None or self.non_negative
         if joint and self.method != "joint":
             raise RangeError(f"Taps, an error and signs are for the method joint, not {self.method}.")
         if self.seek != "peaks" and self.method != "greedy":

@@ -25,8 +25,8 @@ from .workshop import workshop
 SLICES = 16
 """View elevations of a fit."""
 
-DRAFT_LOBES, DRAFT_SLICES = 1, 6
-"""Of what is shown until the fit is there."""
+DRAFT = (1, 6, 1)
+"""Lobes, elevations and taps of what is shown until the fit is there."""
 
 RESOLVED = 50.0
 """Of a lobe: concentration of the sharpest kernel times its radius squared. Below, E of a fit grows by more
@@ -38,8 +38,10 @@ FITS_KEPT = 256
 KEPT = 8
 """What is drawn stays until so many others have been uploaded since."""
 
-_fits: dict[tuple[str, int, int, float], Fit] = {}
-"""By model, lobes, elevations and sharpest kernel; they are the same in every light."""
+type _Quality = tuple[int, int, int | None]
+
+_fits: dict[tuple[str, _Quality, float], Fit] = {}
+"""By model, quality and sharpest kernel; they are the same in every light."""
 
 
 @dataclass(frozen=True)
@@ -175,9 +177,9 @@ class LiveMaterials:
         """Make a look's stacks, the draft first; in the thread, where there is one. True with each stack."""
         try:
             brdf = brdf_from_spec(look.spec, read_measured)
-            final = (look.lobe_count, SLICES)
-            for quality in ((DRAFT_LOBES, DRAFT_SLICES), final) if workshop.is_open else (final,):
-                fit = yield from _unshown(_fit(brdf, look.spec, *quality, self._filtered.sharpest))
+            final = (look.lobe_count, SLICES, None)
+            for quality in (DRAFT, final) if workshop.is_open else (final,):
+                fit = yield from _unshown(_fit(brdf, look.spec, quality, self._filtered.sharpest))
                 stack, _ = stack_from_bank(self._filtered, fit)
                 self._hand_over(look, _Made(stack, None, quality == final))
                 yield True
@@ -192,10 +194,12 @@ class LiveMaterials:
             self._made.pop(forgotten, None)
 
 
-def _fit(brdf: Brdf, spec: str, lobes: int, slices: int, sharpest: float) -> Steps[Fit]:
-    key = (spec, lobes, slices, sharpest)
+def _fit(brdf: Brdf, spec: str, quality: _Quality, sharpest: float) -> Steps[Fit]:
+    key = (spec, quality, sharpest)
     if key not in _fits:
-        _fits[key] = yield from layered_fit(brdf, elevation_slices(slices), lobes, sharpest=sharpest)
+        lobes, slices, taps = quality
+        mu = elevation_slices(slices)
+        _fits[key] = yield from layered_fit(brdf, mu, lobes, taps=taps, sharpest=sharpest)
         for forgotten in list(_fits)[:-FITS_KEPT]:
             del _fits[forgotten]
     return _fits[key]

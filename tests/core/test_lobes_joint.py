@@ -20,10 +20,10 @@ WARD = Ward(alpha=0.04, ks=0.8)
 
 
 def fitted(brdf: object, lobes: int, mu: np.ndarray, taps: int = 1, non_negative: bool = False) -> Fit:
-    fitter = JointFitter(target_slices(brdf, mu), "model", taps, non_negative)
+    fitter = JointFitter(target_slices(brdf, mu), "model", non_negative)
     for _ in range(lobes):
         fitter.grow()
-    return fitter.fit()[0]
+    return fitter.fit(taps)[0]
 
 
 class TwoLobes:

@@ -63,8 +63,6 @@ class JointFitter:
         In ascending order of elevation.
     brdf : str
         The text of the model.
-    taps : int
-        Directions in which each lobe's map is looked up.
     non_negative : bool
         Whether no kernel may have a negative weight.
     sharpest : float
@@ -75,11 +73,10 @@ class JointFitter:
         self,
         slices: Sequence[TargetSlice],
         brdf: str,
-        taps: int = 1,
         non_negative: bool = False,
         sharpest: float = SHARPEST,
     ) -> None:
-        self._slices, self._brdf, self._taps = slices, brdf, taps
+        self._slices, self._brdf = slices, brdf
         self._non_negative = non_negative
         self._bank = bank_for(slices, sharpest)
         self._first = int(_START * len(slices))
@@ -95,8 +92,13 @@ class JointFitter:
         """Add a lobe, at the elevation where tracking begins."""
         self._angles = _added_lobe(self._projector, self._angles)
 
-    def fit(self) -> tuple[Fit, Array]:
+    def fit(self, taps: int = 1) -> tuple[Fit, Array]:
         """Track the lobes, at least one, over all elevations.
+
+        Parameters
+        ----------
+        taps : int
+            Directions in which each lobe's map is looked up.
 
         Returns
         -------
@@ -105,7 +107,7 @@ class JointFitter:
             `State.error` of each elevation.
         """
         start = Lookups(self._angles, np.ones_like(self._angles))
-        for _ in range(self._taps - 1):
+        for _ in range(taps - 1):
             wider = _added_tap(start, self._projector.target.radius)
             start, _ = descend(self._projector, wider, with_taps=True)
         states = _tracked(self._slices, self._bank, start, self._first, self._non_negative)

@@ -17,6 +17,9 @@ from .target import TargetSlice, target_slices
 NEGLIGIBLE = 0.1
 """A layer whose error is below this share of the whole's gets no more lobes."""
 
+CLOSE, TAPS = 0.1, 3
+"""Where E stays above, each lobe is looked up so many times: that costs no maps, and time to draw alone."""
+
 
 @dataclass
 class _Layer:
@@ -34,10 +37,9 @@ class _Layer:
     fit: Fit | None = None
     error: float = np.inf
 
-    def grow(self) -> None:
-        """Add a lobe."""
-        self.fitter.grow()
-        self.fit, errors = self.fitter.fit()
+    def track(self, taps: int) -> None:
+        """Fit the lobes that there are."""
+        self.fit, errors = self.fitter.fit(taps)
         self.error = float(np.sqrt(np.mean(errors**2 * self.share)))
 
 
@@ -46,7 +48,7 @@ def layered_fit(
     mu: Sequence[float] | Array,
     lobes: int,
     error: float | None = None,
-    taps: int = 1,
+    taps: int | None = None,
     non_negative: bool = False,
     sharpest: float = SHARPEST,
 ) -> Steps[Fit]:
@@ -61,8 +63,9 @@ def layered_fit(
         At most so many for each layer; where there are several layers, fewer for those that are `NEGLIGIBLE`.
     error : float, optional
         Stop adding lobes, to the layer that is furthest off, where E of the whole is at most this.
-    taps : int
-        Directions in which each lobe's map is looked up.
+    taps : int, optional
+        Directions in which each lobe's map is looked up; where not given, `TAPS` in layers that are not
+        `NEGLIGIBLE` of a whole that lobes of one tap leave further off than `CLOSE`, else 1.
     non_negative : bool
         Whether no kernel may have a negative weight.
     sharpest : float
@@ -83,12 +86,38 @@ def layered_fit(
     """
     spec = spec_from_brdf(brdf)
     yield Progress(0, 1, "sampling the reflectance")
-    layers = list(_layers(brdf, mu, lambda slices: JointFitter(slices, spec, taps, non_negative, sharpest)))
+    layers = list(_layers(brdf, mu, lambda slices: JointFitter(slices, spec, non_negative, sharpest)))
     if error is None and len(layers) == 1:
-        return (yield from _at_once(layers[0].fitter, lobes))
+        yield from _grown_at_once(layers[0], lobes, taps or 1)
+    else:
+        yield from _grown_in_turn(layers, lobes, error, taps or 1)
+    together = _together(layers)
+    if taps is None and together > CLOSE:
+        for layer in layers:
+            if layer.fit is not None and layer.error >= NEGLIGIBLE * together:
+                yield Progress(0, 1, f"looking lobes of {type(layer.brdf).__name__} up in {TAPS} directions")
+                layer.track(TAPS)
+    return joined([layer.fit for layer in layers if layer.fit is not None], spec)
+
+
+def _together(layers: Sequence[_Layer]) -> float:
+    """E of the whole."""
+    return float(np.sqrt(sum(layer.error**2 for layer in layers)))
+
+
+def _grown_at_once(layer: _Layer, lobes: int, taps: int) -> Steps[None]:
+    for done in range(lobes):
+        yield Progress(done, lobes + 1, f"adding lobe {done + 1}")
+        layer.fitter.grow()
+    yield Progress(lobes, lobes + 1, "tracking lobes over elevations")
+    layer.track(taps)
+
+
+def _grown_in_turn(layers: Sequence[_Layer], lobes: int, error: float | None, taps: int) -> Steps[None]:
+    """Give each next lobe to the layer that is furthest off."""
     total = len(layers) * lobes
     for done in range(total):
-        together = np.sqrt(sum(layer.error**2 for layer in layers))
+        together = _together(layers)
         if error is not None and together <= error:
             break
         growing = [layer for layer in layers if layer.fitter.lobes < lobes]
@@ -96,17 +125,8 @@ def layered_fit(
         if worst.fit is not None and worst.error < NEGLIGIBLE * together:
             break
         yield Progress(done, total, f"fitting lobe {worst.fitter.lobes + 1} of {type(worst.brdf).__name__}")
-        worst.grow()
-    return joined([layer.fit for layer in layers if layer.fit is not None], spec)
-
-
-def _at_once(fitter: JointFitter, lobes: int) -> Steps[Fit]:
-    for done in range(lobes):
-        yield Progress(done, lobes + 1, f"adding lobe {done + 1}")
-        fitter.grow()
-    yield Progress(lobes, lobes + 1, "tracking lobes over elevations")
-    fit, _ = fitter.fit()
-    return fit
+        worst.fitter.grow()
+        worst.track(taps)
 
 
 def _layers(

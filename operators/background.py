@@ -5,6 +5,7 @@ from contextlib import ExitStack
 import bpy
 
 from ..rsibr_addon.host.bake_settings import assign
+from ..rsibr_addon.host.sidebars import redraw_sidebars
 from ..rsibr_addon.tasks.background import BakeQueue, State
 from ..rsibr_addon.tasks.bake_order import ObjectBake, is_baked
 from ..rsibr_addon.tasks.viewport import previews
@@ -46,12 +47,7 @@ def look() -> None:
                 assign(item, bake.output, bake.settings)
             previews.reload()  # it may have replaced a file that is shown
             _push_undo("Assign Map Set")
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                for region in area.regions:
-                    if region.type == "UI":
-                        region.tag_redraw()
+    redraw_sidebars()
 
 
 def _look() -> float | None:

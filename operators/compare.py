@@ -2,8 +2,9 @@
 
 import bpy
 
+from ..rsibr_addon.core.errors import RsibrError
 from ..rsibr_addon.host.map_sets import written_path
-from ..rsibr_addon.tasks.bake_order import comparison_of
+from ..rsibr_addon.tasks.bake_order import check_comparable, comparison_of
 from . import background
 from .reporting import reporting
 
@@ -16,8 +17,15 @@ class RSIBR_OT_compare(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether there is a map set."""
-        return context.object is not None and bool(context.object.rsibr.map_set)
+        """Whether there is a map set with a truth to compare with; the button's tooltip says why not."""
+        if context.object is None or not context.object.rsibr.map_set:
+            return False
+        try:
+            check_comparable(written_path(context.object.rsibr))
+        except RsibrError as error:
+            cls.poll_message_set(str(error))
+            return False
+        return True
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Queue the comparison."""

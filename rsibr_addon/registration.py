@@ -16,13 +16,15 @@ def register() -> None:
     from . import properties, ui
     from .host.map_sets import unpacked
     from .host.overrides import complete_references
-    from .ui import bake_properties, export_menu, viewport
+    from .ui import bake_properties, export_menu, result_properties, viewport
+    from .ui.map_pictures import map_pictures
 
     with ExitStack() as undo:
         for cls in (*properties.CLASSES, *operators.CLASSES, *ui.CLASSES):
             bpy.utils.register_class(cls)
             undo.callback(bpy.utils.unregister_class, cls)
-        for name, (owner, group) in (properties.POINTERS | bake_properties.POINTERS).items():
+        pointers = properties.POINTERS | bake_properties.POINTERS | result_properties.POINTERS
+        for name, (owner, group) in pointers.items():
             pointer = bpy.props.PointerProperty(type=group, override=properties.OVERRIDABLE)
             setattr(owner, name, pointer)
             undo.callback(delattr, owner, name)
@@ -31,6 +33,7 @@ def register() -> None:
         undo.callback(unpacked.remove)
         viewport.start(undo)
         export_menu.start(undo)
+        map_pictures.start(undo)
         background.start(undo)
         command = bpy.utils.register_cli_command("rsibr", _run_command)
         undo.callback(bpy.utils.unregister_cli_command, command)

@@ -47,8 +47,10 @@ def _size(size: list[int]) -> str:
 
 
 def _fields(fields: dict[str, Any]) -> str:
-    """What people can read of an object: a fingerprint is for programs."""
-    shown = {name: value for name, value in fields.items() if name != "fingerprint"}
+    """What people can read of an object: a fingerprint and whole tables are for programs."""
+    shown = {
+        name: value for name, value in fields.items() if name != "fingerprint" and not isinstance(value, dict)
+    }
     return ", ".join(
         f"{name} {value:.3g}" if isinstance(value, float) else f"{name} {value}"
         for name, value in shown.items()

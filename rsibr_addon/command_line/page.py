@@ -33,7 +33,8 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     RsibrError
         See `tasks.map_set_page`.
     """
-    from ..tasks.map_set_page import map_set_page, page_beside
+    from ..tasks.beside import page_beside
+    from ..tasks.map_set_page import map_set_page
 
     output = arguments.output or page_beside(arguments.map_set)
     page = report.steps(map_set_page(arguments.map_set, output, arguments.force))

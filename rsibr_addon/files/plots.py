@@ -1,18 +1,25 @@
-"""Plots as SVG: curves over an axis, and lobes over the angle from the normal."""
+"""Plots as SVG and as pixels: curves over an axis, and lobes over the angle from the normal."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 from xml.sax.saxutils import escape
 
 import numpy as np
 
 from ..core.conventions import Array
+from ..core.line_drawing import line_coverage
 
 COLORS = ("#1b1b1b", "#d1495b", "#2e6fba", "#3a8f5c", "#c98a1b", "#7b4fa3", "#3aa6a6")
 
 _WIDTH, _HEIGHT, _LEFT, _BOTTOM, _TOP = 480.0, 320.0, 56.0, 44.0, 44.0
 _RADIUS = 190.0
+_POLAR_SIZE = 2.0 * _RADIUS + 40.0, 1.4 * _RADIUS + 60.0
+_CENTRE = np.array([_POLAR_SIZE[0] / 2.0, 40.0 + _RADIUS])
 _LINES = 5
+_GRID_COLOR = "#dddddd"
+_PIXEL_LINE = 3.0
+"""Width of a curve in pixels: pictures are shown at half their size."""
 
 
 @dataclass(frozen=True)
@@ -89,29 +96,74 @@ def polar_plot(title: str, curves: Sequence[Curve]) -> str:
     str
         An SVG document.
     """
-    most = max(float(np.abs(curve.y).max()) for curve in curves)
-    width, height = 2.0 * _RADIUS + 40.0, 1.4 * _RADIUS + 60.0
-    centre = np.array([width / 2.0, 40.0 + _RADIUS])
+    most, lines = _polar_lines(curves)
+    width, height = _POLAR_SIZE
     parts = [_title(width, title)]
-    for share in (0.25, 0.5, 0.75, 1.0):
-        radius = share * _RADIUS
-        parts.append(
-            f'<path d="M{centre[0] - radius:.1f} {centre[1]:.1f}a{radius} {radius} 0 0 1 '
-            f'{2 * radius:.1f} 0" class="grid"/>'
-        )
-    for angle in np.radians([-60.0, -30.0, 0.0, 30.0, 60.0]):
-        end = centre + _RADIUS * np.array([np.sin(angle), -np.cos(angle)])
-        parts.append(f'<path d="M{centre[0]:.1f} {centre[1]:.1f}L{end[0]:.1f} {end[1]:.1f}" class="grid"/>')
-    parts.append(f'<path d="M20 {centre[1]:.1f}h{2 * _RADIUS:.1f}" class="axis"/>')
-    parts.append(_text(centre[0] + _RADIUS, centre[1] + 14.0, f"{most:.3g} / sr", "end"))
-
-    def place(angle: Array, radius: Array) -> Array:
-        ray = np.stack([np.sin(angle), -np.cos(angle)], axis=-1)
-        return centre + _RADIUS / most * radius[:, None] * ray
-
-    parts += _drawn([place(curve.x, curve.y) for curve in curves], curves)
-    parts += _legend(curves, 20.0, centre[1] + 30.0)
+    parts += [f'<path d="{_path(line)}" class="grid"/>' for line in _polar_grid()]
+    parts.append(f'<path d="M20 {_CENTRE[1]:.1f}h{2 * _RADIUS:.1f}" class="axis"/>')
+    parts.append(_text(_CENTRE[0] + _RADIUS, _CENTRE[1] + 14.0, f"{most:.3g} / sr", "end"))
+    parts += _drawn(lines, curves)
+    parts += _legend(curves, 20.0, _CENTRE[1] + 30.0)
     return _document(width, height, parts)
+
+
+def polar_picture(curves: Sequence[Curve]) -> Array:
+    """The same as pixels, without words.
+
+    Parameters
+    ----------
+    curves : sequence of Curve
+        As `polar_plot` takes them.
+
+    Returns
+    -------
+    ndarray, shape (height, width, 3)
+        sRGB in [0, 1], on white; row 0 is the bottom row.
+    """
+    picture = _grid_picture()
+    _, lines = _polar_lines(curves)
+    for index, (line, curve) in enumerate(zip(lines, curves, strict=True)):
+        picture = _over(picture, line, COLORS[index % len(COLORS)], _PIXEL_LINE, curve.dashed)
+    return picture
+
+
+@cache
+def _grid_picture() -> Array:
+    width, height = (round(side) for side in _POLAR_SIZE)
+    picture = np.ones((height, width, 3))
+    for line in _polar_grid():
+        picture = _over(picture, line, _GRID_COLOR, 0.5 * _PIXEL_LINE)
+    return picture
+
+
+def _over(picture: Array, line: Array, color: str, width: float, dashed: bool = False) -> Array:
+    """A picture with a line drawn over it."""
+    ink = np.frombuffer(bytes.fromhex(color[1:]), np.uint8) / 255.0
+    covered = line_coverage(line, picture.shape[:2], width, dashed)[..., None]
+    return (1.0 - covered) * picture + covered * ink
+
+
+def _polar_lines(curves: Sequence[Curve]) -> tuple[float, list[Array]]:
+    """The longest radius, which fills the plot, and where the curves lie."""
+    most = max(float(np.abs(curve.y).max()) for curve in curves)
+    return most, [_CENTRE + _RADIUS / most * curve.y[:, None] * _rays(curve.x) for curve in curves]
+
+
+def _polar_grid() -> list[Array]:
+    """Half circles and rays."""
+    arc = _rays(np.linspace(-0.5 * np.pi, 0.5 * np.pi, 61))
+    circles = [_CENTRE + share * _RADIUS * arc for share in (0.25, 0.5, 0.75, 1.0)]
+    ends = _CENTRE + _RADIUS * _rays(np.radians([-90.0, -60.0, -30.0, 0.0, 30.0, 60.0, 90.0]))
+    return circles + [np.stack([_CENTRE, end]) for end in ends]
+
+
+def _rays(angle: Array) -> Array:
+    """Unit vectors by their angles from the normal, which points up."""
+    return np.stack([np.sin(angle), -np.cos(angle)], axis=-1)
+
+
+def _path(points: Array) -> str:
+    return "M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in points)
 
 
 def _drawn(lines: Sequence[Array], curves: Sequence[Curve]) -> list[str]:
@@ -154,7 +206,7 @@ def _document(width: float, height: float, parts: Sequence[str]) -> str:
     head = (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.0f}" height="{height:.0f}" '
         f'font-family="sans-serif" viewBox="0 0 {width:.0f} {height:.0f}">\n'
-        "<style>.grid{stroke:#ddd;fill:none}.axis{stroke:#888}text{fill:#333}</style>\n"
+        f"<style>.grid{{stroke:{_GRID_COLOR};fill:none}}.axis{{stroke:#888}}text{{fill:#333}}</style>\n"
         f'<rect width="{width:.0f}" height="{height:.0f}" fill="white"/>\n'
     )
     return head + "\n".join(parts) + "\n</svg>\n"

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..core.errors import MapSetError, SceneError
-from ..files.map_set import read_map_set, read_map_set_header
+from ..files.map_set import read_map_set
 from ..host.bake_settings import (
     EXTENSION,
     baked_folder,
@@ -28,7 +28,8 @@ from ..host.version import software
 from ..host.worlds import world_of
 from ..job import BakeJob
 from .background import Bake, blender_command
-from .map_set_page import page_beside
+from .beside import comparison_beside
+from .map_set_facts import map_set_header
 from .methods import METHODS, Lobes, Method, Views
 
 HASH_LETTERS = 10
@@ -223,13 +224,24 @@ def comparison_of(item: Any, map_set: Path) -> ObjectBake:
     SceneError, OutputFileError
         See `bake_of`.
     """
-    kind = read_map_set_header(map_set)["kind"]
-    if kind not in COMPARED:
-        raise MapSetError(f"{map_set} is of a kind without a truth to compare with: bake views or a stack.")
-    page = page_beside(map_set)
-    folder = page.with_name(f"{page.stem}-compared")
+    check_comparable(map_set)
+    folder = comparison_beside(map_set)
     arguments = ("compare", str(map_set), "--views", str(COMPARED_VIEWS), "--output", str(folder), "--force")
     return _in_background(f"{item.name}: comparison", BakeJob(arguments), item, folder / "index.html", True)
+
+
+def check_comparable(map_set: Path) -> None:
+    """Refuse to compare what there is no truth for.
+
+    Raises
+    ------
+    MapSetError
+        The file is no map set, or of a kind that nothing is compared with.
+    """
+    if map_set_header(map_set)["kind"] not in COMPARED:
+        raise MapSetError(
+            f"{map_set.name} is of a kind without a truth to compare with: bake radiance views or lobes."
+        )
 
 
 def _in_background(title: str, job: BakeJob, item: Any, output: Path, needs_file: bool) -> ObjectBake:

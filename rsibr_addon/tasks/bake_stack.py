@@ -11,7 +11,7 @@ from ..core.lobes.stack import LAYOUTS, stack_representation
 from ..core.progress import Progress, Steps
 from ..files.atomic import check_target
 from ..files.fits import read_fit
-from ..files.kinds.lobe_stack import to_map_set
+from ..files.kinds.lobe_stack import PROFILES, profiles, to_map_set
 from ..files.map_set import write_map_set
 from ..host.version import software
 from .brdfs import load_brdf
@@ -152,7 +152,7 @@ def _baked(
     map_set = to_map_set(
         stack,
         light,
-        {"brdf": fit.brdf, "method": fit.method},
+        {"brdf": fit.brdf, "method": fit.method, PROFILES: profiles(fit)},
         {"filter": baked.bound.tolist(), "interpolation": baked.interpolation},
         {"layout": settings.layout, "size": stack.size, "half": settings.half},
         software(),

@@ -15,15 +15,14 @@ from ..device.context import ensure_context
 from ..device.preview import PreviewRenderer
 from ..device.radiance_views import RadianceViewsOnDevice
 from ..files.folders import check_folder_target, folder_written_aside
+from ..files.map_set import read_map_set_header
+from ..files.map_set_header import content_hash
 from ..host.meshes import load_mesh
-from .comparison import Comparison, ComparisonSettings, StackWay, Way, WayError
+from .comparison import RESULT, Comparison, ComparisonSettings, StackWay, Way, WayError
 from .comparison_page import comparison_page
 from .comparison_pictures import save_sheets
 from .kinds import OpenedMapSet, open_map_set
 from .references import Reference, Subject, check_material, render_reference
-
-RESULT = "comparison.json"
-"""The file by which a comparison's folder is known."""
 
 
 def compare(
@@ -82,6 +81,7 @@ def compare(
     yield Progress(total - 1, total, f"writing {output.name}")
     comparison = Comparison(
         map_set=map_set.name,
+        content=content_hash(read_map_set_header(map_set)),
         environment=subject.environment.name,
         material=subject.material,
         map_size=captured.subject.size,

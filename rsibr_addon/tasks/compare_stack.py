@@ -18,10 +18,12 @@ from ..device.lit_sphere import LitSphereOnDevice
 from ..device.lobe_stack import LobeStackOnDevice
 from ..device.preview import PreviewRenderer
 from ..files.folders import check_folder_target
+from ..files.map_set import read_map_set_header
+from ..files.map_set_header import content_hash
 from ..host.meshes import TriangleMesh, load_mesh
 from .brdfs import load_brdf
-from .compare import RESULT, save_comparison
-from .comparison import Comparison, StackComparisonSettings, StackWay, WayError
+from .compare import save_comparison
+from .comparison import RESULT, Comparison, StackComparisonSettings, StackWay, WayError
 from .kinds import open_map_set
 
 LEAST_RINGS = 32
@@ -90,6 +92,7 @@ def compare_stack(
     way = StackWay(len(stack.maps), len(stack.mu), stack.taps.shape[2])
     comparison = Comparison(
         map_set=map_set.name,
+        content=content_hash(read_map_set_header(map_set)),
         environment=opened.environment.name,
         material=spec,
         map_size=stack.size,

@@ -14,6 +14,9 @@ from ..core.directions import normalize
 from ..core.errors import RangeError
 from ..core.shading.radiance_views import Mode, Warping
 
+RESULT = "comparison.json"
+"""The file by which a comparison's folder is known."""
+
 LARGEST = 1024
 """Width and height of the largest picture to compare."""
 
@@ -203,6 +206,8 @@ class Comparison:
     ----------
     map_set, environment, material : str
         What a person calls them.
+    content : str
+        What the map set held: see `files.map_set_header.content_hash`.
     map_size : int
         Width and height of the maps in texels.
     settings : ComparisonSettings or StackComparisonSettings
@@ -215,6 +220,7 @@ class Comparison:
     """
 
     map_set: str
+    content: str
     environment: str
     material: str
     map_size: int

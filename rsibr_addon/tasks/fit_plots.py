@@ -5,17 +5,19 @@ from pathlib import Path
 import numpy as np
 
 from ..core.brdf.model import Brdf
+from ..core.conventions import Array
 from ..core.lobes.accuracy import FitErrors, fit_errors
 from ..core.lobes.fit import Fit
 from ..core.lobes.target import elevation_slices
 from ..files.folders import check_folder_target, folder_written_aside
-from ..files.plots import Curve, line_plot, polar_plot
+from ..files.plots import Curve, line_plot, polar_picture, polar_plot
 
 ELEVATIONS = (0.2, 0.5, 0.8)
 """n.v of the polar plots."""
 
 _ERROR = "error.svg"
 _ANGLES = np.linspace(-np.pi, np.pi, 721)
+_DIRECTIONS = np.stack([np.sin(_ANGLES), np.zeros_like(_ANGLES), np.cos(_ANGLES)], axis=-1)
 _BETWEEN = 4
 
 
@@ -61,19 +63,41 @@ def write_plots(folder: Path, fit: Fit, brdf: Brdf, errors: FitErrors, force: bo
         (aside / _ERROR).write_text(_error(fit, brdf, errors), encoding="utf-8")
 
 
-def lobe_plot(fit: Fit, brdf: Brdf, mu: float) -> str:
-    """Green, which is most of luminance, in the plane of incidence."""
-    directions = np.stack([np.sin(_ANGLES), np.zeros_like(_ANGLES), np.cos(_ANGLES)], axis=-1)
-    view_dir = np.array([-np.sqrt(1.0 - mu**2), 0.0, mu])
-    truth = brdf(directions, view_dir) * np.maximum(directions[:, 2:], 0.0)
-    lobes = fit.evaluate_lobes(directions, mu)[..., 1]
-    curves = [
-        Curve("brdf n.l", _ANGLES, truth[:, 1]),
+def lobe_plot(fit: Fit, brdf: Brdf | None, mu: float) -> str:
+    """The lobes of a fit towards one view, as SVG, and beside them what they stand for.
+
+    Parameters
+    ----------
+    fit : Fit
+    brdf : Brdf or None
+        None leaves it out.
+    mu : float
+        n.v, in (0, 1].
+    """
+    angle = np.degrees(np.arccos(mu))
+    truth = [] if brdf is None else [_truth(brdf, mu)]
+    title = f"{fit.brdf}, view {angle:.0f} degrees from the normal"
+    return polar_plot(title, [*truth, *_lobe_curves(fit, mu)])
+
+
+def lobe_picture(fit: Fit, mu: float) -> Array:
+    """The lobes of a fit towards one view, as pixels: see `polar_picture`."""
+    return polar_picture(_lobe_curves(fit, mu))
+
+
+def _lobe_curves(fit: Fit, mu: float) -> list[Curve]:
+    """Green, which is most of luminance, in the plane of incidence; the view comes from the left."""
+    lobes = fit.evaluate_lobes(_DIRECTIONS, mu)[..., 1]
+    return [
         Curve("fit", _ANGLES, lobes.sum(axis=0), dashed=True),
         *(Curve(f"lobe {number}", _ANGLES, values) for number, values in enumerate(lobes, 1)),
     ]
-    angle = np.degrees(np.arccos(mu))
-    return polar_plot(f"{fit.brdf}, view {angle:.0f} degrees from the normal", curves)
+
+
+def _truth(brdf: Brdf, mu: float) -> Curve:
+    view_dir = np.array([-np.sqrt(1.0 - mu**2), 0.0, mu])
+    values = brdf(_DIRECTIONS, view_dir) * np.maximum(_DIRECTIONS[:, 2:], 0.0)
+    return Curve("brdf n.l", _ANGLES, values[:, 1])
 
 
 def _error(fit: Fit, brdf: Brdf, errors: FitErrors) -> str:

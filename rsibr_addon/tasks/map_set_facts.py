@@ -1,16 +1,75 @@
-"""What to tell of a map set at a glance."""
+"""What to tell of a map set at a glance; files are read again only when they change."""
 
 import os
-from functools import lru_cache
+from collections.abc import Callable
+from functools import lru_cache, wraps
 from pathlib import Path
 from typing import Any
 
+from ..core.brdf.gallery import gallery_name
+from ..core.lobes.fit import Fit
+from ..files.kinds import lobe_stack
 from ..files.map_set import read_map_set_header
 from ..files.map_set_header import content_hash
 
 
+def read_once[Told](read: Callable[[Path], Told]) -> Callable[[Path], Told]:
+    """Have a function of a file called again only when the file's time or size is another.
+
+    Parameters
+    ----------
+    read : callable
+        Takes the path of a file, that need not be there. What it raises is not kept.
+    """
+
+    @lru_cache(maxsize=16)
+    def kept(path: Path, stamp: tuple[int, int] | None) -> Told:
+        return read(path)
+
+    @wraps(read)
+    def told(path: Path) -> Told:
+        return kept(path, file_stamp(path))
+
+    return told
+
+
+def file_stamp(path: Path) -> tuple[int, int] | None:
+    """Time and size of a file, which tell whether it has changed; None where it is not there."""
+    try:
+        status = os.stat(path)
+    except OSError:
+        return None
+    return status.st_mtime_ns, status.st_size
+
+
+@read_once
+def map_set_header(path: Path) -> dict[str, Any]:
+    """The description of a map set; not to be changed.
+
+    Raises
+    ------
+    MapSetError
+        See `files.map_set.read_map_set_header`; so with all others here.
+    """
+    return read_map_set_header(path)
+
+
+@read_once
+def map_set_content(path: Path) -> str:
+    """Hash of what a map set holds: see `files.map_set_header.content_hash`."""
+    return content_hash(map_set_header(path))
+
+
+@read_once
+def map_set_fit(path: Path) -> Fit | None:
+    """The lobes that a map set was made of; None where there are none, or it does not tell them."""
+    header = map_set_header(path)
+    return lobe_stack.fit_of(path, header) if header["kind"] == lobe_stack.KIND else None
+
+
+@read_once
 def map_set_facts(path: Path) -> dict[str, str]:
-    """What a map set is and promises, read again only when its file changes.
+    """What a map set is and promises.
 
     Parameters
     ----------
@@ -20,58 +79,45 @@ def map_set_facts(path: Path) -> dict[str, str]:
     -------
     dict
         In words: what -> which.
-
-    Raises
-    ------
-    MapSetError
-        See `read_map_set_header`.
     """
-    return _facts(path, *_state(path))
-
-
-def map_set_content(path: Path) -> str:
-    """The `content_hash` of a map set, computed again only when its file changes.
-
-    Raises
-    ------
-    MapSetError
-        See `read_map_set_header`.
-    """
-    return _content(path, *_state(path))
-
-
-def _state(path: Path) -> tuple[int, int]:
-    """Of a file, what changes when it does: the time, and its size."""
-    try:
-        status = os.stat(path)
-    except OSError:
-        return 0, 0
-    return status.st_mtime_ns, status.st_size
-
-
-@lru_cache(maxsize=64)
-def _facts(path: Path, changed: int, size: int) -> dict[str, str]:
-    header = read_map_set_header(path)
+    header = map_set_header(path)
     material = header["material"]
-    named = material.get("name") or material.get("brdf")
+    named = material.get("name") or gallery_name(material.get("brdf", ""))
     return {
-        "Kind": header["kind"].replace("_", " ").capitalize(),
-        "Light": Path(header["environment"]["name"]).stem,
-        **({"Material": str(named)} if named else {}),
+        "Kind": _capital(header["kind"]),
+        "Light": _capital(Path(header["environment"]["name"]).stem),
+        **({"Material": _capital(named)} if named else {}),
         "Maps": f"{len(header['parts'])}, {header['size'][0]} x {header['size'][1]}",
-        **{_words(name): _number(value) for name, value in (header["error_bound"] or {}).items()},
+        **{_capital(name): _error(value) for name, value in (header["error_bound"] or {}).items()},
     }
 
 
-@lru_cache(maxsize=64)
-def _content(path: Path, changed: int, size: int) -> str:
-    return content_hash(read_map_set_header(path))
+def map_title(part: dict[str, Any]) -> str:
+    """What a map is, for people.
+
+    Parameters
+    ----------
+    part : dict
+        Of a map set's description.
+    """
+    if "view" in part:
+        return f"View {part['view'] + 1}, {part['role'].capitalize()}"
+    if "mip" in part:
+        sharpness = "" if part["roughness"] is None else f", Roughness {part['roughness']:.2f}"
+        return f"Mip {part['mip']}{sharpness}"
+    if "lobe" in part:
+        first, *others = part["elevations"]
+        at = "All Elevations" if others else f"n\N{DOT OPERATOR}v {first['mu']:.2f}"
+        return f"Lobe {part['lobe'] + 1}, {at}"
+    role: str = part["role"]
+    return role.capitalize()
 
 
-def _words(name: str) -> str:
-    return f"Error: {name.replace('_', ' ')}"
+def _capital(name: str) -> str:
+    words = name.replace("_", " ")
+    return words[:1].upper() + words[1:]
 
 
-def _number(value: Any) -> str:
+def _error(value: Any) -> str:
     """The largest of several, as an error is."""
-    return f"{max(value) if isinstance(value, list) else value:.2g}"
+    return f"error {max(value) if isinstance(value, list) else value:.2g}"

@@ -10,16 +10,24 @@ from typing import Any
 
 import numpy as np
 
+from ..core.brdf.model import Brdf
 from ..core.camera import Camera
 from ..core.conventions import Array
-from ..core.errors import OutputFileError
-from ..core.progress import Progress, Steps
+from ..core.errors import InputFileError, OutputFileError
+from ..core.miniature import miniature
+from ..core.progress import Progress, Steps, drain
 from ..device.preview import PreviewRenderer
 from ..files.atomic import check_target, written_aside
+from ..files.kinds.lobe_stack import PROFILES
 from ..files.map_set import read_map_set
 from ..host.meshes import load_mesh
 from ..host.pictures import save_png
+from .brdfs import load_brdf
+from .fit_plots import ELEVATIONS, lobe_plot
 from .kinds import KINDS, open_map_set
+from .map_set_facts import map_set_fit
+from .measured_error import measured_facts
+from .methods import MATERIAL
 
 TEMPLATE = Path(__file__).with_suffix(".html")
 
@@ -29,13 +37,13 @@ LOOK_SIZE = 288
 MAP_SIZE = 160
 """Largest width and height of a map's picture, in pixels."""
 
+LOBES = (
+    '<h2>Lobes</h2><p class="faint">BRDF times cosine in the plane of incidence, green; the eye is to the '
+    "left. The dashed line is the sum of the lobes.</p>"
+)
+
 LOOKS = {"sphere": Camera((0.3, -1.0, 0.3)), "monkey": Camera((0.3, -1.0, 0.3))}
 """Mesh -> from where it is shown."""
-
-
-def page_beside(map_set: Path) -> Path:
-    """Where the page of a map set goes unless one says otherwise: NAME.html beside NAME.rsibr.exr."""
-    return map_set.with_name(f"{map_set.name.removesuffix('.exr').removesuffix('.rsibr')}.html")
 
 
 def map_set_page(map_set: Path, output: Path, force: bool = False) -> Steps[Path]:
@@ -77,6 +85,8 @@ def map_set_page(map_set: Path, output: Path, force: bool = False) -> Steps[Path
         file=escape(map_set.name),
         looks="\n".join(_image(picture, f"a {mesh}") for mesh, picture in looks.items()),
         bound=_definitions(header["error_bound"] or {"nothing": "its maker stated no error"}),
+        measured=_definitions(measured_facts(map_set) or {"nothing": "it has not been compared yet"}),
+        lobes="\n".join(_lobes(map_set)),
         facts=_definitions(_facts(header)),
         roles="\n".join(_roles(header["parts"], held.maps)),
     )
@@ -95,6 +105,27 @@ def _looks(map_set: Path) -> dict[str, Array]:
     return pictures
 
 
+def _lobes(map_set: Path) -> list[str]:
+    """Plots of the lobes, where the map set tells them."""
+    fit = map_set_fit(map_set)
+    if fit is None:
+        return []
+    brdf = _truth(fit.brdf)
+    plots = [lobe_plot(fit, brdf, mu) for mu in ELEVATIONS]
+    images = (_embedded("image/svg+xml", plot.encode("utf-8"), "lobes") for plot in plots)
+    return [LOBES, '<div class="plots">', *images, "</div>"]
+
+
+def _truth(spec: str) -> Brdf | None:
+    """What the lobes stand for; None where a render alone would tell, or its file is gone."""
+    if spec.startswith(MATERIAL):
+        return None
+    try:
+        return drain(load_brdf(spec))
+    except InputFileError:
+        return None
+
+
 def _title(header: Mapping[str, Any]) -> str:
     material = header["material"]
     name = material.get("name") or material.get("brdf")
@@ -105,7 +136,7 @@ def _title(header: Mapping[str, Any]) -> str:
 def _facts(header: Mapping[str, Any]) -> dict[str, Any]:
     width, height = header["environment"]["size"]
     return {
-        **{f"material: {name}": value for name, value in header["material"].items()},
+        **{f"material: {name}": value for name, value in header["material"].items() if name != PROFILES},
         "environment": f"{header['environment']['name']}, {width}x{height}",
         "layout": header["layout"],
         "size of a map": "{}x{}".format(*header["size"]),
@@ -153,19 +184,17 @@ def _caption(part: Mapping[str, Any]) -> str:
 
 
 def _opaque(radiance: Array) -> Array:
-    """A map as a picture, made smaller by means of whole blocks of texels."""
-    height, width = radiance.shape[:2]
-    step = -(-max(height, width) // MAP_SIZE)
-    rows, columns = max(height // step, 1), max(width // step, 1)
-    down, across = min(step, height), min(step, width)
-    blocks = radiance[: rows * down, : columns * across].reshape(rows, down, columns, across, 3)
-    small = blocks.mean(axis=(1, 3), dtype=np.float64)
-    return np.concatenate([small, np.ones((rows, columns, 1))], axis=-1)
+    small = miniature(radiance, MAP_SIZE)
+    return np.concatenate([small, np.ones((*small.shape[:2], 1))], axis=-1)
 
 
 def _image(rgba: Array, description: str) -> str:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "picture.png"
         save_png(path, rgba)
-        data = base64.b64encode(path.read_bytes()).decode("ascii")
-    return f'<img alt="{escape(description)}" src="data:image/png;base64,{data}">'
+        return _embedded("image/png", path.read_bytes(), description)
+
+
+def _embedded(kind: str, data: bytes, description: str) -> str:
+    source = f"data:{kind};base64,{base64.b64encode(data).decode('ascii')}"
+    return f'<img alt="{escape(description)}" src="{source}">'

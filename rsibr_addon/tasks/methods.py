@@ -7,6 +7,7 @@ from math import ceil, log2
 from pathlib import Path
 from typing import Any, ClassVar, Protocol
 
+from ..core.brdf.gallery import gallery_name
 from ..core.brdf.lambert import Lambert
 from ..core.brdf.spec import MEASURED, brdf_from_spec
 from ..core.errors import InputFileError
@@ -169,7 +170,8 @@ class Lobes:
     @property
     def subject(self) -> str:
         """See `Method`."""
-        return self.brdf.removeprefix(f"{MATERIAL}:") if "path=" not in self.brdf else Path(self.brdf).stem
+        named = gallery_name(self.brdf).removeprefix(f"{MATERIAL}:")
+        return named if "path=" not in named else Path(named).stem
 
     def arguments(self) -> tuple[str, ...]:
         """See `Method`."""

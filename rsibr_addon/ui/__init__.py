@@ -1,6 +1,6 @@
 """What the artist sees: panels, and the previews in the viewport."""
 
-from . import bake_properties
+from . import bake_properties, result_properties
 from .bake_panel import RSIBR_PT_bake
 from .environment_panel import RSIBR_MT_pictures, RSIBR_PT_environment
 from .live_panel import RSIBR_PT_live
@@ -8,10 +8,11 @@ from .material_panel import RSIBR_MT_live_models, RSIBR_MT_models, RSIBR_PT_mate
 from .method_panel import RSIBR_PT_method
 from .panel import RSIBR_PT_preview
 from .preferences import RSIBR_AP_preferences
-from .result_panel import RSIBR_PT_result
+from .result_panel import RSIBR_PT_result, RSIBR_PT_result_lobes, RSIBR_PT_result_maps
 
 CLASSES: tuple[type, ...] = (
     *bake_properties.CLASSES,
+    *result_properties.CLASSES,
     RSIBR_AP_preferences,
     RSIBR_MT_models,
     RSIBR_MT_live_models,
@@ -23,5 +24,7 @@ CLASSES: tuple[type, ...] = (
     RSIBR_PT_preview,
     RSIBR_PT_live,
     RSIBR_PT_result,
+    RSIBR_PT_result_maps,
+    RSIBR_PT_result_lobes,
 )
 """Every class, in the order of registration, which is that of the panels."""

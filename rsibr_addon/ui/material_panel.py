@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..core.brdf.gallery import GALLERY
+from ..core.brdf.gallery import GALLERY, gallery_name
 
 
 class _Models:
@@ -74,7 +74,7 @@ def _draw_source(layout: bpy.types.UILayout, chosen: bpy.types.PropertyGroup, it
         case "PRESET":
             layout.prop(chosen, "preset", text="")
         case "MODEL":
-            layout.menu("RSIBR_MT_models", text="Choose...", icon="MATERIAL")
+            layout.menu("RSIBR_MT_models", text=gallery_name(chosen.brdf), icon="MATERIAL")
             layout.prop(chosen, "brdf", text="")
         case "FILE":
             layout.prop(chosen, "path", text="")

@@ -1,12 +1,19 @@
 """What the active object is shaded from."""
 
+import math
+
 import bpy
 
 from ..core.errors import RsibrError
 from ..host.map_sets import written_path
-from ..tasks.map_set_facts import map_set_facts
+from ..tasks.map_set_facts import map_set_facts, map_set_fit
+from ..tasks.measured_error import measured_facts
+from .map_pictures import map_pictures
 from .map_set_file import draw_file, draw_remedies
 from .sentences import tell
+
+MAP_SCALE, LOBES_SCALE = 9.0, 9.0
+"""Of pictures in panels; a button is 1 high."""
 
 
 class RSIBR_PT_result(bpy.types.Panel):
@@ -23,18 +30,19 @@ class RSIBR_PT_result(bpy.types.Panel):
         return context.object is not None and bool(context.object.rsibr.map_set)
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Show its file, what it is, the errors that it promises; and open its report."""
+        """Show its file, what it is, the errors promised and measured; and open its report."""
         layout, item = self.layout, context.object
         try:
             path = written_path(item.rsibr)
             facts = map_set_facts(path)
+            measured = measured_facts(path, item.rsibr.radiance_views)
         except RsibrError as error:
             tell(layout, str(error), context.region.width)
             draw_remedies(layout)
             return
         draw_file(layout, item, path, context.region.width)
         column = layout.column(align=True)
-        for what, which in facts.items():
+        for what, which in {**facts, **measured}.items():
             row = column.split(factor=0.4)
             row.alignment = "RIGHT"
             row.label(text=what)
@@ -42,3 +50,65 @@ class RSIBR_PT_result(bpy.types.Panel):
         row = layout.row(align=True)
         row.operator("rsibr.open_report", icon="URL")
         row.operator("rsibr.compare", icon="MOD_DATA_TRANSFER")
+
+
+class RSIBR_PT_result_maps(bpy.types.Panel):
+    """The maps that the map set holds, as pictures"""  # noqa: D400  (a tooltip)
+
+    bl_label = "Maps"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "RSIBR"
+    bl_parent_id = "RSIBR_PT_result"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Whether there is a map set that can be read."""
+        try:
+            map_set_facts(written_path(context.object.rsibr))
+        except RsibrError:
+            return False
+        return True
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Show one of them large; a click on it shows all."""
+        map_pictures.show(written_path(context.object.rsibr))
+        if map_pictures.fault:
+            tell(self.layout, map_pictures.fault, context.region.width)
+            return
+        if not map_pictures.items:
+            self.layout.label(text="Reading...", icon="TIME")
+            return
+        shown = context.window_manager.rsibr_result
+        self.layout.template_icon_view(shown, "part", show_labels=True, scale=MAP_SCALE, scale_popup=5.0)
+        self.layout.prop(shown, "part", text="")
+
+
+class RSIBR_PT_result_lobes(bpy.types.Panel):
+    """The lobes that the map set's reflectance was made of"""  # noqa: D400  (a tooltip)
+
+    bl_label = "Lobes"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "RSIBR"
+    bl_parent_id = "RSIBR_PT_result"
+    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012  (Blender reads the class)
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Whether the file tells of lobes."""
+        try:
+            return map_set_fit(written_path(context.object.rsibr)) is not None
+        except RsibrError:
+            return False
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Show them for one view."""
+        path, layout = written_path(context.object.rsibr), self.layout
+        shown = context.window_manager.rsibr_result
+        map_pictures.show(path)
+        layout.template_icon(map_pictures.lobes(path, math.cos(shown.angle)), scale=LOBES_SCALE)
+        row = layout.row()
+        row.use_property_split = True
+        row.prop(shown, "angle", slider=True)
+        layout.label(text="Colours: the lobes; black: their sum.")

@@ -34,7 +34,7 @@ def tell(layout: bpy.types.UILayout, message: str, width: int, icon: str = "ERRO
 def duration(seconds: float) -> str:
     """A time as one says it."""
     if seconds < 10:
-        return "some seconds"
+        return "a few seconds"
     if seconds < 90:
         return f"about {10 * round(seconds / 10)} seconds"
     if seconds < 5400:

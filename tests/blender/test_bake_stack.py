@@ -51,7 +51,7 @@ def test_in_white_light_a_stack_shows_the_albedo(layout: str, capfd: pytest.Capt
     # And the stack's is the fit's.
     np.testing.assert_allclose(in_white_light(stack), stack.albedo.sum(axis=0), rtol=1e-3)
     header = read_map_set("out.rsibr.exr").header
-    assert header["material"] == {"brdf": SPEC, "method": "joint"}
+    assert header["material"].items() >= {"brdf": SPEC, "method": "joint"}.items()
     assert header["settings"] == {"layout": layout, "size": 16, "half": False}
     assert 0.0 < max(header["error_bound"]["filter"]) < 1e-3
 

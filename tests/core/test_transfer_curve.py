@@ -1,7 +1,7 @@
 """The sRGB curve, by the standard's own values."""
 
 import numpy as np
-from rsibr.rsibr_addon.core.transfer_curve import linear_from_srgb
+from rsibr.rsibr_addon.core.transfer_curve import linear_from_srgb, srgb_from_linear
 
 
 def test_ends_middle_and_the_straight_piece() -> None:
@@ -16,3 +16,10 @@ def test_it_inverts_the_encoding() -> None:
     encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
     # The standard's two pieces meet but for the rounding of its constants
     np.testing.assert_allclose(linear_from_srgb(encoded), linear, atol=1e-7)
+
+
+def test_encoding_is_undone_and_stays_within_its_range() -> None:
+    encoded = np.linspace(0.0, 1.0, 1001)
+    # As above
+    np.testing.assert_allclose(srgb_from_linear(linear_from_srgb(encoded)), encoded, atol=1e-7)
+    np.testing.assert_allclose(srgb_from_linear([-1.0, 7.0]), [0.0, 1.0], rtol=1e-15)

@@ -9,11 +9,13 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import MapSetError
+from rsibr.rsibr_addon.core.lobes.bank import KernelBank
+from rsibr.rsibr_addon.core.lobes.fit import Fit
 from rsibr.rsibr_addon.core.lobes.stack import LAYOUTS, LobeStack
 from rsibr.rsibr_addon.core.maps.representation import FRONT
-from rsibr.rsibr_addon.files.kinds.lobe_stack import from_map_set, to_map_set
-from rsibr.rsibr_addon.files.map_set import MapSet, read_map_set, write_map_set
-from rsibr.tests.lobe_stacks import random_stack
+from rsibr.rsibr_addon.files.kinds.lobe_stack import PROFILES, fit_of, from_map_set, profiles, to_map_set
+from rsibr.rsibr_addon.files.map_set import MapSet, read_map_set, read_map_set_header, write_map_set
+from rsibr.tests.lobe_stacks import random_fit, random_stack
 
 LIGHT = Environment(np.random.default_rng(1).random((8, 16, 3), dtype=np.float32), "light")
 MATERIAL = {"brdf": "ward:alpha=0.04,ks=0.8", "method": "joint"}
@@ -128,3 +130,39 @@ def test_taps_are_whole(tmp_path: Path) -> None:
         MapSetError, match=r"parts\[2\]\.elevations\[0\]\.taps\[1\]\.tilt is not a finite number"
     ):
         write_map_set(tmp_path / "a.rsibr.exr", map_set)
+
+
+def map_set_of_fit(shared: bool = False) -> tuple[Fit, MapSet]:
+    fit = random_fit(KernelBank((0.5, 2.0, 8.0, 32.0)), lobes=3, shared=shared)
+    fit.weights[:, :, 2] = 0.0
+    maps = random_stack("octahedral").maps[:, : fit.weights.shape[1]]
+    stack = LobeStack("octahedral", fit.mu, maps, fit.scale, fit.offsets, fit.taps, fit.albedo)
+    material = {"brdf": fit.brdf, "method": fit.method, PROFILES: profiles(fit)}
+    return fit, to_map_set(stack, LIGHT, material, None, {}, "test")
+
+
+@pytest.mark.parametrize("shared", [False, True])
+def test_a_fit_is_told(tmp_path: Path, shared: bool) -> None:
+    path = tmp_path / "a.rsibr.exr"
+    fit, map_set = map_set_of_fit(shared)
+    write_map_set(path, map_set)
+    told = fit_of(path, read_map_set_header(path))
+    assert told.bank.concentrations == (0.5, 2.0, 32.0)  # one has no weight
+    directions = np.random.default_rng(2).normal(size=(100, 3))
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    # Six digits of every weight; signed lobes cancel a little of their sum
+    for mu in (0.05, 0.5, 1.0):
+        expected = fit.evaluate_lobes(directions, mu)
+        np.testing.assert_allclose(told.evaluate_lobes(directions, mu), expected, atol=2e-6 * expected.max())
+
+
+def test_stacks_without_profiles_tell_no_fit() -> None:
+    assert fit_of(Path("a.exr"), map_set_of(random_stack("octahedral")).header) is None
+
+
+@pytest.mark.parametrize("profiles", [3, {}, {"concentrations": [1.0], "weights": [[1.0]]}])
+def test_profiles_of_other_lobes_are_refused(profiles: Any) -> None:
+    _, map_set = map_set_of_fit()
+    map_set.header["material"][PROFILES] = profiles
+    with pytest.raises(MapSetError, match=r"a\.exr describes no lobes .*: bake it again"):
+        fit_of(Path("a.exr"), map_set.header)

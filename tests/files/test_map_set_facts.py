@@ -1,21 +1,99 @@
 """What the panel tells of a map set is what its file says, also after the file has changed."""
 
+import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import MapSetError
-from rsibr.rsibr_addon.tasks.map_set_facts import map_set_facts
+from rsibr.rsibr_addon.core.shading.radiance_views import Mode, ViewsLook, Warping
+from rsibr.rsibr_addon.files.map_set import read_map_set
+from rsibr.rsibr_addon.tasks import map_set_facts as facts
+from rsibr.rsibr_addon.tasks.comparison import Comparison, ComparisonSettings, Way, WayError
+from rsibr.rsibr_addon.tasks.map_set_pictures import map_set_pictures
+from rsibr.rsibr_addon.tasks.measured_error import measured_facts
 from rsibr.tests.flat_capture import write_flat_capture
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    return write_flat_capture(tmp_path / "flat.rsibr.exr", (0.5, 0.0, 0.25))
+
+
+def write_comparison(path: Path, content: str) -> None:
+    ways = [Way(12, Mode.FRAGMENT, Warping.ALBEDO), Way(12, Mode.PAPER, Warping.SPLIT)]
+    comparison = Comparison(
+        map_set=path.name,
+        content=content,
+        environment="forest",
+        material="copper",
+        map_size=8,
+        settings=ComparisonSettings(views=2),
+        view_dirs=((0.0, 0.0, 1.0), (1.0, 0.0, 0.0)),
+        reference_noise=0.001,
+        errors=tuple(WayError(way, (0.02, 0.04), 0.031) for way in ways),
+    )
+    folder = path.parent / "flat-compared"
+    folder.mkdir(exist_ok=True)
+    (folder / "comparison.json").write_text(json.dumps(comparison.to_json()))
 
 
 def test_facts_follow_the_file(tmp_path: Path) -> None:
     path = tmp_path / "flat.rsibr.exr"
     with pytest.raises(MapSetError, match=r"flat\.rsibr\.exr"):
-        map_set_facts(path)
+        facts.map_set_facts(path)
     write_flat_capture(path, (0.5, 0.0, 0.5))
-    facts = map_set_facts(path)
-    assert facts["Kind"] == "Radiance views"
-    assert all(isinstance(which, str) and which for which in facts.values())
+    told = facts.map_set_facts(path)
+    assert told["Kind"] == "Radiance views"
+    assert all(isinstance(which, str) and which for which in told.values())
     path.write_text("no picture any more")
     with pytest.raises(MapSetError, match=r"flat\.rsibr\.exr"):
-        map_set_facts(path)
+        facts.map_set_facts(path)
+
+
+def test_files_are_read_once(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write_comparison(path, facts.map_set_content(path))
+    first = facts.map_set_facts(path), measured_facts(path)
+
+    def refuse(path: Path) -> None:
+        raise AssertionError(f"{path} is read again")
+
+    monkeypatch.setattr(facts, "read_map_set_header", refuse)
+    monkeypatch.setattr(Path, "read_text", refuse)
+    assert (facts.map_set_facts(path), measured_facts(path)) == first
+
+
+def test_measured_errors_are_told_while_the_content_is_the_same(path: Path) -> None:
+    assert measured_facts(path) == {}
+    write_comparison(path, facts.map_set_content(path))
+    told = {"Measured": "3.1 %, at worst 4 %", "Against": "Cycles, 2 views"}
+    assert measured_facts(path, ViewsLook("fragment", "albedo")) == told
+    assert measured_facts(path, ViewsLook("texel", "albedo")) == {}
+    assert sum(what.startswith("Measured: 12 views") for what in measured_facts(path)) == 2
+    write_flat_capture(path, (0.5, 0.0, 0.5))
+    assert measured_facts(path) == {"Measured": "before the file changed: compare again"}
+
+
+def test_a_comparison_of_another_version_is_none(path: Path) -> None:
+    write_comparison(path, facts.map_set_content(path))
+    (path.parent / "flat-compared" / "comparison.json").write_text('{"settings": {}}')
+    assert measured_facts(path) == {}
+
+
+def test_bright_maps_are_shown_darker(tmp_path: Path) -> None:
+    (glossy,) = [
+        picture
+        for picture in map_set_pictures(write_flat_capture(tmp_path / "sun.rsibr.exr", (20.0, 10.0, 5.0)))
+        if picture.title == "View 3, Glossy"
+    ]
+    np.testing.assert_allclose(glossy.pixels[4, 4], [1.0, 0.7353570, 0.5370987], atol=1e-6)
+
+
+def test_pictures_are_of_every_map_the_environment_last(path: Path) -> None:
+    pictures = map_set_pictures(path)
+    parts = [part["name"] for part in read_map_set(path).header["parts"]]
+    assert sorted(picture.name for picture in pictures) == sorted(parts)
+    assert pictures[-1].title == "Environment"
+    (glossy,) = [picture for picture in pictures if picture.title == "View 3, Glossy"]
+    # 0.5 and 0.25 on the sRGB curve
+    np.testing.assert_allclose(glossy.pixels[4, 4], [0.7353570, 0.0, 0.5370987], atol=1e-6)

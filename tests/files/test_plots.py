@@ -3,7 +3,7 @@
 from xml.etree import ElementTree
 
 import numpy as np
-from rsibr.rsibr_addon.files.plots import Curve, line_plot, polar_plot
+from rsibr.rsibr_addon.files.plots import COLORS, Curve, line_plot, polar_picture, polar_plot
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -36,3 +36,14 @@ def test_lobes_point_up_along_the_normal_and_right_at_positive_angles() -> None:
     np.testing.assert_allclose(right, -left)
     np.testing.assert_allclose(up, [0.0, -2.0 * right[0]], atol=0.11)
     np.testing.assert_allclose(negative, -up, atol=0.11)
+
+
+def test_pixels_show_the_lines_of_the_drawing() -> None:
+    curve = Curve("lobe", np.radians([0.0, 40.0]), np.array([1.0, 1.0]))
+    (points,) = lines(polar_plot("lobe", [curve]))
+    pixels = polar_picture([curve])[::-1]
+    ink = np.frombuffer(bytes.fromhex(COLORS[0][1:]), np.uint8) / 255.0
+    x, y = np.floor(points.mean(axis=0)).astype(int)  # halfway along the straight line between both
+    np.testing.assert_allclose(pixels[y, x], ink)
+    assert pixels.min() == ink.min()
+    assert np.all(pixels[0] == 1.0)

@@ -28,3 +28,9 @@ GALLERY: dict[str, dict[str, str]] = {
     },
 }
 """Group -> name for people -> what `core.brdf.spec` makes a model of."""
+
+
+def gallery_name(spec: str) -> str:
+    """What people call a model: its name in the gallery, or else its text."""
+    names = {spec: name for models in GALLERY.values() for name, spec in models.items()}
+    return names.get(spec, spec)

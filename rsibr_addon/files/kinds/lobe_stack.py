@@ -10,12 +10,20 @@ import numpy as np
 from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.errors import MapSetError, RangeError, ShapeError
+from ...core.lobes.bank import KernelBank
+from ...core.lobes.fit import Fit
 from ...core.lobes.stack import LobeStack, stack_representation
 from ..map_set import MapSet
 from ..map_set_header import ENVIRONMENT, TAP_FIELDS, make_header
 from .sheets import sheets_from_strip, strip_from_sheets
 
 KIND = "lobe_stack"
+
+PROFILES = "profiles"
+"""What the material says of its lobes' shapes, for information."""
+
+_DIGITS = 6
+"""Of a profile's weights, significant."""
 
 
 def to_map_set(
@@ -64,6 +72,56 @@ def to_map_set(
     return MapSet(KIND, maps, header)
 
 
+def profiles(fit: Fit) -> dict[str, Any]:
+    """The shapes of a fit's lobes, as a map set's material has them under `PROFILES`."""
+    used = np.flatnonzero(np.any(fit.weights, axis=(0, 1, 3)))
+    rounded = np.vectorize(lambda value: float(f"{value:.{_DIGITS}g}"))
+    return {
+        "concentrations": fit.bank.kappa[used].tolist(),
+        "weights": rounded(fit.weights[:, :, used]).tolist(),
+    }
+
+
+def fit_of(path: Path, header: dict[str, Any]) -> Fit | None:
+    """The fit that a lobe stack was made from.
+
+    Parameters
+    ----------
+    path : Path
+        The map set's file, for messages.
+    header : dict
+        A description of this kind.
+
+    Returns
+    -------
+    Fit or None
+        Its profiles to 6 digits; None where the file does not tell them.
+
+    Raises
+    ------
+    MapSetError
+        They are not those of the lobes that it holds.
+    """
+    material = header["material"]
+    if PROFILES not in material:
+        return None
+    try:
+        tables = _tables(_by_lobe(header["parts"]))
+        taps = _taps(tables)
+        return Fit(
+            brdf=material["brdf"],
+            method=material["method"],
+            mu=np.array([elevation["mu"] for elevation in tables[0]]),
+            bank=KernelBank(tuple(material[PROFILES]["concentrations"])),
+            weights=np.array(material[PROFILES]["weights"], dtype=np.float64),
+            scale=_array(tables, lambda elevation: elevation["scale"]),
+            offsets=taps[..., :2],
+            taps=taps[..., 2],
+        )
+    except (KeyError, TypeError, ValueError, RangeError, ShapeError) as error:
+        raise MapSetError(f"{path} describes no lobes ({error}): bake it again.") from error
+
+
 def from_map_set(path: Path, map_set: MapSet) -> LobeStack:
     """A lobe stack as a map set holds it.
 
@@ -85,15 +143,13 @@ def from_map_set(path: Path, map_set: MapSet) -> LobeStack:
         elevations and numbers of maps and taps, or a map is not as large as the header says.
     """
     lobes = _parts_by_lobe(path, map_set)
-    tables = [[elevation for part in lobe for elevation in part["elevations"]] for lobe in lobes]
+    tables = _tables(lobes)
     used_at = [[(elevation["mu"], len(elevation["taps"])) for elevation in table] for table in tables]
     counts = {(len(lobe), taps) for lobe, used in zip(lobes, used_at, strict=True) for _, taps in used}
     if any(used != used_at[0] for used in used_at) or len(counts) > 1:
         raise MapSetError(f"{path} holds lobes of different elevations, maps or taps: bake it again.")
     layout, (size, _) = map_set.header["layout"], map_set.header["size"]
-    taps = _array(
-        tables, lambda elevation: [[tap[field] for field in TAP_FIELDS] for tap in elevation["taps"]]
-    )
+    taps = _taps(tables)
     try:
         sheets = stack_representation(layout, size).shape(size)
         maps = [[sheets_from_strip(map_set.maps[part["name"]], sheets) for part in lobe] for lobe in lobes]
@@ -113,15 +169,35 @@ def from_map_set(path: Path, map_set: MapSet) -> LobeStack:
 def _parts_by_lobe(path: Path, map_set: MapSet) -> list[list[dict[str, Any]]]:
     """The parts of every lobe by their elevations."""
     width, height = map_set.header["size"]
-    parts: dict[int, list[dict[str, Any]]] = defaultdict(list)
     for part in map_set.header["parts"]:
+        if part["role"] == "prefiltered" and map_set.maps[part["name"]].shape[:2] != (height, width):
+            raise MapSetError(f"{path} holds maps of another size than it says: bake it again.")
+    try:
+        return _by_lobe(map_set.header["parts"])
+    except KeyError as error:
+        raise MapSetError(f"{path} lacks one of its lobes: bake it again.") from error
+
+
+def _by_lobe(parts: list[dict[str, Any]]) -> list[list[dict[str, Any]]]:
+    lobes: dict[int, list[dict[str, Any]]] = defaultdict(list)
+    for part in parts:
         if part["role"] == "prefiltered":
-            parts[part["lobe"]].append(part)
-            if map_set.maps[part["name"]].shape[:2] != (height, width):
-                raise MapSetError(f"{path} holds maps of another size than it says: bake it again.")
-    if not parts or set(parts) != set(range(len(parts))):
-        raise MapSetError(f"{path} lacks one of its lobes: bake it again.")
-    return [sorted(parts[lobe], key=lambda part: part["elevations"][0]["mu"]) for lobe in range(len(parts))]
+            lobes[part["lobe"]].append(part)
+    by_elevation = {
+        lobe: sorted(its, key=lambda part: part["elevations"][0]["mu"]) for lobe, its in lobes.items()
+    }
+    return [by_elevation[lobe] for lobe in range(max(len(by_elevation), 1))]
+
+
+def _tables(lobes: list[list[dict[str, Any]]]) -> list[list[dict[str, Any]]]:
+    """The elevations of every lobe."""
+    return [[elevation for part in lobe for elevation in part["elevations"]] for lobe in lobes]
+
+
+def _taps(tables: list[list[dict[str, Any]]]) -> Array:
+    return _array(
+        tables, lambda elevation: [[tap[field] for field in TAP_FIELDS] for tap in elevation["taps"]]
+    )
 
 
 def _elevation(stack: LobeStack, lobe: int, number: int) -> dict[str, Any]:

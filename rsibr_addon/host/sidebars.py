@@ -1,0 +1,13 @@
+"""The sidebars of all 3D viewports."""
+
+import bpy
+
+
+def redraw_sidebars() -> None:
+    """Have the panels in them drawn again."""
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                for region in area.regions:
+                    if region.type == "UI":
+                        region.tag_redraw()

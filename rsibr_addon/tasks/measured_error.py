@@ -1,0 +1,63 @@
+"""What a comparison has found of a map set, for as long as it is the same."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+from .beside import comparison_beside
+from .comparison import RESULT, Comparison, ComparisonSettings, WayError
+from .map_set_facts import map_set_content, read_once
+
+
+def measured_facts(map_set: Path, look: Any = None) -> dict[str, str]:
+    """The errors that `comparison_beside` a map set tells.
+
+    Parameters
+    ----------
+    map_set : Path
+    look : object, optional
+        Has the attributes `mode` and `warping`, if it is of radiance views: tells of drawing so alone.
+
+    Returns
+    -------
+    dict
+        In words: what -> which; empty where nothing was measured.
+
+    Raises
+    ------
+    MapSetError
+        There is no such map set.
+    """
+    comparison = _comparison(comparison_beside(map_set) / RESULT)
+    if comparison is None:
+        return {}
+    if comparison.content != map_set_content(map_set):
+        return {"Measured": "before the file changed: compare again"}
+    errors = [error for error in comparison.errors if look is None or _is_of(error, look)]
+    if not errors:
+        return {}
+    reference = "Cycles" if isinstance(comparison.settings, ComparisonSettings) else "the model itself"
+    named = len(errors) > 1
+    return {
+        **{f"Measured{f': {error.way.name}' if named else ''}": _words(error) for error in errors},
+        "Against": f"{reference}, {len(comparison.view_dirs)} views",
+    }
+
+
+@read_once
+def _comparison(path: Path) -> Comparison | None:
+    """What a comparison has written; None where there is none, or it is of another version."""
+    try:
+        return Comparison.from_json(json.loads(path.read_text(encoding="utf-8")))
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+
+
+def _is_of(error: WayError, look: Any) -> bool:
+    """Whether it is of a way that is drawn so; there are kinds with one way alone."""
+    names = ("mode", "warping")
+    return all(getattr(error.way, name, getattr(look, name)) == getattr(look, name) for name in names)
+
+
+def _words(error: WayError) -> str:
+    return f"{100.0 * error.pooled:.2g} %, at worst {100.0 * error.worst:.2g} %"

@@ -1,0 +1,118 @@
+"""Pictures in panels: of the shown map set's maps and lobes, made aside while Blender goes on."""
+
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import ExitStack
+from pathlib import Path
+
+import bpy
+import bpy.utils.previews
+from bpy.app.handlers import persistent
+
+from ..core.errors import MapSetError
+from ..host.icons import add_icon
+from ..host.sidebars import redraw_sidebars
+from ..tasks.fit_plots import lobe_picture
+from ..tasks.map_set_facts import file_stamp, map_set_fit
+from ..tasks.map_set_pictures import MapPicture, map_set_pictures
+
+SECONDS = 0.1
+"""Between two looks at whether a file has been read."""
+
+type Item = tuple[str, str, str, int, int]
+"""Of an enumeration: identifier, name, description, icon, number."""
+
+
+class MapPictures:
+    """Pictures of one map set at a time, kept while its file stays the same.
+
+    Attributes
+    ----------
+    items : list of Item
+        One for each map that there is a picture of; empty while the file is being read.
+    fault : str
+        Why there will be none; empty else.
+    """
+
+    def __init__(self) -> None:
+        self.items: list[Item] = []
+        self.fault = ""
+        self._shown: tuple[Path, tuple[int, int] | None] | None = None
+        self._icons: bpy.utils.previews.ImagePreviewCollection | None = None
+        self._reader: ThreadPoolExecutor | None = None
+        self._read: Future[list[MapPicture]] | None = None
+        self._lobes: float | None = None
+
+    def start(self, undo: ExitStack) -> None:
+        """Be ready to show; a Blender without windows has nothing to show in.
+
+        Parameters
+        ----------
+        undo : ExitStack
+            Takes what ends it.
+        """
+        if bpy.app.background:
+            return
+        self._icons = bpy.utils.previews.new()
+        self._reader = ThreadPoolExecutor(1, "rsibr-map-pictures")
+        undo.callback(self._release)
+        closed = persistent(lambda *_: self._forget())
+        bpy.app.handlers.load_pre.append(closed)
+        undo.callback(bpy.app.handlers.load_pre.remove, closed)
+
+    def show(self, path: Path) -> None:
+        """Have `items` be of this map set: at once, or when its file has been read."""
+        shown = path, file_stamp(path)
+        if shown == self._shown:
+            return
+        self._forget()
+        self._shown = shown
+        self._read = self._reader.submit(map_set_pictures, path)
+        bpy.app.timers.register(self._take, first_interval=SECONDS, persistent=True)
+
+    def lobes(self, path: Path, mu: float) -> int:
+        """The icon of the lobes of the map set that is shown.
+
+        Parameters
+        ----------
+        path : Path
+            Of a map set that tells its lobes.
+        mu : float
+            n.v, in (0, 1].
+        """
+        if self._lobes != mu:
+            self._icons.pop("lobes", None)
+            add_icon(self._icons, "lobes", lobe_picture(map_set_fit(path), mu))
+            self._lobes = mu
+        return self._icons["lobes"].icon_id
+
+    def _take(self) -> float | None:
+        """Take what has been read."""
+        if not self._read.done():
+            return SECONDS
+        try:
+            pictures = self._read.result()
+        except MapSetError as error:
+            self.fault, pictures = str(error), []
+        for number, picture in enumerate(pictures):
+            icon = add_icon(self._icons, picture.name, picture.pixels)
+            self.items.append((picture.name, picture.title, picture.name, icon, number))
+        redraw_sidebars()
+        return None
+
+    def _forget(self) -> None:
+        if bpy.app.timers.is_registered(self._take):
+            bpy.app.timers.unregister(self._take)
+        self.items.clear()
+        self._icons.clear()
+        self.fault = ""
+        self._shown = self._read = self._lobes = None
+
+    def _release(self) -> None:
+        self._forget()
+        self._reader.shutdown()
+        bpy.utils.previews.remove(self._icons)
+        self._icons = self._reader = None
+
+
+map_pictures = MapPictures()
+"""Those in the panels of this Blender."""

@@ -1,0 +1,99 @@
+"""The Result panel in Blender's window: pictures of maps and lobes, made once, gone with the file."""
+
+from collections.abc import Callable
+
+from rsibr.tests.gui.test_panel import PRELUDE
+
+PICTURES = """
+facts = importlib.import_module(ROOT + ".rsibr_addon.tasks.map_set_facts")
+panels = importlib.import_module(ROOT + ".rsibr_addon.ui.map_pictures")
+
+def look():
+    # With what timers bring meanwhile
+    for _ in range(3):
+        yield from drawn()
+
+def shown():
+    # What the sidebar shows; its widgets alone are grey and blue
+    area, region = sidebar()
+    part = xshot.grab()[::-1][region.y : region.y + region.height, region.x : region.x + region.width]
+    return part.astype(int)
+
+def scenario(told):
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.rsibr.bake_mips(filepath="/job/mips.rsibr.exr", environment="sunset", size="64", filter="box")
+        bpy.ops.rsibr.bake_stack(
+            filepath="/job/stack.rsibr.exr", environment="sunset", brdf="ward:alpha=0.3,ks=1", size=16, slices=4
+        )
+        bpy.ops.rsibr.assign(filepath="/job/mips.rsibr.exr")
+    sidebar()
+    yield from look()
+    sidebar()[1].active_panel_category = "RSIBR"
+    # The other panels would push it down and out of sight
+    for panel in bpy.types.Panel.__subclasses__():
+        if panel.__name__.startswith("RSIBR_PT_") and "result" not in panel.__name__:
+            bpy.utils.unregister_class(panel)
+    lobes = bpy.types.RSIBR_PT_result_lobes
+    bpy.utils.unregister_class(lobes)
+    lobes.bl_options = set()
+    bpy.utils.register_class(lobes)
+    yield from look()
+    yield from done(lambda: panels.map_pictures.items)
+    told["mips"] = [each[1] for each in panels.map_pictures.items]
+    yield from look()
+    before = shown()
+    bpy.context.window_manager.rsibr_result.part = "environment"
+    yield from look()
+    told["another map"] = bool((abs(shown() - before).max(axis=-1) > 30).sum() > 2000)
+    bpy.ops.rsibr.assign(filepath="/job/stack.rsibr.exr")
+    yield from look()
+    yield from done(lambda: panels.map_pictures.items)
+    told["of another"] = bpy.context.window_manager.rsibr_result.part
+    told["stack"] = [each[1] for each in panels.map_pictures.items]
+    yield from look()
+    # From here on nothing is read, however often and whatever is drawn of the same file
+    def refuse(*arguments):
+        raise AssertionError("a file is read again")
+    reading = {name: getattr(where, name) for where, name in READING}
+    for where, name in READING:
+        setattr(where, name, refuse)
+    for angle in (0.1, 0.9):
+        before = shown()
+        bpy.context.window_manager.rsibr_result.angle = angle
+        yield from look()
+        told[f"lobes at {angle}"] = bool((abs(shown() - before).max(axis=-1) > 30).sum() > 200)
+    for where, name in READING:
+        setattr(where, name, reading[name])
+    os.remove("/job/stack.rsibr.exr")
+    yield from look()
+    told["find"] = yield from press("bpy.ops.rsibr.assign(")
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.wm.read_homefile(app_template="")
+    told["after loading"] = len(panels.map_pictures.items)
+
+READING = [(facts, "read_map_set_header"), (panels, "map_set_pictures")]
+"""
+
+
+MU = ("0.12", "0.38", "0.62", "0.88")
+"""In the middle of four elevations."""
+
+
+def test_maps_and_lobes_are_shown_and_read_once(told: Callable[[str], dict]) -> None:
+    assert told(PRELUDE + PICTURES) == {
+        "mips": [f"Mip {mip}" for mip in range(7)] + ["Harmonics", "Environment"],
+        "another map": True,
+        "of another": "lobe02.slice000",
+        "stack": [
+            *(
+                f"Lobe {lobe}, n\N{DOT OPERATOR}v {mu}"
+                for lobe in (1, 2, 3)
+                for mu in (0.12, 0.38, 0.62, 0.88)
+            ),
+            "Environment",
+        ],
+        "lobes at 0.1": True,
+        "lobes at 0.9": True,
+        "find": True,
+        "after loading": 0,
+    }

@@ -8,7 +8,7 @@ from typing import Any
 
 from ..core.brdf.gallery import gallery_name
 from ..core.lobes.fit import Fit
-from ..files.kinds import lobe_stack
+from ..files.kinds import environment, lobe_stack
 from ..files.map_set import read_map_set_header
 from ..files.map_set_header import content_hash
 
@@ -52,6 +52,12 @@ def map_set_header(path: Path) -> dict[str, Any]:
         See `files.map_set.read_map_set_header`; so with all others here.
     """
     return read_map_set_header(path)
+
+
+@read_once
+def is_picture(path: Path) -> bool:
+    """Whether a file that shades is no map set, but a picture of an environment."""
+    return environment.is_environment(path)
 
 
 @read_once

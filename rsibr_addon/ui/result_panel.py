@@ -6,7 +6,7 @@ import bpy
 
 from ..core.errors import RsibrError
 from ..host.map_sets import written_path
-from ..tasks.map_set_facts import map_set_facts, map_set_fit
+from ..tasks.map_set_facts import is_picture, map_set_facts, map_set_fit
 from ..tasks.measured_error import measured_facts
 from .map_pictures import map_pictures
 from .map_set_file import draw_file, draw_remedies
@@ -26,8 +26,13 @@ class RSIBR_PT_result(bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether there is a map set."""
-        return context.object is not None and bool(context.object.rsibr.map_set)
+        """Whether there is a map set: a picture of an environment has nothing to tell."""
+        if context.object is None or not context.object.rsibr.map_set:
+            return False
+        try:
+            return not is_picture(written_path(context.object.rsibr))
+        except RsibrError:
+            return True
 
     def draw(self, context: bpy.types.Context) -> None:
         """Show its file, what it is, the errors promised and measured; and open its report."""

@@ -14,7 +14,7 @@ def look():
         yield from drawn()
 
 def shown():
-    # What the sidebar shows; its widgets alone are grey and blue
+    # What the sidebar shows
     area, region = sidebar()
     part = xshot.grab()[::-1][region.y : region.y + region.height, region.x : region.x + region.width]
     return part.astype(int)
@@ -23,7 +23,7 @@ def scenario(told):
     with bpy.context.temp_override(window=window()):
         bpy.ops.rsibr.bake_mips(filepath="/job/mips.rsibr.exr", environment="sunset", size="64", filter="box")
         bpy.ops.rsibr.bake_stack(
-            filepath="/job/stack.rsibr.exr", environment="sunset", brdf="ward:alpha=0.3,ks=1", size=16, slices=4
+            filepath="/job/stack.rsibr.exr", environment="city", brdf="ward:alpha=0.3,ks=1", size=16, slices=4
         )
         bpy.ops.rsibr.assign(filepath="/job/mips.rsibr.exr")
     sidebar()
@@ -48,6 +48,7 @@ def scenario(told):
     bpy.ops.rsibr.assign(filepath="/job/stack.rsibr.exr")
     yield from look()
     yield from done(lambda: panels.map_pictures.items)
+    # The environment was the eighth of eight
     told["of another"] = bpy.context.window_manager.rsibr_result.part
     told["stack"] = [each[1] for each in panels.map_pictures.items]
     yield from look()
@@ -81,9 +82,9 @@ MU = ("0.12", "0.38", "0.62", "0.88")
 
 def test_maps_and_lobes_are_shown_and_read_once(told: Callable[[str], dict]) -> None:
     assert told(PRELUDE + PICTURES) == {
-        "mips": [f"Mip {mip}" for mip in range(7)] + ["Harmonics", "Environment"],
+        "mips": [f"Mip {mip}" for mip in range(6)] + ["Harmonics", "Environment"],
         "another map": True,
-        "of another": "lobe02.slice000",
+        "of another": "lobe01.slice003",
         "stack": [
             *(
                 f"Lobe {lobe}, n\N{DOT OPERATOR}v {mu}"

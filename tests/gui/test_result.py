@@ -48,7 +48,7 @@ def scenario(told):
     bpy.ops.rsibr.assign(filepath="/job/stack.rsibr.exr")
     yield from look()
     yield from done(lambda: panels.map_pictures.items)
-    # The environment was the eighth of eight
+    # The environment was the eighth
     told["of another"] = bpy.context.window_manager.rsibr_result.part
     told["stack"] = [each[1] for each in panels.map_pictures.items]
     yield from look()
@@ -82,7 +82,7 @@ MU = ("0.12", "0.38", "0.62", "0.88")
 
 def test_maps_and_lobes_are_shown_and_read_once(told: Callable[[str], dict]) -> None:
     assert told(PRELUDE + PICTURES) == {
-        "mips": [f"Mip {mip}" for mip in range(6)] + ["Harmonics", "Environment"],
+        "mips": [f"Mip {mip}" for mip in range(7)] + ["Environment", "Harmonics"],
         "another map": True,
         "of another": "lobe01.slice003",
         "stack": [

@@ -23,16 +23,22 @@ class UnpackedFiles:
     """Packed map sets, written out once for as long as this Blender runs: whoever reads one needs a file."""
 
     def __init__(self) -> None:
-        self._paths: dict[tuple[int, int, int], Path] = {}
+        self._paths: dict[int, tuple[tuple[int, int], Path]] = {}
 
     def path(self, image: bpy.types.Image) -> Path:
         """Where a packed image's bytes are written to, whether they are there yet or not."""
-        # The bytes are read only when they are others: another image, or packed anew
+        # They are read when they are others only: it would take long for every frame
         packed = image.packed_file
-        key = (image.session_uid, packed.as_pointer(), packed.size)
-        if key not in self._paths:
-            self._paths[key] = self._folder() / hashlib.sha256(packed.data).hexdigest() / _file_name(image)
-        return self._paths[key]
+        stamp = packed.as_pointer(), packed.size
+        known, path = self._paths.get(image.session_uid, (None, Path()))
+        if known != stamp:
+            path = self._folder() / hashlib.sha256(packed.data).hexdigest() / _file_name(image)
+            self._paths[image.session_uid] = stamp, path
+        return path
+
+    def forget(self, image: bpy.types.Image) -> None:
+        """Note that an image is not packed; other bytes may come to where its own were."""
+        self._paths.pop(image.session_uid, None)
 
     def write(self, image: bpy.types.Image) -> Path:
         """Write a packed image's bytes, unless they are there.
@@ -49,13 +55,9 @@ class UnpackedFiles:
                 aside.write_bytes(image.packed_file.data)
         return path
 
-    def forget(self) -> None:
-        """Look at the packed bytes anew."""
-        self._paths.clear()
-
     def remove(self) -> None:
         """Take all of them from the disk."""
-        self.forget()
+        self._paths.clear()
         shutil.rmtree(self._folder(), ignore_errors=True)
 
     def _folder(self) -> Path:
@@ -104,7 +106,10 @@ def planned_path(settings: Settings) -> str:
     image = settings.image
     if image is None:
         return ""
-    return str(unpacked.path(image)) if image.packed_file else _absolute(image)
+    if image.packed_file:
+        return str(unpacked.path(image))
+    unpacked.forget(image)
+    return _absolute(image)
 
 
 def written_path(settings: Settings) -> Path:
@@ -138,7 +143,6 @@ def pack(settings: Settings) -> None:
         raise OutputFileError(
             f"{planned_path(settings)} cannot be packed ({error}): keep it beside the .blend."
         ) from error
-    unpacked.forget()
 
 
 def unpack(settings: Settings, folder: Path) -> Path:

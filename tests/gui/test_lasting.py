@@ -107,6 +107,47 @@ def scenario(told):
         told["sentence"] = str(error)
 """
 
+AGAIN = """
+background = importlib.import_module(ROOT + ".operators.background")
+module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport")
+orders = importlib.import_module(ROOT + ".rsibr_addon.tasks.bake_order")
+
+def scenario(told):
+    yield from looked_at()
+    cube, scene = bpy.data.objects["Cube"], bpy.context.scene
+    save("/job/lasting/car.blend")
+    chosen = scene.rsibr_bake
+    chosen.kind, chosen.light, chosen.studio = "mip_chain", "STUDIO", "forest"
+    chosen.mip_chain.size, chosen.mip_chain.filter = "64", "box"
+    path = orders.output_for(orders.order_for(scene, cube), scene, cube)
+    bpy.ops.rsibr.bake_mips(filepath=str(path), environment="forest", size="64", filter="box")
+    bpy.ops.rsibr.bake()
+    told["taken"] = bpy.path.abspath(cube.rsibr.map_set) == str(path)
+    yield from drawn()
+    np.save(FIRST, pixels())
+    path.unlink()
+    chosen.light, chosen.mip_chain.size = "WORLD", "128"
+    bpy.ops.rsibr.reload_map_sets()
+    yield from drawn()
+    fault = f"{path} does not exist: check the name and the folder."
+    told["missing"] = [as_at_first(), module.previews.fault(cube) == fault]
+    bpy.ops.rsibr.bake_again()
+    told["baking"] = background.queue.busy
+    while background.queue.busy:
+        yield
+    yield from drawn()
+    told["again"] = [as_at_first(), module.previews.fault(cube), path.is_file()]
+"""
+
+
+def test_a_map_set_that_is_gone_is_baked_again(told: Told) -> None:
+    assert told(PRELUDE + AGAIN) == {
+        "taken": True,
+        "missing": [False, True],
+        "baking": True,
+        "again": [True, None, True],
+    }
+
 
 def test_a_preview_is_the_same_in_every_file_that_has_the_object(told: Told) -> None:
     saved = told(PRELUDE + SAVE)

@@ -40,9 +40,12 @@ def look() -> None:
     """Notice what has happened to the bakes, assign what is done, and have the panel show it."""
     for bake in queue.update():
         bake.tidy()
+        _count_as_done_if_another_made_it(bake)
+        if bake.state is not State.DONE:
+            continue
         if bake.output.suffix == ".html":
-            _open(bake)
-        elif _is_made(bake):
+            bpy.ops.wm.url_open(url=bake.output.resolve().as_uri())
+        else:
             for item in bake.items:
                 assign(item, bake.output, bake.settings)
             previews.reload()  # it may have replaced a file that is shown
@@ -55,14 +58,10 @@ def _look() -> float | None:
     return SECONDS if queue.busy else None
 
 
-def _is_made(bake: ObjectBake) -> bool:
-    """Whether its file is there: it may have failed because another Blender was making the same."""
-    return bake.state is State.DONE or (bake.state is State.FAILED and is_baked(bake.output))
-
-
-def _open(page: ObjectBake) -> None:
-    if page.state is State.DONE:
-        bpy.ops.wm.url_open(url=page.output.resolve().as_uri())
+def _count_as_done_if_another_made_it(bake: ObjectBake) -> None:
+    """Of two Blenders that make the same at once, one finds that the file is there when it would write it."""
+    if bake.state is State.FAILED and bake.output.suffix != ".html" and is_baked(bake.output):
+        bake.state, bake.message = State.DONE, ""
 
 
 def _push_undo(message: str) -> None:

@@ -1,0 +1,86 @@
+"""Two Blenders bake the same: each has the whole map set in the end, or says whom to wait for."""
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from rsibr.tests.gui.test_panel import PRELUDE
+
+type Told = Callable[[str], dict]
+
+OTHER = """
+bake_order = importlib.import_module(ROOT + ".rsibr_addon.tasks.bake_order")
+
+def another_blender(cube):
+    # A bake of the same that is in another Blender's queue
+    order = bake_order.order_for(bpy.context.scene, cube)
+    output = bake_order.output_for(order, bpy.context.scene, cube)
+    queue = type(background.queue)()
+    queue.add(bake_order.bake_of(order, cube, output))
+    return queue
+
+def ended(queue):
+    while queue.busy:
+        queue.update()
+        yield
+    return queue.bakes[0]
+
+def told_of(bake):
+    return [str(bake.state), bake.message]
+"""
+
+LOCKED = """
+def scenario(told):
+    settings()
+    cube = bpy.data.objects["Cube"]
+    others = another_blender(cube)
+    yield from done(lambda: finished_views(others.bakes[0]) >= 1)
+    bake()
+    yield from done()
+    told["folder"] = f"{background.queue.bakes[0].output}.partial"
+    told["ours"], told["assigned"] = told_of(background.queue.bakes[0]), cube.rsibr.map_set
+    told["other's"] = told_of((yield from ended(others)))
+    bake()
+    told["then"] = [len(background.queue.bakes), os.path.basename(cube.rsibr.map_set)]
+    told["files"] = os.listdir(others.bakes[0].output.parent)
+"""
+
+AT_ONCE = """
+def scenario(told):
+    settings().kind = "mip_chain"
+    cube = bpy.data.objects["Cube"]
+    others = another_blender(cube)
+    bake()
+    yield from done()
+    other = yield from ended(others)
+    told["ours"], told["other's"] = told_of(background.queue.bakes[0]), told_of(other)
+    told["output"], told["assigned"] = str(other.output), os.path.basename(cube.rsibr.map_set)
+    told["whole"] = bake_order.is_baked(other.output)
+    told["files"] = os.listdir(other.output.parent)
+"""
+
+
+@pytest.fixture(autouse=True)
+def _nothing_baked(job: Path) -> None:
+    for folder in job.glob("user/extensions/.user/*/rsibr/baked"):
+        shutil.rmtree(folder)
+
+
+def test_one_of_two_captures_waits_for_the_other(told: Told) -> None:
+    answer = told(PRELUDE + OTHER + LOCKED)
+    folder = answer["folder"]
+    sentence = f"Another process is working in {folder}: wait for it, or end it."
+    assert answer["ours"] == ["failed", sentence]
+    assert answer["assigned"] == ""
+    assert answer["other's"] == ["done", ""]
+    assert [answer["then"][1]] == answer["files"] == [Path(folder).stem]
+
+
+def test_of_two_at_once_both_have_the_file(told: Told) -> None:
+    answer = told(PRELUDE + OTHER + AT_ONCE)
+    exists = f"{answer['output']} exists: give another name, or --force to replace it."
+    assert answer["ours"] == ["done", ""]
+    assert answer["other's"] in (["done", ""], ["failed", exists])
+    assert answer["whole"]
+    assert [answer["assigned"]] == answer["files"] == [Path(answer["output"]).name]

@@ -19,6 +19,8 @@ from .reading import opened
 MAGIC = b"\x76\x2f\x31\x01"
 """The first four bytes of every OpenEXR file."""
 
+OpenEXR.set_global_thread_count(os.cpu_count() or 1)
+
 _reading = threading.Lock()
 
 

@@ -4,6 +4,7 @@ import contextlib
 import hashlib
 import json
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -124,7 +125,10 @@ def read_map_set(path: str | Path, kind: str | None = None) -> MapSet:
         raise MapSetError(f"{path} holds {header['kind']}, but {kind} are needed here: give another map set.")
     with _as_map_set_error():
         found = {part.name: part for part in read_parts(path)}
-    maps = {part["name"]: _checked_pixels(path, part, found.pop(part["name"])) for part in header["parts"]}
+    # Most of the time goes into sums and copies, for which Python lets other threads run
+    with ThreadPoolExecutor() as threads:
+        checked = threads.map(lambda part: _checked_pixels(path, part, found[part["name"]]), header["parts"])
+        maps = {part["name"]: pixels for part, pixels in zip(header["parts"], checked, strict=True)}
     kept = {field: value for field, value in header.items() if field not in ("format", "kind")}
     kept["parts"] = [
         {field: value for field, value in part.items() if field not in DERIVED} for part in header["parts"]

@@ -76,12 +76,15 @@ class OpenedMapSet:
         The light it was made in; None where the file does not hold it.
     material : dict
         Of the map set's header.
+    texels : int
+        How many the file holds.
     """
 
     kind: str
     subject: Any
     environment: Environment | None
     material: dict[str, Any]
+    texels: int
 
     def upload(self) -> OnDevice:
         """Put the subject on the GPU.
@@ -148,4 +151,5 @@ def open_map_set(path: Path, kind: str | None = None) -> OpenedMapSet:
         KINDS[map_set.kind].from_map_set(path, map_set),
         environment.from_map_set(path, map_set) if map_set.header["environment"]["part"] else None,
         map_set.header["material"],
+        sum(pixels.shape[0] * pixels.shape[1] for pixels in map_set.maps.values()),
     )

@@ -11,15 +11,15 @@ from ..core.conventions import Array
 from ..core.display import table_radiance
 from ..core.errors import RsibrError
 from ..device import buffers
-from ..device.drawing import OnDevice
 from ..device.viewport import Sight, Stage, current_sight, draw_occluder
 from ..host.display import Display, display_of, displayed_colours, scale_before_display
 from ..host.live_light import is_live_name, shows_surroundings
 from ..host.map_sets import written_path
 from ..host.viewport import Layer, Surface, View, is_wanted, map_set_of, shown_layers, surfaces
 from ..host.world_light import AS_IT_IS
-from .kinds import KINDS, open_map_set
+from .kinds import KINDS
 from .live_light import LiveLight
+from .viewport_map_sets import UnusedMapSets, UploadedMapSet, upload_map_set
 from .viewport_meshes import UploadedMeshes
 
 DISPLAYS_KEPT = 4
@@ -41,12 +41,6 @@ class _Contents:
     previews: list[_Preview]
     others: list[Surface] | None
     changed: bool = False
-
-
-@dataclass(frozen=True)
-class _MapSet:
-    kind: str
-    on_device: OnDevice
 
 
 @dataclass(frozen=True)
@@ -72,7 +66,8 @@ class Previews:
         self._stage, self._other_stage = Stage(), Stage()
         self._contents: dict[Layer, _Contents] = {}
         self._meshes = UploadedMeshes()
-        self._map_sets: dict[str, _MapSet] = {}
+        self._map_sets: dict[str, UploadedMapSet] = {}
+        self._unused = UnusedMapSets()
         self._live: dict[str, LiveLight] = {}
         self._displays: dict[Display, Any] = {}
         self._learnt: dict[Display, Array] = {}
@@ -95,6 +90,7 @@ class Previews:
     def reload(self) -> None:
         """Read the map sets' files anew, and try again what failed."""
         self._map_sets.clear()
+        self._unused = UnusedMapSets()
         self._live.clear()
         self._faults.clear()
         self.trouble = None
@@ -242,7 +238,8 @@ class Previews:
         others = [each for contents in self._contents.values() for each in contents.others or ()]
         self._meshes.keep([*(each.surface for each in previews), *others])
         paths = {each.path for each in previews}
-        self._map_sets = {path: map_set for path, map_set in self._map_sets.items() if path in paths}
+        for path in self._map_sets.keys() - paths:
+            self._unused.keep(path, self._map_sets.pop(path))
         self._live = {name: light for name, light in self._live.items() if name in paths}
         self._looks = {shown: looks for shown, looks in self._looks.items() if shown[1] in paths}
 
@@ -268,12 +265,12 @@ class Previews:
         light = self._live.get(preview.path)
         return preview.path in self._map_sets and (light is None or light.is_ready)
 
-    def _opened(self, preview: _Preview) -> _MapSet:
+    def _opened(self, preview: _Preview) -> UploadedMapSet:
         if is_live_name(preview.path):
             light = self._live[preview.path] = LiveLight(int(preview.surface.item.rsibr.live.size))
-            return _MapSet("mip_chain", light.on_device)
-        opened = open_map_set(written_path(preview.surface.item.rsibr))
-        return _MapSet(opened.kind, opened.upload())
+            return UploadedMapSet("mip_chain", light.on_device)
+        path = written_path(preview.surface.item.rsibr)
+        return self._unused.take(preview.path, path) or upload_map_set(path)
 
     def _draw_one(self, preview: _Preview, view: View, sight: Sight, other: bool) -> None:
         map_set, surface = self._map_sets[preview.path], preview.surface

@@ -85,7 +85,7 @@ def scenario(told):
     with bpy.context.temp_override(window=window()):
         bpy.ops.wm.save_as_mainfile(filepath="/job/flat.blend")
         bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    told["held by an empty file"] = held()
+    told["held by an empty file"] = [*held(), len(module.previews._unused)]
     yield from drawn()
     with bpy.context.temp_override(window=window()):
         bpy.ops.wm.open_mainfile(filepath="/job/flat.blend")
@@ -96,7 +96,7 @@ def scenario(told):
 
 def test_files_are_closed_and_opened(told: Told) -> None:
     answer = told(PRELUDE + RELOAD)
-    assert answer["held by an empty file"] == [0, 0, 0]
+    assert answer["held by an empty file"] == [0, 0, 0, 0]
     assert answer["reopened"] == answer["before"] > 2000
 
 
@@ -110,7 +110,7 @@ def scenario(told):
     addon_utils.disable(ROOT)
     yield from drawn()
     told["disabled"] = purple()
-    told["held"] = held()
+    told["held"] = [*held(), len(module.previews._unused)]
     told["handlers"] = [
         function.__module__
         for name in dir(bpy.app.handlers)
@@ -128,7 +128,7 @@ def scenario(told):
 def test_disabling_leaves_nothing_behind(told: Told) -> None:
     answer = told(PRELUDE + DISABLE)
     assert answer["enabled"] == answer["before"] > 2000
-    assert (answer["disabled"], answer["held"]) == (0, [0, 0, 0])
+    assert (answer["disabled"], answer["held"]) == (0, [0, 0, 0, 0])
     assert (answer["handlers"], answer["property"]) == ([], False)
 
 
@@ -365,3 +365,34 @@ def test_a_look_shows_at_once_and_uploads_nothing(told: Told) -> None:
     assert not answer["kept another mesh"]
     assert answer["held"][:2] == [1, 1]
     assert answer["hidden"] == [0, 0]
+
+
+SWITCH = """
+import shutil
+
+def scenario(told):
+    cube = previewed_cube()
+    yield from drawn()
+    first = uploaded()
+    shutil.copy("/job/flat.rsibr.exr", "/job/later.rsibr.exr")
+    cube.rsibr.map_set = "/job/later.rsibr.exr"
+    yield from drawn()
+    second = uploaded()
+    told["another"] = second[1] == first[1]
+    cube.rsibr.map_set = "/job/flat.rsibr.exr"
+    yield from drawn()
+    told["back"] = [purple(), uploaded() == first]
+    shutil.copy("/job/flat.rsibr.exr", "/job/later.rsibr.exr")
+    cube.rsibr.map_set = "/job/later.rsibr.exr"
+    yield from drawn()
+    told["written anew"] = [purple(), uploaded()[1] == second[1]]
+"""
+
+
+def test_going_back_to_a_map_set_uploads_nothing_unless_its_file_is_another(told: Told) -> None:
+    answer = told(PRELUDE + SWITCH)
+    shown, kept = answer["back"]
+    assert shown > 2000
+    assert kept
+    assert not answer["another"]
+    assert answer["written anew"] == [shown, False]

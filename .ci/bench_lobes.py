@@ -130,7 +130,7 @@ def from_graphics_memory(stack: LobeStack, points: Points) -> Array:
     numbers = LAYOUTS.index(stack.layout), lobes, stack.taps.shape[2], slices
     code = (
         f"result_0.rgb = stack_radiance(maps, elevations, {', '.join(map(str, numbers))}, "
-        f"normalize(in_0.xyz), normalize(in_1.xyz));"
+        f"normalize(in_0.xyz), normalize(in_1.xyz), vec3(0.0), vec3(0.0));"
     )
     samplers = {
         "maps": ("FLOAT_3D", buffers.texture_3d(map_texels(stack), "RGBA16F")),

@@ -6,6 +6,8 @@ void main()
 {
   vec3 unit_normal = normalize(world_normal);
   vec3 view_dir = view_direction(draw.eye, world_position);
+  // What the pixel reflects, taking neighbours' differences for its own; or nothing but its middle.
+  vec3 mirror_dir = reflect_dir(view_dir, facing_normal(unit_normal, view_dir));
   radiance.rgb = stack_radiance(maps,
                                 elevations,
                                 int(stack.layout_number),
@@ -13,6 +15,8 @@ void main()
                                 int(stack.taps),
                                 int(stack.slices),
                                 unit_normal,
-                                view_dir);
+                                view_dir,
+                                stack.antialiased * dFdx(mirror_dir),
+                                stack.antialiased * dFdy(mirror_dir));
   radiance.a = 1.0;
 }

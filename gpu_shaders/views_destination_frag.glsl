@@ -1,5 +1,6 @@
 // Twin of core/shading `destination_lookup`: shades from the sphere map of one view.
 #include "lib/draw_lib.glsl"
+#include "lib/footprint_lib.glsl"
 #include "lib/radiance_views_lib.glsl"
 
 void main()
@@ -8,10 +9,21 @@ void main()
   vec3 view_dir = view_direction(draw.eye, world_position);
   mat3 frame = camera_frame(destination.view_dir.xyz);
   vec2 normal_uv = uv_from_normal(unit_normal * frame);
-  vec2 mirror_uv = uv_from_direction(reflect_dir(view_dir, unit_normal) * frame);
+  // What the pixel reflects, taking neighbours' differences for its own; or nothing but its middle.
+  vec3 mirror_dir = reflect_dir(view_dir, unit_normal);
+  vec3 across = mode.antialiased * dFdx(mirror_dir);
+  vec3 up = mode.antialiased * dFdy(mirror_dir);
+  float texel_angle = sphere_map_texel_angle(float(textureSize(by_mirror, 0).x));
+  ivec2 counts = sample_counts(across, up, texel_angle);
+  int lookups = counts.x * counts.y;
+  vec3 glossy = vec3(0.0);
+  for (int number = 0; number < lookups; number++) {
+    vec3 direction = sample_direction(mirror_dir, across, up, counts, number);
+    glossy += textureLod(by_mirror, uv_from_direction(direction * frame), 0.0).rgb;
+  }
   int warping = int(mode.warping);
   float cosine = dot(unit_normal, view_dir);
   radiance.rgb = textureLod(by_normal, normal_uv, 0.0).rgb * albedo_at(albedo, warping, WARP_NORMAL, cosine) +
-                 textureLod(by_mirror, mirror_uv, 0.0).rgb * albedo_at(albedo, warping, WARP_MIRROR, cosine);
+                 glossy / float(lookups) * albedo_at(albedo, warping, WARP_MIRROR, cosine);
   radiance.a = 1.0;
 }

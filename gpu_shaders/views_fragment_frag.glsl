@@ -1,5 +1,6 @@
 // Twin of core/shading `views_fragment`: every fragment finds and blends its own three views.
 #include "lib/draw_lib.glsl"
+#include "lib/footprint_lib.glsl"
 #include "lib/geodesic_lib.glsl"
 #include "lib/radiance_views_lib.glsl"
 
@@ -12,10 +13,22 @@ void main()
   vec3 weights = barycentric_weights(view_dir, corners[0], corners[1], corners[2]);
   int warping = int(mode.warping);
   float cosine = dot(unit_normal, view_dir);
-  radiance = vec4(0.0, 0.0, 0.0, 1.0);
-  for (int warp = WARP_NORMAL; warp <= WARP_MIRROR; warp++) {
-    radiance.rgb += albedo_at(albedo, warping, warp, cosine) *
-                    warp_and_blend(
-                        views, albedo, warping, warp, unit_normal, view_dir, sources, corners, weights);
+  vec3 by_normal = warp_and_blend(
+      views, albedo, warping, WARP_NORMAL, unit_normal, view_dir, sources, corners, weights);
+  // What the pixel reflects, taking neighbours' differences for its own; or nothing but its middle.
+  vec3 mirror_dir = reflect_dir(view_dir, unit_normal);
+  vec3 across = mode.antialiased * dFdx(mirror_dir);
+  vec3 up = mode.antialiased * dFdy(mirror_dir);
+  float texel_angle = sphere_map_texel_angle(float(textureSize(views, 0).x));
+  ivec2 counts = sample_counts(across, up, texel_angle);
+  int lookups = counts.x * counts.y;
+  vec3 by_mirror = vec3(0.0);
+  for (int number = 0; number < lookups; number++) {
+    vec3 normal = mirror_normal(view_dir, sample_direction(mirror_dir, across, up, counts, number));
+    by_mirror += warp_and_blend(
+        views, albedo, warping, WARP_MIRROR, normal, view_dir, sources, corners, weights);
   }
+  radiance.rgb = by_normal * albedo_at(albedo, warping, WARP_NORMAL, cosine) +
+                 by_mirror / float(lookups) * albedo_at(albedo, warping, WARP_MIRROR, cosine);
+  radiance.a = 1.0;
 }

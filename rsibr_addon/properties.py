@@ -35,6 +35,12 @@ class RSIBR_PG_radiance_views(bpy.types.PropertyGroup):
             ("single", "Single", "All light by the mirror direction, as in the paper of 1999"),
         ],
     )
+    antialiased: bpy.props.BoolProperty(
+        name="Antialiased",
+        description="Average glossy light over what each pixel reflects, so that small lamps do not shimmer",
+        update=_notice,
+        default=True,
+    )
 
 
 def _weight(name: str, description: str) -> Any:
@@ -81,6 +87,12 @@ class RSIBR_PG_lobe_stack(bpy.types.PropertyGroup):
     )
     lobes: bpy.props.IntProperty(
         name="Lobe", description="Number of the lobe that is shown, from 0", update=_notice, min=0, soft_max=7
+    )
+    antialiased: bpy.props.BoolProperty(
+        name="Antialiased",
+        description="Average light over what each pixel reflects, so that small lamps do not shimmer",
+        update=_notice,
+        default=True,
     )
 
 

@@ -5,6 +5,13 @@ vec3 reflect_dir(vec3 view_dir, vec3 normal)
   return 2.0 * dot(normal, view_dir) * normal - view_dir;
 }
 
+// The inverse: 0, which is as good there, where both directions are opposite.
+vec3 mirror_normal(vec3 view_dir, vec3 mirror_dir)
+{
+  vec3 both = view_dir + mirror_dir;
+  return both / max(length(both), 1e-9);
+}
+
 // eta: index of refraction behind the surface over that in front of it. Beyond the critical angle, the
 // direction along the surface.
 vec3 refract_dir(vec3 view_dir, vec3 normal, float eta)

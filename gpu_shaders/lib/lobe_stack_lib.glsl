@@ -5,6 +5,7 @@
 // one for all. Around every sheet lies a border of one texel: what continues it on the sphere.
 #include "lib/directions_lib.glsl"
 #include "lib/dual_paraboloid_lib.glsl"
+#include "lib/footprint_lib.glsl"
 #include "lib/octahedral_lib.glsl"
 
 #define LAYOUT_DUAL_PARABOLOID 0
@@ -77,6 +78,18 @@ vec3 map_radiance(sampler3D maps, int layout_number, int slices, int lobe, vec3 
   return textureLod(maps, texel / texture_size, 0.0).rgb;
 }
 
+// How far texels are apart around a unit direction, in radians.
+float stack_texel_angle(int layout_number, float size, vec3 direction)
+{
+  vec3 part = abs(direction);
+  if (layout_number == LAYOUT_OCTAHEDRAL) {
+    float sum = part.x + part.y + part.z;
+    return 2.0 / size * sum * sqrt(sum);
+  }
+  return 2.0 / (size - 1.0) * (1.0 + part.y);
+}
+
+// The mean over what a pixel reflects, whose sides are across and up.
 vec3 stack_radiance(sampler3D maps,
                     sampler2D elevations,
                     int layout_number,
@@ -84,26 +97,36 @@ vec3 stack_radiance(sampler3D maps,
                     int taps,
                     int slices,
                     vec3 shading_normal,
-                    vec3 view_dir)
+                    vec3 view_dir,
+                    vec3 across,
+                    vec3 up)
 {
   vec3 normal = facing_normal(shading_normal, view_dir);
   vec3 mirror_dir = reflect_dir(view_dir, normal);
   vec2 elevation = elevation_at(elevations, dot(normal, view_dir));
-  vec3 radiance = vec3(0.0);
-  for (int lobe = 0; lobe < lobes; lobe++) {
-    int row = 1 + lobe * (taps + 1);
-    vec3 scale = elevation_value(elevations, row, elevation);
-    for (int tap = 1; tap <= taps; tap++) {
-      vec3 lookup = elevation_value(elevations, row + tap, elevation);
-      if (lookup.z == 0.0) {
-        // Lobes of one tap, among others of several
-        continue;
+  float size = float(textureSize(maps, 0).x) - 2.0;
+  ivec2 counts = sample_counts(across, up, stack_texel_angle(layout_number, size, mirror_dir));
+  int lookups = counts.x * counts.y;
+  vec3 mean = vec3(0.0);
+  for (int number = 0; number < lookups; number++) {
+    vec3 direction = sample_direction(mirror_dir, across, up, counts, number);
+    vec3 radiance = vec3(0.0);
+    for (int lobe = 0; lobe < lobes; lobe++) {
+      int row = 1 + lobe * (taps + 1);
+      vec3 scale = elevation_value(elevations, row, elevation);
+      for (int tap = 1; tap <= taps; tap++) {
+        vec3 lookup = elevation_value(elevations, row + tap, elevation);
+        if (lookup.z == 0.0) {
+          // Lobes of one tap, among others of several
+          continue;
+        }
+        vec3 axis = lobe_axis(normal, direction, lookup.xy);
+        radiance += lookup.z * scale *
+                    map_radiance(maps, layout_number, slices, lobe, axis, elevation.x + elevation.y);
       }
-      vec3 axis = lobe_axis(normal, mirror_dir, lookup.xy);
-      radiance += lookup.z * scale *
-                  map_radiance(maps, layout_number, slices, lobe, axis, elevation.x + elevation.y);
     }
+    // Signed lobes may sum to less than nothing.
+    mean += max(radiance, 0.0) / float(lookups);
   }
-  // Signed lobes may sum to less than nothing.
-  return max(radiance, 0.0);
+  return mean;
 }

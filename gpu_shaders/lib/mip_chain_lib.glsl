@@ -30,7 +30,7 @@ vec3 glossy_radiance(sampler2D atlas, vec3 direction, float level, bool clamped)
   return mix(near, mip_radiance(atlas, int(mip) + 1, place, clamped), level - mip);
 }
 
-// The mean over what a pixel reflects, whose sides are across and up: lookups a texel apart, or as far apart as
+// The mean over what a pixel reflects, whose sides are across and up: lookups a texel apart, or as far as
 // the texels of the mip that they are taken from.
 vec3 glossy_mean(sampler2D atlas,
                  vec3 mirror_dir,

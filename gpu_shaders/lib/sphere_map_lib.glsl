@@ -30,3 +30,9 @@ vec2 uv_from_direction(vec3 direction)
   // (0, 0, -1) is the whole rim; its rightmost point stands for it.
   return uv_from_normal((len > 1e-6) ? half_dir / len : vec3(1.0, 0.0, 0.0));
 }
+
+// How far texels are apart in what a mirrored sphere shows, in radians: everywhere the same.
+float sphere_map_texel_angle(float size)
+{
+  return 4.0 / size;
+}

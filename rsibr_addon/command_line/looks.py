@@ -13,7 +13,7 @@ KIND_OF: dict[str, tuple[str, ...]] = {
     "lobes": ("lobe_stack",),
     "shown": ("reflection_tables",),
     **dict.fromkeys(WEIGHTS, ("reflection_tables",)),
-    "antialiased": ("reflection_tables", "mip_chain", "environment"),
+    "antialiased": ("radiance_views", "lobe_stack", "reflection_tables", "mip_chain", "environment"),
     "f_lambda": ("mip_chain", "environment"),
     "k_d": ("mip_chain",),
     "bias": ("mip_chain",),

@@ -69,6 +69,30 @@ def reflect(view_dir: ArrayLike, normal: ArrayLike) -> Array:
     return mirrored
 
 
+def mirror_normal(view_dir: ArrayLike, mirror_dir: ArrayLike) -> Array:
+    """The normal of a mirror that shows a direction: the inverse of `reflect`.
+
+    Parameters
+    ----------
+    view_dir, mirror_dir : array_like, shape (..., 3)
+        Unit vectors, both pointing away from the surface.
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        Halfway between them; 0 where they are opposite, which `reflect` takes back to the mirror direction,
+        too.
+
+    Notes
+    -----
+    GLSL twin: gpu_shaders/lib/directions_lib.glsl `mirror_normal`, 1e-6 over their sum's length.
+    """
+    both = np.asarray(view_dir) + np.asarray(mirror_dir)
+    length = np.linalg.norm(both, axis=-1, keepdims=True)
+    normal: Array = both / np.maximum(length, 1e-9)
+    return normal
+
+
 def refract(view_dir: ArrayLike, normal: ArrayLike, eta: float) -> Array:
     """Direction in which an eye sees on through a surface that refracts.
 

@@ -42,14 +42,17 @@ class LobeStackOnDevice:
         self._maps = buffers.texture_3d(texels, "RGBA16F" if half else "RGBA32F")
         lobes, slices = stack.maps.shape[:2]
         numbers = LAYOUTS.index(stack.layout), lobes, stack.taps.shape[2], slices
-        self._block = buffers.uniform_block(np.array(numbers, dtype=np.float64))
+        self._blocks = [
+            buffers.uniform_block(np.array(numbers, dtype=np.float64), np.array([antialiased]))
+            for antialiased in (0.0, 1.0)
+        ]
         self._elevations: dict[tuple[int, ...], gpu.types.GPUTexture] = {}
 
     def draw(self, mesh: MeshOnDevice, draw: Draw, look: StackLook) -> None:
         """See `OnDevice.draw`. Reference: core/shading/lobe_stack.py."""
         shader = lobe_stack_shader()
         shader.bind()
-        shader.uniform_block("stack", self._block)
+        shader.uniform_block("stack", self._blocks[look.antialiased])
         shader.uniform_sampler("elevations", self._elevations_of(look))
         shader.uniform_sampler("maps", self._maps)
         mesh.draw(shader, draw)

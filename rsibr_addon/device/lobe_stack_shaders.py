@@ -4,7 +4,10 @@ import gpu
 
 from .shaders import build, kept_until_exit, mesh_interface
 
-_STACK_BLOCK = "struct Stack { float layout_number; float lobes; float taps; float slices; };"
+_STACK_BLOCK = (
+    "struct Stack { float layout_number; float lobes; float taps; float slices; "
+    "float antialiased; float unused_0; float unused_1; float unused_2; };"
+)
 
 
 @kept_until_exit

@@ -37,8 +37,11 @@ class RadianceViewsOnDevice:
         self._geodesic = buffers.texture(_geodesic_texels(views.sphere))
         last_level = len(views.sphere.levels) - 1
         self._modes = {
-            warping: buffers.uniform_block(np.array([float(number), float(last_level)]))
+            (warping, antialiased): buffers.uniform_block(
+                np.array([float(number), float(last_level), float(antialiased)])
+            )
             for number, warping in enumerate(Warping)
+            for antialiased in (False, True)
         }
         self._view_dir = buffers.KeptBlock()
         self._targets = (buffers.render_target(views.size), buffers.render_target(views.size))
@@ -65,7 +68,7 @@ class RadianceViewsOnDevice:
             shader.uniform_block("destination", destination)
             shader.uniform_sampler("by_normal", self._targets[0])
             shader.uniform_sampler("by_mirror", self._targets[1])
-        shader.uniform_block("mode", self._modes[look.warping])
+        shader.uniform_block("mode", self._modes[look.warping, look.antialiased])
         shader.uniform_sampler("albedo", self._albedo)
         mesh.draw(shader, draw)
 
@@ -79,7 +82,7 @@ class RadianceViewsOnDevice:
             gpu.state.depth_test_set("NONE")
             shader.bind()
             shader.uniform_block("destination", destination)
-            shader.uniform_block("mode", self._modes[look.warping])
+            shader.uniform_block("mode", self._modes[look.warping, look.antialiased])
             shader.uniform_sampler("views", self._views)
             shader.uniform_sampler("albedo", self._albedo)
             shader.uniform_sampler("sphere", self._geodesic)

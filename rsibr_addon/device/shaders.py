@@ -12,7 +12,7 @@ from .shader_source import shader_source
 # Uniform blocks hold vec4 and mat4 alone: the layout is then the same for every driver.
 _DRAW_BLOCK = "struct Draw { mat4 model; mat4 view; mat4 projection; mat4 turn; vec4 eye; };"
 _DESTINATION_BLOCK = "struct Destination { vec4 view_dir; };"
-_MODE_BLOCK = "struct Mode { float warping; float last_level; float unused_0; float unused_1; };"
+_MODE_BLOCK = "struct Mode { float warping; float last_level; float antialiased; float unused_0; };"
 
 
 def kept_until_exit(build: Callable[[], gpu.types.GPUShader]) -> Callable[[], gpu.types.GPUShader]:

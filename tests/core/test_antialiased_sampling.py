@@ -9,8 +9,10 @@ from rsibr.rsibr_addon.core.antialiased.footprint import (
 )
 from rsibr.rsibr_addon.core.antialiased.sampling import MOST, sample_counts, samples
 from rsibr.rsibr_addon.core.directions import normalize
-from rsibr.rsibr_addon.core.maps import cube_map
+from rsibr.rsibr_addon.core.lobes.stack import LAYOUTS
+from rsibr.rsibr_addon.core.maps import cube_map, sphere_map
 from rsibr.rsibr_addon.core.maps.representation import representation
+from rsibr.tests.lobe_stacks import random_stack
 
 RNG = np.random.default_rng(71)
 MIDDLE = normalize(RNG.normal(size=(300, 3)))
@@ -61,6 +63,22 @@ def test_texels_of_a_cube_are_as_far_apart_as_their_solid_angles_say() -> None:
     # A texel of 1/32 changes its solid angle by less than a thousandth within itself.
     expected = np.sqrt(cube_map.texel_solid_angle(64))
     np.testing.assert_allclose(cube_map.texel_angle(directions, 64), expected, rtol=1e-3)
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_texels_of_a_stack_are_as_far_apart_as_their_solid_angles_say(layout: str) -> None:
+    stack = random_stack(layout, 64)
+    own = stack.representation
+    expected = np.sqrt(own.texel_solid_angle(64))
+    # Texels that the rim of a hemisphere cuts count within it alone.
+    whole = expected > 0.99 * 2.0 / 64
+    found = stack.texel_angle(own.texel_directions(64))
+    np.testing.assert_allclose(found[whole], expected[whole], rtol=0.02)
+    np.testing.assert_allclose(np.median(found[whole] / expected[whole]), 1.0, rtol=1e-3)
+
+
+def test_texels_of_a_sphere_map_are_equally_far_apart() -> None:
+    assert sphere_map.texel_angle(64) ** 2 == pytest.approx(sphere_map.texel_solid_angle(64)[32, 32])
 
 
 @pytest.mark.parametrize("shape", [(), (2, 3)])

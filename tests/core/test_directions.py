@@ -5,6 +5,7 @@ import pytest
 from rsibr.rsibr_addon.core.directions import (
     camera_frame,
     dot,
+    mirror_normal,
     normalize,
     reflect,
     refract,
@@ -44,6 +45,13 @@ def test_a_mirror_obeys_the_law_of_reflection() -> None:
     np.testing.assert_allclose(reflect(OTHERS, OTHERS), OTHERS, atol=1e-15)
     # Seen from +X, a surface that is tilted half-way to +Z shows what is above.
     np.testing.assert_allclose(reflect((1, 0, 0), normalize((1, 0, 1))), (0, 0, 1), atol=1e-15)
+
+
+def test_a_mirror_has_the_normal_that_shows_a_direction() -> None:
+    facing = np.where(dot(DIRECTIONS, OTHERS)[:, None] < 0.0, -OTHERS, OTHERS)
+    np.testing.assert_allclose(mirror_normal(DIRECTIONS, reflect(DIRECTIONS, facing)), facing, atol=1e-10)
+    np.testing.assert_array_equal(mirror_normal(DIRECTIONS, -DIRECTIONS), 0.0)
+    np.testing.assert_array_equal(reflect(DIRECTIONS, np.zeros(3)), -DIRECTIONS)
 
 
 @pytest.mark.parametrize("eta", [1.0, 1.5, 2.4, 0.75])

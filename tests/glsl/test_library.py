@@ -37,6 +37,13 @@ def frames_as_rows(frames: np.ndarray) -> np.ndarray:
 
 NEAR_POLES = normalize([(1e-6, 0.0, 1.0), (0.0, -1e-6, -1.0), (3e-6, 4e-6, 1.0), (-1e-3, 1e-4, -1.0)])
 
+
+def opposite_error(view_dir: np.ndarray, mirror_dir: np.ndarray) -> np.ndarray:
+    """As the docstring has it."""
+    length = np.linalg.norm(view_dir + mirror_dir, axis=-1)
+    return (1e-6 / np.maximum(length, 1e-6))[:, None, None]
+
+
 DIRECTIONS = {
     "reflect_dir": Twin(
         "directions_lib.glsl",
@@ -44,6 +51,13 @@ DIRECTIONS = {
         lambda: [unit_vectors(1), unit_vectors(2, -AXES)],
         directions.reflect,
         1e-6,
+    ),
+    "mirror_normal": Twin(
+        "directions_lib.glsl",
+        "result_0.xyz = mirror_normal(in_0.xyz, in_1.xyz);",
+        lambda: [unit_vectors(1), unit_vectors(2, -AXES)],
+        directions.mirror_normal,
+        lambda view_dir, mirror_dir: opposite_error(view_dir, mirror_dir),
     ),
     "transformed_normal": Twin(
         "directions_lib.glsl",
@@ -101,6 +115,13 @@ SPHERE_MAP = {
         lambda: [disk_points()],
         sphere_map.normal_from_uv,
         lambda uv: np.stack([np.full(COUNT, 1e-6), np.full(COUNT, 1e-6), root_error(uv)], axis=-1)[:, None],
+    ),
+    "sphere_map_texel_angle": Twin(
+        "sphere_map_lib.glsl",
+        "result_0.x = sphere_map_texel_angle(in_0.x);",
+        lambda: [single(np.linspace(1.0, 4096.0, COUNT)[:, None])],
+        lambda size: sphere_map.texel_angle(size),
+        lambda size: (4.0 * ULP / size)[:, None],
     ),
     "uv_from_normal": Twin(
         "sphere_map_lib.glsl",

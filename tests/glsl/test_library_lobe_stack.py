@@ -182,13 +182,23 @@ def test_stack_radiance(layout: str, shared: bool) -> None:
     clear = np.all(np.abs(axes @ stack.representation.frame[:, 2]) > 1e-5, axis=(1, 2))
     code = (
         f"result_0.rgb = stack_radiance(maps, elevations, {LAYOUTS.index(layout)}, 3, 2, "
-        f"{1 if shared else 5}, in_0.xyz, in_1.xyz);"
+        f"{1 if shared else 5}, in_0.xyz, in_1.xyz, vec3(0.0), vec3(0.0));"
     )
     found = evaluate("lobe_stack_lib.glsl", code, [normal, view_dir], 1, maps(stack) | elevations(stack))
     expected = stack_radiance(stack, normal, view_dir, StackLook())
     # As above, times scales and taps, which sum to 3.
     assert np.abs(found[:, 0, :3] - expected)[clear].max() < 3 * 8e-3
     assert np.count_nonzero(clear) > 0.99 * COUNT
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_stack_texel_angle(layout: str) -> None:
+    direction = unit_vectors(42, EDGES)
+    code = f"result_0.x = stack_texel_angle({LAYOUTS.index(layout)}, {SIZE}.0, in_0.xyz);"
+    found = evaluate("lobe_stack_lib.glsl", code, [direction])[:, 0, 0]
+    expected = random_stack(layout, SIZE).texel_angle(direction)
+    # Sums of up to 2, a root, two products and a quotient.
+    np.testing.assert_allclose(found, expected, rtol=16 * ULP)
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)

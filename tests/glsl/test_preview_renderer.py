@@ -72,12 +72,13 @@ def reference(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Radiance by core/shading, and the pixels all of whose samples see the sphere at n.v > 0.2."""
     normal, view_dir, cosine = samples(camera)
+    footprint = sample_footprints(normal, view_dir)
     if mode is Mode.FRAGMENT:
-        radiance = shading.views_fragment(views, normal, view_dir, warping)
+        radiance = shading.views_fragment(views, normal, view_dir, warping, footprint)
     else:
         make = shading.destination_by_texel if mode is Mode.TEXEL else shading.destination_by_mesh
         made = make(views, camera.view_dir, views.size, warping)
-        radiance = shading.destination_lookup(made, normal, view_dir)
+        radiance = shading.destination_lookup(made, normal, view_dir, footprint)
     blocks = (SIZE, SAMPLES_PER_AXIS, SIZE, SAMPLES_PER_AXIS)
     inside = (cosine > 0.2).reshape(blocks).all(axis=(1, 3))
     return radiance.reshape(*blocks, 3).mean(axis=(1, 3)), inside

@@ -87,6 +87,33 @@ class LobeStack:
         """How the maps are laid out."""
         return stack_representation(self.layout, self.size)
 
+    def texel_angle(self, direction: ArrayLike) -> Array:
+        """How far texels are apart around a direction.
+
+        Parameters
+        ----------
+        direction : array_like, shape (..., 3)
+            Unit directions in world coordinates.
+
+        Returns
+        -------
+        ndarray, shape (...,)
+            [rad], the square root of a texel's solid angle.
+
+        Notes
+        -----
+        On an octahedron a texel lies aslant at the distance 1 / s, s = |x| + |y| + |z|: its solid angle is
+        s^3 times its area in the map. A paraboloid takes (1 + |y|)^2 of it, y being its axis, and its disk
+        is as `stack_representation` has it. GLSL twin: gpu_shaders/lib/lobe_stack_lib.glsl
+        `stack_texel_angle`, 1e-6 of it.
+        """
+        direction = np.abs(direction)
+        if self.layout == "octahedral":
+            angle: Array = 2.0 / self.size * np.sum(direction, axis=-1) ** 1.5
+        else:
+            angle = 2.0 / (self.size - 1.0) * (1.0 + direction[..., 1])
+        return angle
+
     def elevation(self, mu: ArrayLike) -> tuple[Indices, Array]:
         """Where views lie among the sampled elevations.
 

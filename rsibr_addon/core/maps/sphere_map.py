@@ -113,6 +113,27 @@ def uv_from_direction(direction: ArrayLike) -> Array:
     return uv_from_normal(normal)
 
 
+def texel_angle(size: int) -> float:
+    """How far texels are apart in reflected directions.
+
+    Parameters
+    ----------
+    size : int
+        Width and height of the map in texels.
+
+    Returns
+    -------
+    float
+        [rad], the square root of a texel's solid angle: a mirrored sphere shows equal solid angles in equal
+        areas, 4 pi in pi times a radius of size / 2.
+
+    Notes
+    -----
+    GLSL twin: gpu_shaders/lib/sphere_map_lib.glsl `sphere_map_texel_angle`.
+    """
+    return 4.0 / size
+
+
 def texel_solid_angle(size: int) -> Array:
     """Solid angle of reflected directions that each texel stands for.
 

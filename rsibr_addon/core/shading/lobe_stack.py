@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..antialiased.footprint import footprint_or_point, footprint_sides
+from ..antialiased.sampling import sample_counts, samples
 from ..conventions import Array, ArrayLike, Indices
 from ..directions import dot, reflect
 from ..errors import RangeError
@@ -20,9 +22,12 @@ class StackLook:
     ----------
     lobes : tuple of int
         Numbers of the lobes that count, from 0, or one number; empty for all of them.
+    antialiased : bool
+        Whether light is averaged over what a pixel reflects.
     """
 
     lobes: tuple[int, ...] = ()
+    antialiased: bool = True
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "lobes", tuple(int(lobe) for lobe in np.atleast_1d(self.lobes)))
@@ -50,7 +55,13 @@ class StackLook:
         return self.lobes or tuple(range(count))
 
 
-def stack_radiance(stack: LobeStack, normal: ArrayLike, view_dir: ArrayLike, look: StackLook) -> Array:
+def stack_radiance(
+    stack: LobeStack,
+    normal: ArrayLike,
+    view_dir: ArrayLike,
+    look: StackLook,
+    mirror_footprint: ArrayLike | None = None,
+) -> Array:
     """Radiance of surface points: [Kautz2000] section 5.3.
 
     Parameters
@@ -59,6 +70,9 @@ def stack_radiance(stack: LobeStack, normal: ArrayLike, view_dir: ArrayLike, loo
     normal, view_dir : array_like, shape (..., 3)
         Unit vectors in world coordinates; for normals that point away see `facing_normal`.
     look : StackLook
+    mirror_footprint : array_like, shape (..., 4, 3), optional
+        Mirrored view directions at the corners of each point's pixel, see `core.antialiased`; what an
+        antialiased look averages over. None for points, which reflect one direction each.
 
     Returns
     -------
@@ -75,14 +89,30 @@ def stack_radiance(stack: LobeStack, normal: ArrayLike, view_dir: ArrayLike, loo
     The paper's texture coordinates are those of the mirror direction with an angle added. A rotated vector
     instead keeps lobes radially symmetric, and lets the offset vanish smoothly where the view is along the
     normal. Of two elevations both maps are looked up along the same, interpolated axis, as a 3D texture
-    is: a lobe then moves between its two places and does not stand in both. GLSL twin:
+    is: a lobe then moves between its two places and does not stand in both. Over a pixel it is the mirror
+    direction that turns: up to `sampling.MOST` lookups along each side, a texel apart. GLSL twin:
     gpu_shaders/lobe_stack_frag.glsl; with half-float maps, within 2e-3 of the peak.
     """
     normal, view_dir = np.broadcast_arrays(np.asarray(normal, np.float64), np.asarray(view_dir, np.float64))
     normal = facing_normal(normal, view_dir)
-    below, share = stack.elevation(dot(normal, view_dir))
-    above = np.minimum(below + 1, len(stack.mu) - 1)
     mirror_dir = reflect(view_dir, normal)
+    below, share = stack.elevation(dot(normal, view_dir))
+    across, up = footprint_sides(
+        footprint_or_point(mirror_footprint if look.antialiased else None, mirror_dir)
+    )
+    counts = sample_counts(across, up, stack.texel_angle(mirror_dir))
+    radiance = np.zeros(normal.shape)
+    for chosen, direction, weight in samples(mirror_dir, across, up, counts):
+        elevation = below[chosen], share[chosen]
+        radiance[chosen] += weight * _mirrored(stack, look, normal[chosen], direction, *elevation)
+    return radiance
+
+
+def _mirrored(
+    stack: LobeStack, look: StackLook, normal: Array, mirror_dir: Array, below: Indices, share: Array
+) -> Array:
+    """What points show by given mirror directions, at given elevations, shape (..., 3)."""
+    above = np.minimum(below + 1, len(stack.mu) - 1)
     radiance = np.zeros(normal.shape)
     for lobe in look.shown(stack):
         scale, offsets, taps = (

@@ -5,13 +5,17 @@ sphere map of one view first, texel by texel (`destination_by_texel`) or over a 
 the paper does (`destination_by_mesh`), and `destination_lookup` shades from it.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..antialiased.footprint import footprint_or_point, footprint_sides
+from ..antialiased.sampling import sample_counts, samples
 from ..conventions import Array, ArrayLike, Indices, texel_centres
-from ..directions import camera_frame, dot, reflect
+from ..directions import camera_frame, dot, mirror_normal, reflect
 from ..disk_mesh import MARGIN, disk_mesh, interpolate
 from ..geodesic import barycentric_weights, find_triangle
 from ..maps import sphere_map
@@ -53,10 +57,13 @@ class ViewsLook:
         Or its value, as text.
     warping : Warping
         Likewise.
+    antialiased : bool
+        Whether what goes by the mirror direction is averaged over what a pixel reflects.
     """
 
     mode: Mode = Mode.FRAGMENT
     warping: Warping = Warping.ALBEDO
+    antialiased: bool = True
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "mode", member(Mode, self.mode, "mode"))
@@ -89,7 +96,13 @@ class Destination:
     albedo: Array
 
 
-def views_fragment(views: RadianceViews, normal: ArrayLike, view_dir: ArrayLike, warping: Warping) -> Array:
+def views_fragment(
+    views: RadianceViews,
+    normal: ArrayLike,
+    view_dir: ArrayLike,
+    warping: Warping,
+    mirror_footprint: ArrayLike | None = None,
+) -> Array:
     """Radiance of surface points, each blended from the three views around its own view direction.
 
     Parameters
@@ -98,6 +111,9 @@ def views_fragment(views: RadianceViews, normal: ArrayLike, view_dir: ArrayLike,
     normal, view_dir : array_like, shape (..., 3)
         Unit vectors in world coordinates.
     warping : Warping
+    mirror_footprint : array_like, shape (..., 4, 3), optional
+        Mirrored view directions at the corners of each point's pixel, see `core.antialiased`, to average
+        over. None for points, which reflect one direction each, and for looks that are not antialiased.
 
     Returns
     -------
@@ -107,10 +123,19 @@ def views_fragment(views: RadianceViews, normal: ArrayLike, view_dir: ArrayLike,
     Notes
     -----
     [Cabral1999] sections 3.2-3.4 for every fragment: the view direction of each is its own, so
-    that perspective adds no error. GLSL twin: gpu_shaders/views_fragment_frag.glsl.
+    that perspective adds no error. Over a pixel the mirror direction turns, and what goes by it is looked
+    up up to `sampling.MOST` times along each side, a texel apart. GLSL twin:
+    gpu_shaders/views_fragment_frag.glsl.
     """
     normal, view_dir = np.broadcast_arrays(np.asarray(normal, np.float64), np.asarray(view_dir, np.float64))
     by_normal, by_mirror = _warp_and_blend(views, normal, view_dir, warping)
+    if mirror_footprint is not None:
+        by_mirror = np.zeros(normal.shape)
+        spread = _spread(mirror_footprint, reflect(view_dir, normal), views.size)
+        for chosen, direction, weight in spread:
+            own_view = view_dir[chosen]
+            shown = _warp_and_blend(views, mirror_normal(own_view, direction), own_view, warping)[1]
+            by_mirror[chosen] += weight * shown
     cosine, table = dot(normal, view_dir), _albedo(views, warping)
     return by_normal * _at(table, Warp.NORMAL, cosine) + by_mirror * _at(table, Warp.MIRROR, cosine)
 
@@ -175,7 +200,12 @@ def destination_by_mesh(
     return Destination(frame, blend(views.diffuse, Warp.NORMAL), blend(views.glossy, Warp.MIRROR), table)
 
 
-def destination_lookup(destination: Destination, normal: ArrayLike, view_dir: ArrayLike) -> Array:
+def destination_lookup(
+    destination: Destination,
+    normal: ArrayLike,
+    view_dir: ArrayLike,
+    mirror_footprint: ArrayLike | None = None,
+) -> Array:
     """Radiance of surface points, from the sphere map of one view.
 
     Parameters
@@ -183,6 +213,9 @@ def destination_lookup(destination: Destination, normal: ArrayLike, view_dir: Ar
     destination : Destination
     normal, view_dir : array_like, shape (..., 3)
         Unit vectors in world coordinates.
+    mirror_footprint : array_like, shape (..., 4, 3), optional
+        Mirrored view directions at the corners of each point's pixel, see `core.antialiased`, to average
+        over. None for points, which reflect one direction each, and for looks that are not antialiased.
 
     Returns
     -------
@@ -196,11 +229,23 @@ def destination_lookup(destination: Destination, normal: ArrayLike, view_dir: Ar
     GLSL twin: gpu_shaders/views_destination_frag.glsl.
     """
     normal_uv = sphere_map.uv_from_normal(np.asarray(normal) @ destination.frame)
-    mirror_uv = sphere_map.uv_from_direction(reflect(view_dir, normal) @ destination.frame)
+    mirror_dir, by_mirror = reflect(view_dir, normal), destination.by_mirror
+    glossy = np.zeros(mirror_dir.shape)
+    for chosen, direction, weight in _spread(mirror_footprint, mirror_dir, len(by_mirror)):
+        mirror_uv = sphere_map.uv_from_direction(direction @ destination.frame)
+        glossy[chosen] += weight * bilinear(by_mirror, mirror_uv, sphere_map.wrap)
     cosine, table = dot(normal, view_dir), destination.albedo
-    diffuse = bilinear(destination.by_normal, normal_uv, sphere_map.wrap) * _at(table, Warp.NORMAL, cosine)
-    glossy = bilinear(destination.by_mirror, mirror_uv, sphere_map.wrap) * _at(table, Warp.MIRROR, cosine)
-    return diffuse + glossy
+    diffuse = bilinear(destination.by_normal, normal_uv, sphere_map.wrap)
+    return diffuse * _at(table, Warp.NORMAL, cosine) + glossy * _at(table, Warp.MIRROR, cosine)
+
+
+def _spread(
+    mirror_footprint: ArrayLike | None, mirror_dir: Array, size: int
+) -> Iterator[tuple[NDArray[np.bool], Array, Array]]:
+    """Directions a texel of sphere maps apart, as `sampling.samples` yields them."""
+    across, up = footprint_sides(footprint_or_point(mirror_footprint, mirror_dir))
+    counts = sample_counts(across, up, np.full(mirror_dir.shape[:-1], sphere_map.texel_angle(size)))
+    return samples(mirror_dir, across, up, counts)
 
 
 def _warp_and_blend(

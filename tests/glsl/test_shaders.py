@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from rsibr.rsibr_addon.core.errors import DeviceError
 from rsibr.rsibr_addon.device import (
+    environment,
     live_environment_shaders,
     lobe_stack_shaders,
     mip_chain_shaders,
@@ -28,6 +29,7 @@ PROGRAMS = [
     shaders.views_disk_shader,
     mip_chain_shaders.mip_chain_shader,
     reflection_tables.reflection_tables_shader,
+    environment.environment_shader,
     lobe_stack_shaders.lobe_stack_shader,
     viewport_shaders.composite_shader,
     viewport_shaders.occluder_shader,

@@ -10,7 +10,7 @@ import rsibr
 from rsibr.rsibr_addon import properties
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import OutputFileError
-from rsibr.rsibr_addon.host.map_sets import unpacked
+from rsibr.rsibr_addon.host.map_sets import is_packed, unpacked
 from rsibr.rsibr_addon.host.viewport import map_set_of
 from rsibr.rsibr_addon.tasks.bake_order import order_for, output_for
 from rsibr.rsibr_addon.tasks.map_set_facts import map_set_content
@@ -150,6 +150,31 @@ def test_unpacking_writes_the_very_file(baked: Path, tmp_path: Path) -> None:
     assert shown() == tmp_path / "moved" / "rsibr" / "flat.rsibr.exr"
     assert shown().read_bytes() == content
     assert not bpy.ops.rsibr.unpack.poll()
+
+
+def test_blender_s_own_commands_pack_unpack_and_find(baked: Path, tmp_path: Path) -> None:
+    content = baked.read_bytes()
+    bpy.ops.file.pack_all()
+    assert is_packed(cube().rsibr)
+    assert unpacked.write(cube().rsibr.image).read_bytes() == content
+    bpy.ops.file.unpack_all(method="USE_ORIGINAL")
+    assert shown() == baked
+    moved = tmp_path / "moved" / baked.name
+    moved.parent.mkdir()
+    baked.rename(moved)
+    bpy.ops.file.find_missing_files(directory=str(tmp_path))
+    assert shown().samefile(moved)
+
+
+def test_other_bytes_of_an_image_are_noticed(baked: Path) -> None:
+    bpy.ops.rsibr.pack()
+    before = shown()
+    cube().rsibr.image.unpack(method="REMOVE")
+    assert shown() == baked
+    write_flat_capture(baked, (0.0, 0.5, 0.0))
+    cube().rsibr.image.pack()
+    assert shown() != before
+    assert unpacked.write(cube().rsibr.image).read_bytes() == baked.read_bytes()
 
 
 def test_unpacking_replaces_no_other_file(baked: Path) -> None:

@@ -7,7 +7,7 @@ from typing import Any
 import bpy
 
 from ..core.errors import InputFileError, OutputFileError, SceneError
-from .map_sets import stored_path
+from .map_sets import stored_path, written_path
 from .materials import surface_output
 from .worlds import studio_environments, world_of
 
@@ -35,6 +35,8 @@ def chosen_environment(scene: bpy.types.Scene) -> str | None:
         There is no world.
     InputFileError
         No file is given, or it is not there.
+    OutputFileError
+        It is packed, and the disk is full.
     """
     chosen = scene.rsibr_bake
     match chosen.light:
@@ -44,7 +46,8 @@ def chosen_environment(scene: bpy.types.Scene) -> str | None:
         case "STUDIO":
             return str(studio_environments()[chosen.studio])
         case _:
-            return existing(chosen.picture, "environment", "a latitude-longitude picture")
+            picture = chosen.picture and str(written_path(chosen))
+            return existing(picture, "environment", "a latitude-longitude picture")
 
 
 def existing(path: str, what: str, wanted: str) -> str:
@@ -221,7 +224,8 @@ def plain_settings(group: bpy.types.PropertyGroup) -> dict[str, Any]:
             continue
         value = getattr(group, prop.identifier)
         if prop.type == "POINTER":
-            settings[prop.identifier] = plain_settings(value)
+            if isinstance(value, bpy.types.PropertyGroup):  # an image is told of by its path
+                settings[prop.identifier] = plain_settings(value)
         elif prop.type != "ENUM" or value:
             settings[prop.identifier] = value
     return settings

@@ -1,4 +1,4 @@
-"""The file that an object is shaded from, as one of Blender's images.
+"""The file that an object is shaded from, or the picture of the light to bake in, as one of Blender's images.
 
 So Blender looks after it. Its path follows when the .blend is saved elsewhere, appended from or linked; and
 it may be packed. What it shows is of no interest here: nothing asks for its pixels.
@@ -16,11 +16,11 @@ from ..files.map_set import read_map_set_header
 from ..files.map_set_header import content_hash
 
 type Settings = bpy.types.PropertyGroup
-"""An object's `properties.RSIBR_PG_preview`."""
+"""Has an `image`: `properties.RSIBR_PG_preview` of an object, or `ui.bake_properties.RSIBR_PG_bake`."""
 
 
 class UnpackedFiles:
-    """Packed map sets, written out once for as long as this Blender runs: whoever reads one needs a file."""
+    """Packed files, written out once for as long as this Blender runs: who reads one, as a bake, needs a path."""
 
     def __init__(self) -> None:
         self._paths: dict[int, tuple[tuple[int, int], Path]] = {}
@@ -70,12 +70,15 @@ unpacked = UnpackedFiles()
 
 
 def chosen_path(settings: Settings) -> str:
-    """The path of an object's map set as Blender writes paths; empty without."""
-    return settings.image.filepath if settings.image else ""
+    """The file's path as Blender writes paths, absolute where it is a library's; empty without."""
+    image = settings.image
+    if image is None:
+        return ""
+    return _absolute(image) if image.library else str(image.filepath)
 
 
-def use_map_set(settings: Settings, path: str) -> None:
-    """Have an object shaded from a file, and remember what it holds.
+def use_file(settings: Settings, path: str) -> None:
+    """Choose a file.
 
     Parameters
     ----------
@@ -84,6 +87,11 @@ def use_map_set(settings: Settings, path: str) -> None:
         As Blender writes paths; it need not be there. Empty for none.
     """
     settings.image = _image_of(path) if path else None
+
+
+def use_map_set(settings: Settings, path: str) -> None:
+    """Have an object shaded from a file, as `use_file`, and remember what it holds."""
+    use_file(settings, path)
     remember_content(settings)
 
 
@@ -99,7 +107,7 @@ def remember_content(settings: Settings) -> None:
 
 
 def planned_path(settings: Settings) -> str:
-    """The absolute path of the file that an object is shaded from; empty without.
+    """The absolute path of the file; empty without.
 
     Where it is packed, that is a file of our own, which `written_path` writes.
     """

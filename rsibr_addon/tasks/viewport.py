@@ -88,7 +88,8 @@ class Previews:
         self._contents.clear()
 
     def reload(self) -> None:
-        """Read the map sets' files anew, and try again what failed."""
+        """Read the map sets' files anew, wherever they are by now, and try again what failed."""
+        self.scene_changed()
         self._map_sets.clear()
         self._unused = UnusedMapSets()
         self._live.clear()

@@ -4,6 +4,7 @@ import bpy
 
 from ..core.brdf.gallery import GALLERY
 from ..core.tables.material import PRESETS as TABLE_PRESETS
+from ..host.map_sets import chosen_path, use_file
 from ..host.presets import PRESETS
 from ..host.worlds import studio_environments
 from ..properties import keep_in_overrides
@@ -188,10 +189,18 @@ class RSIBR_PG_bake(bpy.types.PropertyGroup):
     studio: bpy.props.EnumProperty(
         name="Environment", description="Environment that comes with Blender", items=_studio_items
     )
+    image: bpy.props.PointerProperty(
+        type=bpy.types.Image,
+        name="Image",
+        description="The picture as Blender keeps track of it: its path, or its packed bytes",
+    )
     picture: bpy.props.StringProperty(
         name="Picture",
         description="Latitude-longitude picture of the light, OpenEXR or Radiance HDR",
         subtype="FILE_PATH",
+        options={"PATH_SUPPORTS_BLEND_RELATIVE"},
+        get=chosen_path,
+        set=use_file,
     )
     kind: bpy.props.EnumProperty(
         name="Method",

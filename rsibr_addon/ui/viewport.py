@@ -7,7 +7,6 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..device.shaders import release_programs
-from ..host.map_sets import unpacked
 from ..host.viewport import current_view
 from ..tasks.viewport import previews
 from ..tasks.workshop import workshop
@@ -100,7 +99,6 @@ def _data_replaced(*_: object) -> None:
 @persistent
 def _file_closed(*_: object) -> None:
     previews.release()
-    unpacked.remove()
 
 
 _HANDLERS: dict[str, Callable[..., None]] = {

@@ -10,6 +10,7 @@ import rsibr
 from rsibr.rsibr_addon import properties
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import OutputFileError
+from rsibr.rsibr_addon.host.bake_settings import chosen_environment, plain_settings
 from rsibr.rsibr_addon.host.map_sets import is_packed, unpacked
 from rsibr.rsibr_addon.host.viewport import map_set_of
 from rsibr.rsibr_addon.tasks.bake_order import order_for, output_for
@@ -38,7 +39,7 @@ def baked(tmp_path: Path) -> Path:
 
 
 def save(path: Path) -> None:
-    path.parent.mkdir(exist_ok=True)
+    path.parent.mkdir(parents=True, exist_ok=True)
     bpy.ops.wm.save_as_mainfile(filepath=str(path))
 
 
@@ -108,9 +109,24 @@ def test_an_override_keeps_what_was_set_there(tmp_path: Path, touched: bool) -> 
 def test_every_setting_is_kept_by_overrides() -> None:
     for group in (*properties.CLASSES, *bake_properties.CLASSES):
         for prop in group.bl_rna.properties:
-            derived = prop.identifier == "map_set"
+            derived = prop.identifier in ("map_set", "picture")
             if prop.identifier not in bpy.types.PropertyGroup.bl_rna.properties and not derived:
                 assert prop.is_overridable, f"{group.__name__}.{prop.identifier}"
+
+
+def test_the_picture_of_the_light_is_found_from_elsewhere_too(tmp_path: Path) -> None:
+    picture = write_flat_capture(tmp_path / "light.exr", (1.0, 1.0, 1.0))
+    save(tmp_path / "art" / "car.blend")
+    chosen = bpy.context.scene.rsibr_bake
+    chosen.light, chosen.picture = "PICTURE", "//../light.exr"
+    assert plain_settings(chosen)["picture"] == "//../light.exr"
+    save(tmp_path / "elsewhere" / "deeper" / "car.blend")
+    bpy.ops.wm.open_mainfile(filepath=bpy.data.filepath)
+    assert Path(chosen_environment(bpy.context.scene)).samefile(picture)
+    bpy.ops.file.pack_all()
+    content = picture.read_bytes()
+    picture.unlink()
+    assert Path(chosen_environment(bpy.context.scene)).read_bytes() == content
 
 
 def test_copies_share_one_file(baked: Path) -> None:

@@ -137,6 +137,14 @@ def scenario(told):
         yield
     yield from drawn()
     told["again"] = [as_at_first(), module.previews.fault(cube), path.is_file()]
+    path.rename("/job/lasting/elsewhere/" + path.name)
+    bpy.ops.rsibr.reload_map_sets()
+    yield from drawn()
+    told["moved"] = as_at_first()
+    bpy.ops.file.find_missing_files(directory="/job/lasting")
+    bpy.ops.rsibr.reload_map_sets()
+    yield from drawn()
+    told["found"] = as_at_first()
 """
 
 
@@ -146,6 +154,8 @@ def test_a_map_set_that_is_gone_is_baked_again(told: Told) -> None:
         "missing": [False, True],
         "baking": True,
         "again": [True, None, True],
+        "moved": False,
+        "found": True,
     }
 
 

@@ -20,7 +20,7 @@ type Settings = bpy.types.PropertyGroup
 
 
 class UnpackedFiles:
-    """Packed files, written out once for as long as this Blender runs: who reads one, as a bake, needs a path."""
+    """Packed files, written out once for as long as this Blender runs: who reads one needs a path."""
 
     def __init__(self) -> None:
         self._paths: dict[int, tuple[tuple[int, int], Path]] = {}

@@ -6,10 +6,12 @@ from typing import Any
 import bpy
 
 from .host.map_sets import chosen_path, use_map_set
+from .host.overrides import complete_override
 
 
 def _notice(group: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    """Nothing: that a property has a callback is why Blender draws anew, also when a script sets it."""
+    """Have overrides kept. That a property has a callback is why Blender draws anew, also for a script."""
+    complete_override(group.id_data)
 
 
 class RSIBR_PG_radiance_views(bpy.types.PropertyGroup):

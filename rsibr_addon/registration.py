@@ -15,7 +15,7 @@ def register() -> None:
     from ..operators import background
     from . import properties, ui
     from .host.map_sets import unpacked
-    from .host.overrides import complete_references
+    from .host.overrides import complete_overrides
     from .ui import bake_properties, export_menu, result_properties, viewport
     from .ui.map_pictures import map_pictures
 
@@ -28,8 +28,10 @@ def register() -> None:
             pointer = bpy.props.PointerProperty(type=group, override=properties.OVERRIDABLE)
             setattr(owner, name, pointer)
             undo.callback(delattr, owner, name)
-        bpy.app.handlers.save_pre.append(complete_references)
-        undo.callback(bpy.app.handlers.save_pre.remove, complete_references)
+        for name in ("load_post", "blend_import_post", "save_pre"):
+            handlers = getattr(bpy.app.handlers, name)
+            handlers.append(complete_overrides)
+            undo.callback(handlers.remove, complete_overrides)
         undo.callback(unpacked.remove)
         viewport.start(undo)
         export_menu.start(undo)

@@ -98,12 +98,21 @@ def test_an_override_keeps_what_was_set_there(tmp_path: Path, touched: bool) -> 
     bpy.context.scene.collection.objects.link(override)
     override.rsibr.map_set, override.rsibr.show = "//../other.rsibr.exr", True
     override.rsibr.mip_chain.k_d = (0.25, 0.5, 1.0)
-    save(Path(bpy.data.filepath))
-    bpy.ops.wm.open_mainfile(filepath=bpy.data.filepath)
-    (kept,) = bpy.context.scene.objects
-    assert kept.override_library
-    assert Path(map_set_of(kept)).samefile(other)
-    assert tuple(kept.rsibr.mip_chain.k_d) == (0.25, 0.5, 1.0)
+
+    def check() -> None:
+        (kept,) = bpy.context.scene.objects
+        assert kept.override_library
+        assert Path(map_set_of(kept)).samefile(other)
+        assert tuple(kept.rsibr.mip_chain.k_d) == (0.25, 0.5, 1.0)
+
+    bpy.data.libraries[0].reload()
+    check()
+    for _ in range(2):
+        save(Path(bpy.data.filepath))
+        bpy.ops.wm.open_mainfile(filepath=bpy.data.filepath)
+        check()
+        bpy.data.libraries[0].reload()
+        check()
 
 
 def test_every_setting_is_kept_by_overrides() -> None:

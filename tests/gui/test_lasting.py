@@ -73,6 +73,7 @@ def scenario(told):
     yield from looked_at()
     told["opened"] = as_at_first()
     cube = bpy.data.objects["Cube"]
+    told["overridable"] = cube.rsibr.bl_rna.properties["show"].is_overridable
     copy = cube.copy()
     bpy.data.objects.remove(cube)
     bpy.context.collection.objects.link(copy)
@@ -172,6 +173,7 @@ def test_a_preview_is_the_same_in_every_file_that_has_the_object(told: Told) -> 
     assert opened.pop("sentence").startswith("Object Cube is missing in //../packed.blend: bring")
     assert opened == {
         "opened": True,
+        "overridable": True,
         "copied": True,
         "car, appended": True,
         "car, linked": True,

@@ -1,4 +1,4 @@
-"""Put previews side by side: contact_sheet.py OUT.png COLUMNS PREVIEW.exr ..."""
+"""Put previews side by side, so many stops brighter: contact_sheet.py OUT.png COLUMNS STOPS PREVIEW.exr ..."""
 
 import sys
 from pathlib import Path
@@ -7,5 +7,7 @@ from rsibr.rsibr_addon.files.pictures import read_exr
 from rsibr.rsibr_addon.host.pictures import save_png
 from rsibr.rsibr_addon.tasks.contact_sheet import contact_sheet
 
-output, columns, *previews = sys.argv[1:]
-save_png(Path(output), contact_sheet([read_exr(preview) for preview in previews], int(columns)))
+output, columns, stops, *previews = sys.argv[1:]
+sheet = contact_sheet([read_exr(preview) for preview in previews], int(columns))
+sheet[..., :3] *= 2.0 ** float(stops)
+save_png(Path(output), sheet)

@@ -25,20 +25,29 @@ rsibr report lobes.rsibr.exr -o lobes.html --force
 # Miller & Hoffman 1984 and Kautz, Daubert & Seidel 2004
 rsibr tables --environment forest --material varnished -o tables.rsibr.exr --force
 rsibr mips --environment forest --size 128 -o mips.rsibr.exr --force
+rsibr export mips.rsibr.exr -o mips.ktx2 --up y --force
+
+# Beyond them: light filtered once, for any material that is chosen afterwards
+rsibr bank --environment forest -o bank.rsibr.exr --force
 
 for mesh in monkey sphere; do
-    for map_set in plastic lobes tables mips; do
-        look=()
-        if [ "$map_set" = mips ]; then look=(--k-d 0.05,0.2,0.1 --f-lambda 0.08 --roughness 0.2); fi
+    for map_set in plastic lobes tables mips bank; do
+        case $map_set in
+            mips) look=(--k-d 0.05,0.2,0.1 --f-lambda 0.08 --roughness 0.2) ;;
+            bank) look=(--brdf ggx:alpha=0.15,metal=gold) ;;
+            *) look=() ;;
+        esac
         rsibr preview "$map_set.rsibr.exr" --mesh "$mesh" --view 0.3,-1,0.3 --size 256 "${look[@]}" \
             -o "$map_set-$mesh.exr" --force
     done
 done
-python "$docs/../.ci/contact_sheet.py" systems.png 4 {plastic,lobes,tables,mips}-monkey.exr {plastic,lobes,tables,mips}-sphere.exr
+python "$docs/../.ci/contact_sheet.py" systems.png 5 -1.3 {plastic,lobes,tables,mips,bank}-monkey.exr \
+    {plastic,lobes,tables,mips,bank}-sphere.exr
 
 echo
 echo "Pictures in $PWD:"
-echo "  systems.png: captured plastic, copper from lobes, varnish from reflection tables, a glossy green from mips"
+echo "  systems.png: captured plastic, copper from lobes, varnish from reflection tables, a glossy green from mips,"
+echo "  gold from a kernel bank; mips.ktx2 is the mip chain for engines"
 echo "  copper-monkey.png, plastic-monkey.png and their .mp4: a turn around Suzanne"
 echo "  lobes.html: all of a map set on one page"
 echo "  copper-compare/index.html, plastic-compare/index.html: previews beside Cycles' own pictures, and the errors;"

@@ -70,10 +70,10 @@ class LiveLight:
             Whether the light has changed.
         """
         self._look_at_viewport(view)
+        if not self._due:
+            return False
         budget = 1e-3 * surface.item.rsibr.live.budget
         faces = faces_due(self._due, self._next_face, faces_within(budget, self._seconds_per_face))
-        if not faces:
-            return False
         since = time.perf_counter()
         self._render(faces, view, surface)
         self.on_device.filter()

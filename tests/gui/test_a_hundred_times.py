@@ -17,7 +17,7 @@ so 40 when it is left over 80 times. Without a leak 4 to 9 were seen, for what a
 """
 
 PRELUDE = """
-import addon_utils, gc, gpu
+import addon_utils, gc, gpu, threading
 
 DEVICE = tuple(kind for name, kind in vars(gpu.types).items() if name.startswith("GPU"))
 
@@ -53,6 +53,7 @@ def traces():
         *dir(bpy.ops.rsibr),
         *map(str, on_device().items()),
         *(f"process {number}" for number in children()),
+        *(thread.name for thread in threading.enumerate() if thread is not threading.main_thread()),
     ]
 
 def children():
@@ -63,7 +64,7 @@ def megabytes():
     return int(open("/proc/self/statm").read().split()[1]) * os.sysconf("SC_PAGESIZE") / 1e6
 
 def lit():
-    # A cube that a map set shades, and another in live light
+    # A cube that a map set shades, and another in live light, and the panel that tells of the first
     bare(view())
     cube = bpy.data.objects["Cube"]
     cube.rsibr.map_set = "/job/flat.rsibr.exr"
@@ -71,6 +72,10 @@ def lit():
     bpy.context.collection.objects.link(other)
     other.location = (0.0, 2.5, 0.0)
     other.rsibr.live.on, other.rsibr.live.size, other.rsibr.live.budget = True, "32", 1000
+    view().spaces.active.show_region_ui = True
+    yield from drawn()
+    next(part for part in view().regions if part.type == "UI").active_panel_category = "RSIBR"
+    yield from drawn()
 
 def hundred(told, once):
     # Every tenth time all is drawn; else the window is, but is not waited for
@@ -96,8 +101,7 @@ def scenario(told):
     addon_utils.disable(ROOT)
     told["never drawn"] = traces()
     addon_utils.enable(ROOT)
-    lit()
-    yield from drawn()
+    yield from lit()
     told["on the device"] = on_device()
 
     def once():
@@ -116,10 +120,9 @@ def scenario(told):
 
 LOADED = """
 def scenario(told):
-    lit()
+    yield from lit()
     with bpy.context.temp_override(window=window()):
         bpy.ops.wm.save_as_mainfile(filepath="/job/lit.blend")
-    yield from drawn()
     told["on the device"] = on_device()
 
     def once():

@@ -41,6 +41,8 @@ class MapPictures:
         self._reader: ThreadPoolExecutor | None = None
         self._read: Future[list[MapPicture]] | None = None
         self._lobes: float | None = None
+        # Blender knows a timer by its object, and each look at a method makes another.
+        self._timer = self._take
 
     def start(self, undo: ExitStack) -> None:
         """Be ready to show; a Blender without windows has nothing to show in.
@@ -67,7 +69,7 @@ class MapPictures:
         self._forget()
         self._shown = shown
         self._read = self._reader.submit(map_set_pictures, path)
-        bpy.app.timers.register(self._take, first_interval=SECONDS, persistent=True)
+        bpy.app.timers.register(self._timer, first_interval=SECONDS, persistent=True)
 
     def lobes(self, path: Path, mu: float) -> int:
         """The icon of the lobes of the map set that is shown.
@@ -100,8 +102,8 @@ class MapPictures:
         return None
 
     def _forget(self) -> None:
-        if bpy.app.timers.is_registered(self._take):
-            bpy.app.timers.unregister(self._take)
+        if bpy.app.timers.is_registered(self._timer):
+            bpy.app.timers.unregister(self._timer)
         self.items.clear()
         self._icons.clear()
         self.fault = ""

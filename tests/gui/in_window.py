@@ -18,7 +18,7 @@ import xshot
 from mathutils import Vector  # noqa: F401
 
 ROOT = "bl_ext.user_default.rsibr"
-SECONDS = 200.0
+SECONDS = 280.0
 """After these a scenario has failed."""
 
 bpy.context.preferences.view.show_splash = False

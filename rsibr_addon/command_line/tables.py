@@ -13,7 +13,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--material",
         metavar="PRESET",
-        help="parts to start from: chrome, matte, plastic, varnished, copper, glass, cats-eye, glowing; "
+        help="parts to start from: chrome, matte, plastic, varnished, copper, gold, silver, satin, "
+        "car-paint, glass, cats-eye, glowing; "
         "those given below replace its own",
     )
     material = parser.add_argument_group("parts of the material", argument_default=argparse.SUPPRESS)

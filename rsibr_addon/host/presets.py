@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 import bpy
 import numpy as np
 
+from ..core.brdf.metals import METALS
 from .working_space import working_from_rec709
 
 type Value = float | tuple[float, ...]
@@ -60,13 +61,28 @@ PRESETS: dict[str, Preset] = {
     ),
     "copper": _metal("rough copper, alpha .3", (0.200, 0.924, 1.102), (3.912, 2.452, 2.142), 0.3),
     "gold": _metal("polished gold, alpha .05", (0.143, 0.375, 1.442), (3.983, 2.386, 1.603), 0.05),
+    "silver": _metal("rough silver, alpha .3", METALS["silver"].eta, METALS["silver"].k, 0.3),
+    "nickel": _metal("rough nickel, alpha .3", METALS["nickel"].eta, METALS["nickel"].k, 0.3),
     "satin-aluminium": _metal(
         "satin aluminium, alpha .15", (1.345, 0.965, 0.617), (7.474, 6.400, 5.303), 0.15
     ),
     "chrome": _metal("chrome, alpha .005", (3.110, 3.180, 2.320), (3.310, 3.330, 3.140), 0.005),
     "plastic": _coated("clear-coated red plastic, alpha .1", (0.50, 0.05, 0.03, 1.0), 0.1),
+    "black-plastic": _coated("black plastic, alpha .2", (0.02, 0.02, 0.02, 1.0), 0.2),
+    "varnished-wood": _coated("varnished brown wood, alpha .08", (0.35, 0.15, 0.05, 1.0), 0.08),
     "ceramic": _coated("glazed white ceramic, alpha .01", (0.80, 0.78, 0.72, 1.0), 0.01),
     "clay": Preset("matte clay: Lambert alone", "ShaderNodeBsdfDiffuse", {"Color": (0.55, 0.40, 0.30, 1.0)}),
+    "satin": Preset(
+        "red cloth with a soft sheen",
+        "ShaderNodeBsdfPrincipled",
+        {
+            "Base Color": (0.15, 0.03, 0.05, 1.0),
+            "Roughness": 0.6,
+            "Sheen Weight": 0.6,
+            "Sheen Roughness": 0.3,
+            "Sheen Tint": (1.0, 0.4, 0.5, 1.0),
+        },
+    ),
     "car-paint": Preset(
         "blue paint with metallic flakes, alpha .25, beneath a clear coat, alpha .013",
         "ShaderNodeBsdfPrincipled",

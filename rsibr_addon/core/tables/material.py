@@ -59,6 +59,14 @@ PRESETS: dict[str, dict[str, str]] = {
         "coat": "fresnel:eta=1.5",
     },
     "copper": {"specular": "phong:n=100,ks=1", "weights": "fresnel:metal=copper"},
+    "gold": {"specular": "phong:n=100,ks=1", "weights": "fresnel:metal=gold"},
+    "silver": {"specular": "phong:n=100,ks=1", "weights": "fresnel:metal=silver"},
+    "satin": {"diffuse": "lambert:kd=0.15/0.03/0.05", "specular": "phong:n=8,ks=0.2"},
+    "car-paint": {
+        "diffuse": "lambert:kd=0.02/0.06/0.25",
+        "specular": "phong:n=30,ks=0.2",
+        "coat": "fresnel:eta=1.5",
+    },
     "glass": {
         "specular": "mirror:",
         "refraction": "clear:eta=1.5",

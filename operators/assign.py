@@ -17,7 +17,10 @@ class RSIBR_OT_assign(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  (Blender reads the class)
 
     filepath: bpy.props.StringProperty(
-        name="Map Set", description="File to shade from", subtype="FILE_PATH", options={"SKIP_SAVE"}
+        name="Map Set",
+        description="File to shade from",
+        subtype="FILE_PATH",
+        options={"SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
     )
 
     @classmethod

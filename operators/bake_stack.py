@@ -18,7 +18,10 @@ class RSIBR_OT_bake_stack(bpy.types.Operator):
     bl_options = {"REGISTER"}  # noqa: RUF012  (Blender reads the class)
 
     filepath: bpy.props.StringProperty(
-        name="Map Set", description="File to write", subtype="FILE_PATH", options={"SKIP_SAVE"}
+        name="Map Set",
+        description="File to write",
+        subtype="FILE_PATH",
+        options={"SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
     )
     environment: bpy.props.StringProperty(
         name="Environment",

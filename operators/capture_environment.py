@@ -23,7 +23,7 @@ class RSIBR_OT_capture_environment(Stepwise, bpy.types.Operator):
         name="Picture",
         description="File to write, OpenEXR or Radiance HDR by its name",
         subtype="FILE_PATH",
-        options={"SKIP_SAVE"},
+        options={"SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
     )
     source: bpy.props.EnumProperty(
         name="Light",

@@ -19,7 +19,10 @@ class RSIBR_OT_capture_views(Stepwise, bpy.types.Operator):
     bl_options = {"REGISTER"}  # noqa: RUF012  (Blender reads the class)
 
     filepath: bpy.props.StringProperty(
-        name="Map Set", description="File to write", subtype="FILE_PATH", options={"SKIP_SAVE"}
+        name="Map Set",
+        description="File to write",
+        subtype="FILE_PATH",
+        options={"SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
     )
     material: bpy.props.StringProperty(
         name="Material", description="Material of this file; empty for the active object's active one"

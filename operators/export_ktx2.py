@@ -17,7 +17,10 @@ class RSIBR_OT_export_ktx2(bpy.types.Operator):
     bl_label = "Export Reflection Maps"
 
     filepath: bpy.props.StringProperty(
-        name="File", description="Texture to write", subtype="FILE_PATH", options={"SKIP_SAVE"}
+        name="File",
+        description="Texture to write",
+        subtype="FILE_PATH",
+        options={"SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
     )
     filter_glob: bpy.props.StringProperty(default="*.ktx2", options={"HIDDEN"})
     check_existing: bpy.props.BoolProperty(default=True, options={"HIDDEN"})

@@ -20,7 +20,10 @@ class RSIBR_OT_fit_lobes(Stepwise, bpy.types.Operator):
     interrupted = "Fit interrupted; nothing was written"
 
     filepath: bpy.props.StringProperty(
-        name="Fit", description="File to write", subtype="FILE_PATH", options={"SKIP_SAVE"}
+        name="Fit",
+        description="File to write",
+        subtype="FILE_PATH",
+        options={"SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
     )
     brdf: bpy.props.StringProperty(
         name="Reflectance",

@@ -14,7 +14,10 @@ class FromPictures(Stepwise):
     """Of a picture of light; `work` is to return its path."""
 
     filepath: bpy.props.StringProperty(
-        name="Picture", description="Picture to work on", subtype="FILE_PATH", options={"SKIP_SAVE"}
+        name="Picture",
+        description="Picture to work on",
+        subtype="FILE_PATH",
+        options={"SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
     )
     filter_image: bpy.props.BoolProperty(default=True, options={"HIDDEN", "SKIP_SAVE"})
     filter_folder: bpy.props.BoolProperty(default=True, options={"HIDDEN", "SKIP_SAVE"})
@@ -62,7 +65,10 @@ class FromSeveralPictures(FromPictures):
     """The same, from one picture or several of a folder."""
 
     directory: bpy.props.StringProperty(
-        name="Folder", description="Of the pictures", subtype="DIR_PATH", options={"HIDDEN", "SKIP_SAVE"}
+        name="Folder",
+        description="Of the pictures",
+        subtype="DIR_PATH",
+        options={"HIDDEN", "SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
     )
     files: bpy.props.CollectionProperty(
         name="Pictures",

@@ -14,8 +14,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--material",
         metavar="PRESET",
         help="parts to start from: chrome, matte, plastic, varnished, copper, gold, silver, satin, "
-        "car-paint, glass, cats-eye, glowing; "
-        "those given below replace its own",
+        "car-paint, glass, cats-eye, glowing; those given below replace its own",
     )
     material = parser.add_argument_group("parts of the material", argument_default=argparse.SUPPRESS)
     material.add_argument(

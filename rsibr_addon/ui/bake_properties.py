@@ -72,6 +72,7 @@ class RSIBR_PG_bake_stack(bpy.types.PropertyGroup):
         name="File",
         description=f"Measurement of the MERL, Cornell or RGL database: {', '.join(MEASURED_FORMATS)}",
         subtype="FILE_PATH",
+        options={"PATH_SUPPORTS_BLEND_RELATIVE"},
     )
     lobes: bpy.props.IntProperty(
         name="Lobes",

@@ -15,6 +15,7 @@ class RSIBR_AP_preferences(bpy.types.AddonPreferences):
         description="Folder for baked map sets; // is that of the open file. For files that are not saved "
         "yet, a folder of the user's own is taken",
         subtype="DIR_PATH",
+        options={"PATH_SUPPORTS_BLEND_RELATIVE"},
         default=FOLDER,
     )
 

@@ -9,6 +9,7 @@ from ..brdf.model import Brdf
 from ..brdf.spec import spec_from_brdf
 from ..conventions import Array
 from ..progress import Progress, Steps
+from .accuracy import fit_errors
 from .bank import SHARPEST
 from .fit import Fit, joined
 from .joint import JointFitter
@@ -19,6 +20,10 @@ NEGLIGIBLE = 0.1
 
 CLOSE, TAPS = 0.1, 3
 """Where E stays above, each lobe is looked up so many times: that costs no maps, and time to draw alone."""
+
+PAYS = 0.8
+"""If that leaves so much of E, or less, at elevations that were not fitted: taps that follow the noise of a
+measurement do not, and flicker from one elevation to the next."""
 
 
 @dataclass
@@ -42,6 +47,13 @@ class _Layer:
         self.fit, errors = self.fitter.fit(taps)
         self.error = float(np.sqrt(np.mean(errors**2 * self.share)))
 
+    def look_up_more(self, fit: Fit) -> None:
+        """Fit `TAPS` taps, and take them instead of a fit with one where they pay."""
+        several, _ = self.fitter.fit(TAPS)
+        one_error, error = (fit_errors(each, self.brdf, _between(fit.mu)).error for each in (fit, several))
+        if error <= PAYS * one_error:
+            self.fit = several
+
 
 def layered_fit(
     brdf: Brdf,
@@ -64,8 +76,8 @@ def layered_fit(
     error : float, optional
         Stop adding lobes, to the layer that is furthest off, where E of the whole is at most this.
     taps : int, optional
-        Directions in which each lobe's map is looked up; where not given, `TAPS` in layers that are not
-        `NEGLIGIBLE` of a whole that lobes of one tap leave further off than `CLOSE`, else 1.
+        Directions in which each lobe's map is looked up; where not given, 1, and `TAPS` where a whole would be
+        further off than `CLOSE`, in its layers that are not `NEGLIGIBLE` and where they pay.
     non_negative : bool
         Whether no kernel may have a negative weight.
     sharpest : float
@@ -96,8 +108,14 @@ def layered_fit(
         for layer in layers:
             if layer.fit is not None and layer.error >= NEGLIGIBLE * together:
                 yield Progress(0, 1, f"looking lobes of {type(layer.brdf).__name__} up in {TAPS} directions")
-                layer.track(TAPS)
+                layer.look_up_more(layer.fit)
     return joined([layer.fit for layer in layers if layer.fit is not None], spec)
+
+
+def _between(mu: Array) -> Array:
+    """Some elevations halfway between those that are fitted; of one or two, themselves."""
+    halfway: Array = 0.5 * (mu[1:] + mu[:-1])
+    return halfway[1::4] if len(halfway) > 1 else mu
 
 
 def _together(layers: Sequence[_Layer]) -> float:

@@ -80,7 +80,7 @@ def scattered_brdf(light_dir: Array, view_dir: Array, brdf: Array, spec: str) ->
         log_facets, hue = _fit(cells.reshape(-1, 3), samples, facets, hues)
         fitted = np.exp(log_facets).reshape(boundary.shape) * boundary
         row[:] = fitted[..., None] * hue.reshape(*boundary.shape, 3)
-    return Tabulated(np.concatenate([table, table[:, :, ::-1]], axis=2), spec)
+    return Tabulated(np.concatenate([table, table[:, :, ::-1]], axis=2), spec, scattered=True)
 
 
 def _coordinates(theta_h: Array, theta_d: Array, phi_d: Array) -> Array:

@@ -104,3 +104,8 @@ class Brdf(Checked, ABC):
     def layers(self) -> tuple["Brdf", ...]:
         """Models whose sum this is, each of which has one kind of lobe; itself alone for most."""
         return (self,)
+
+    @property
+    def is_noisy(self) -> bool:
+        """Whether it differs from one elevation to the next by errors of a measurement."""
+        return False

@@ -27,6 +27,8 @@ class Tabulated(Brdf):
         Whether azimuths phi_d + pi, at which light and view have changed places, show what phi_d
         shows. Otherwise they show what 2 pi - (phi_d + pi) shows: an isotropic surface is symmetric about the
         plane of normal and half vector.
+    scattered : bool
+        Whether it is made of few samples, whose errors it spreads over cells.
 
     Raises
     ------
@@ -41,10 +43,16 @@ class Tabulated(Brdf):
     table: Array
     spec: str
     reciprocal: bool = True
+    scattered: bool = False
 
     def __post_init__(self) -> None:
         if self.table.ndim != 4 or self.table.shape[3] != 3 or 0 in self.table.shape:
             raise ShapeError(f"A reflectance table has shape (H, D, P, 3), not {self.table.shape}.")
+
+    @property
+    def is_noisy(self) -> bool:
+        """See `Brdf`."""
+        return self.scattered
 
     def above_horizon(self, geometry: Geometry) -> Array:
         """See `Brdf`."""

@@ -15,6 +15,7 @@ from .bank import SHARPEST, KernelBank, octaves
 from .descent import descend
 from .fit import Fit
 from .projection import Lookups, Projector
+from .smoothing import smoothed_lookups, smoothed_weights
 from .target import TargetSlice
 
 MOST_AMPLIFICATION, MOST_OF_ONE = 8.0, 2.0
@@ -91,6 +92,31 @@ class JointFitter:
     def grow(self) -> None:
         """Add a lobe, at the elevation where tracking begins."""
         self._angles = _added_lobe(self._projector, self._angles)
+
+    def smooth(self, fit: Fit, price: float) -> Fit:
+        """The same lobes, with axes and profiles that change more evenly over the elevations.
+
+        Parameters
+        ----------
+        fit : Fit
+            That `fit` returned.
+        price : float
+            See `smoothing`.
+
+        Returns
+        -------
+        Fit
+        """
+        tilts = fit.offsets[..., 0].swapaxes(0, 1)
+        tracked = [
+            Lookups(target.theta - each * np.sin(target.theta), taps)
+            for target, each, taps in zip(self._slices, tilts, fit.taps.swapaxes(0, 1), strict=True)
+        ]
+        lookups = smoothed_lookups(self._slices, tracked, price)
+        projectors = [Projector(target, self._bank) for target in self._slices]
+        weights = smoothed_weights(projectors, lookups, price)
+        states = [State(*both, np.nan) for both in zip(lookups, weights, strict=True)]
+        return _fit(self._slices, self._bank, states, self._brdf)
 
     def fit(self, taps: int = 1) -> tuple[Fit, Array]:
         """Track the lobes, at least one, over all elevations.

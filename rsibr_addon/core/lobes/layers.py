@@ -13,13 +13,14 @@ from .accuracy import fit_errors
 from .bank import SHARPEST
 from .fit import Fit, joined
 from .joint import JointFitter
+from .smoothing import PRICES, TOLERATED
 from .target import TargetSlice, target_slices
 
 NEGLIGIBLE = 0.1
 """A layer whose error is below this share of the whole's gets no more lobes."""
 
 CLOSE, TAPS = 0.1, 3
-"""Where E stays above, each lobe is looked up so many times: that costs no maps, and time to draw alone."""
+"""Where E stays above, each lobe is looked up so many times: that costs no maps, only time to draw."""
 
 PAYS = 0.8
 """If that leaves so much of E, or less, at elevations that were not fitted: taps that follow the noise of a
@@ -54,6 +55,14 @@ class _Layer:
         if error <= PAYS * one_error:
             self.fit = several
 
+    def smooth(self, fit: Fit) -> None:
+        """Take the smoothest fit that is nearly as good halfway between elevations as the best."""
+        fits = [fit, *(self.fitter.smooth(fit, price) for price in PRICES)]
+        errors = [fit_errors(each, self.brdf, _between(fit.mu)).error for each in fits]
+        self.fit = [
+            each for each, error in zip(fits, errors, strict=True) if error <= TOLERATED * min(errors)
+        ][-1]
+
 
 def layered_fit(
     brdf: Brdf,
@@ -76,8 +85,8 @@ def layered_fit(
     error : float, optional
         Stop adding lobes, to the layer that is furthest off, where E of the whole is at most this.
     taps : int, optional
-        Directions in which each lobe's map is looked up; where not given, 1, and `TAPS` where a whole would be
-        further off than `CLOSE`, in its layers that are not `NEGLIGIBLE` and where they pay.
+        Directions in which each lobe's map is looked up; where not given, 1, and `TAPS` where a whole is
+        further off than `CLOSE`, in its layers that are not `NEGLIGIBLE` and where that pays.
     non_negative : bool
         Whether no kernel may have a negative weight.
     sharpest : float
@@ -109,6 +118,10 @@ def layered_fit(
             if layer.fit is not None and layer.error >= NEGLIGIBLE * together:
                 yield Progress(0, 1, f"looking lobes of {type(layer.brdf).__name__} up in {TAPS} directions")
                 layer.look_up_more(layer.fit)
+    for layer in layers:
+        if layer.fit is not None and layer.brdf.is_noisy and not non_negative:
+            yield Progress(0, 1, "smoothing over elevations")
+            layer.smooth(layer.fit)
     return joined([layer.fit for layer in layers if layer.fit is not None], spec)
 
 

@@ -77,6 +77,11 @@ class Projector:
         Factor of both ridges.
     non_negative : bool
         Whether no kernel may have a negative weight.
+
+    Attributes
+    ----------
+    own : ndarray, shape (K, K)
+        Scalar products of the kernels about one axis, of unit power each.
     """
 
     def __init__(
@@ -93,7 +98,8 @@ class Projector:
         own = bank.products(np.zeros(()))[0]
         # Coefficients of kernels of unit power keep the systems well scaled
         self._unit = 1.0 / np.sqrt(own.diagonal())
-        own = own * np.outer(self._unit, self._unit) + _RANK * np.eye(len(bank))
+        self.own = own * np.outer(self._unit, self._unit)
+        own = self.own + _RANK * np.eye(len(bank))
         price = LIGHT_RIDGE * per_light * self._unit**2
         self._ridge = stiffness * (SHAPE_RIDGE * own + np.diag(price))
 
@@ -102,6 +108,28 @@ class Projector:
         moments, _ = self._moments(lookups.angles.ravel())
         products, _, _ = self._products(lookups.angles.ravel())
         return self._solve(lookups, moments, products)[2]
+
+    def equations(self, lookups: Lookups) -> tuple[Array, Array]:
+        """What the coefficients of given lookups solve; see `weights`.
+
+        Parameters
+        ----------
+        lookups : Lookups
+
+        Returns
+        -------
+        system : ndarray, shape (J K, J K)
+        right : ndarray, shape (J K, 3)
+        """
+        moments, _ = self._moments(lookups.angles.ravel())
+        products, _, _ = self._products(lookups.angles.ravel())
+        system = _summed_over_taps(_summed_over_taps(products, lookups.taps).T, lookups.taps)
+        return system, _summed_over_taps(moments, lookups.taps)
+
+    def weights(self, coefficients: Array) -> Array:
+        """Weights of kernels, shape (J, K, 3), from coefficients in units of their power and the target's."""
+        weights: Array = coefficients * self._unit[:, None] * np.sqrt(self.target.power)
+        return weights
 
     def project(self, lookups: Lookups) -> Projection:
         """Find the profiles and the derivatives.
@@ -141,7 +169,7 @@ class Projector:
         seen = np.einsum("crs,spc->rpc", inverse, with_lobes, optimize=True)
         hessian = pairs.reshape(2 * count, 2 * count) - np.einsum("rpc,rqc->pq", with_lobes, seen)
         return Projection(
-            coefficients * self._unit[:, None] * np.sqrt(self.target.power),
+            self.weights(coefficients),
             objective,
             2.0 * (fitted - with_target),
             2.0 * hessian,

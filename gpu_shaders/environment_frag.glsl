@@ -13,12 +13,8 @@ void main()
   vec3 fresnel = fresnel_schlick(clamp(dot(unit_normal, view_dir), 0.0, 1.0), look.f_lambda.rgb);
   vec3 corners[4];
   parallelogram(mirror_dir, dFdx(mirror_dir), dFdy(mirror_dir), corners);
-  vec3 light;
-  if (look.antialiased > 0.5) {
-    light = box_mean(sums, look.unit.rgb, footprint_box(corners, vec2(textureSize(sums, 0).xy - 1)));
-  }
-  else {
-    light = equirect_radiance(environment, mirror_dir);
-  }
+  vec3 light = (look.antialiased > 0.5) ?
+                   footprint_mean(environment, sums, look.unit.rgb, mirror_dir, corners) :
+                   equirect_radiance(environment, mirror_dir);
   radiance = vec4(fresnel * light, 1.0);
 }

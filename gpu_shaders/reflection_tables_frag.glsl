@@ -19,14 +19,23 @@ void main()
   radiance.rgb += weighted_table(tables.specular, specular, weights, TABLE_SPECULAR, cosine, mirror_dir);
   radiance.rgb += weighted_table(tables.coat, coat, weights, TABLE_COAT, cosine, mirror_dir);
   radiance.rgb += weighted_mean(tables.specular_mean,
+                                specular,
                                 specular_sums,
                                 tables.specular_unit.rgb,
                                 weights,
                                 TABLE_SPECULAR,
                                 cosine,
+                                mirror_dir,
                                 corners);
-  radiance.rgb += weighted_mean(
-      tables.coat_mean, coat_sums, tables.coat_unit.rgb, weights, TABLE_COAT, cosine, corners);
+  radiance.rgb += weighted_mean(tables.coat_mean,
+                                coat,
+                                coat_sums,
+                                tables.coat_unit.rgb,
+                                weights,
+                                TABLE_COAT,
+                                cosine,
+                                mirror_dir,
+                                corners);
   radiance.rgb += weighted_table(tables.retro, retro, weights, TABLE_RETRO, cosine, view_dir);
   radiance.rgb += weighted_table(
       tables.refraction, refraction, weights, TABLE_REFRACTION, cosine, refracted_dir);

@@ -25,12 +25,18 @@ vec3 weighted_table(float factor, sampler2D table, sampler2D weights, int role, 
 }
 
 // The same for a table that is averaged over a pixel's footprint (see summed_area_lib.glsl).
-vec3 weighted_mean(
-    float factor, sampler2DArray sums, vec3 unit, sampler2D weights, int role, float cosine, vec3 corners[4])
+vec3 weighted_mean(float factor,
+                   sampler2D table,
+                   sampler2DArray sums,
+                   vec3 unit,
+                   sampler2D weights,
+                   int role,
+                   float cosine,
+                   vec3 direction,
+                   vec3 corners[4])
 {
   if (factor == 0.0) {
     return vec3(0.0);
   }
-  vec4 box = footprint_box(corners, vec2(textureSize(sums, 0).xy - 1));
-  return factor * table_weight(weights, role, cosine) * box_mean(sums, unit, box);
+  return factor * table_weight(weights, role, cosine) * footprint_mean(table, sums, unit, direction, corners);
 }

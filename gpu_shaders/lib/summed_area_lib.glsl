@@ -95,3 +95,17 @@ vec3 box_mean(sampler2DArray table, vec3 unit, vec4 box)
   float turn = dot(column_weights, vec3(columns.yzw - columns.xyz)) * (6.28318531 / float(size.x));
   return power * unit / (turn * dot(row_weights, bands));
 }
+
+// Mean radiance over a footprint. Of less than a texel, the map interpolated in the footprint's middle: the
+// same but for the solid angles of the rows, in a fourth of the time.
+vec3 footprint_mean(
+    sampler2D bordered, sampler2DArray table, vec3 unit, vec3 direction, vec3 corners[4])
+{
+  vec2 size = vec2(textureSize(table, 0).xy - 1);
+  vec4 box = footprint_box(corners, size);
+  vec2 extent = (box.zw - box.xy) * size;
+  if (max(extent.x, extent.y) < 1.001) {
+    return equirect_radiance(bordered, direction);
+  }
+  return box_mean(table, unit, box);
+}

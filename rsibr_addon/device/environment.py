@@ -9,7 +9,7 @@ from ..core.environment import Environment
 from ..core.shading.environment import EnvironmentLook
 from . import buffers
 from .drawing import Draw, MeshOnDevice
-from .equirect import Sums, map_sums, map_texture, no_map, no_sums
+from .equirect import Sums, map_sums, map_texture, no_sums
 from .shaders import build, kept_until_exit, mesh_interface
 
 _LOOK_BLOCK = (
@@ -35,39 +35,35 @@ def environment_shader() -> gpu.types.GPUShader:
 
 
 class EnvironmentOnDevice:
-    """An environment; what a look asks for is uploaded when the first such look is drawn.
+    """An environment, uploaded; its sums when the first antialiased look is drawn.
 
     Parameters
     ----------
     environment : Environment
+
+    Raises
+    ------
+    DeviceError
+        The environment is larger than the device takes.
     """
 
     def __init__(self, environment: Environment) -> None:
         self._environment = environment
-        self._no_map, self._no_sums = no_map(), no_sums()
+        self._map = map_texture("environment", environment.radiance)
+        self._no_sums = no_sums()
         self._look = buffers.KeptBlock()
-
-    @cached_property
-    def _map(self) -> gpu.types.GPUTexture:
-        return map_texture("environment", self._environment.radiance)
 
     @cached_property
     def _sums(self) -> Sums:
         return map_sums(self._environment.radiance)
 
     def draw(self, mesh: MeshOnDevice, draw: Draw, look: EnvironmentLook) -> None:
-        """See `OnDevice.draw`. Reference: core/shading/environment.py.
-
-        Raises
-        ------
-        DeviceError
-            The environment is larger than the device takes.
-        """
+        """See `OnDevice.draw`. Reference: core/shading/environment.py."""
         sums = self._sums if look.antialiased else self._no_sums
         antialiased = np.array([float(look.antialiased)])
         shader = environment_shader()
         shader.bind()
         shader.uniform_block("look", self._look.filled(np.array(look.f_lambda), sums.unit, antialiased))
-        shader.uniform_sampler("environment", self._no_map if look.antialiased else self._map)
+        shader.uniform_sampler("environment", self._map)
         shader.uniform_sampler("sums", sums.texture)
         mesh.draw(shader, draw)

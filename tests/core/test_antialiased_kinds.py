@@ -1,136 +1,24 @@
 """Highlights of a small lamp on a wrinkled ball, as each kind of map set shows them while the lamp moves."""
 
-from collections.abc import Callable
-from functools import partial
-
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.antialiased.footprint import footprint_or_point
-from rsibr.rsibr_addon.core.conventions import texel_centres
-from rsibr.rsibr_addon.core.directions import camera_frame, mirror_normal, normalize, reflect
-from rsibr.rsibr_addon.core.geodesic import geodesic_sphere
-from rsibr.rsibr_addon.core.lobes.stack import LobeStack, stack_representation
-from rsibr.rsibr_addon.core.maps import sphere_map
-from rsibr.rsibr_addon.core.maps.representation import representation
-from rsibr.rsibr_addon.core.mip_chain import MipChain
-from rsibr.rsibr_addon.core.mips.texture_space import filtered_mips, tent_halved
-from rsibr.rsibr_addon.core.radiance_views import RadianceViews
-from rsibr.rsibr_addon.core.shading.lobe_stack import StackLook, stack_radiance
-from rsibr.rsibr_addon.core.shading.mip_chain import Borders, glossy_mean
-from rsibr.rsibr_addon.core.shading.radiance_views import (
-    Warping,
-    destination_by_texel,
-    destination_lookup,
-    views_fragment,
-)
-from rsibr.tests.bumpy_sphere import EYE, energy, error, flicker, footprints, missing, supersampled
-
-SIZE = 20
-TEXELS = 64
-LAMP = 0.03
-"""Radius of the lamp: about a texel."""
-
-FRAMES = 3
-
-type Shade = Callable[[np.ndarray, np.ndarray | None], np.ndarray]
-"""Mirror directions, and footprints or None, to radiance."""
-
-
-def lamp(direction: np.ndarray, frame: int) -> np.ndarray:
-    """Radiance of the lamp, with a soft edge, a quarter of a texel farther in each frame; shape (..., 3)."""
-    place = normalize((0.9 + 0.25 * 2.0 / TEXELS * frame, -1.0, -0.4))
-    away = np.linalg.norm(direction - place, axis=-1)
-    return np.repeat(1e4 * np.clip(2.0 - 2.0 * away / LAMP, 0.0, 1.0)[..., None], 3, axis=-1).astype(
-        np.float32
-    )
-
-
-def mip_chain(frame: int) -> Shade:
-    faces = lamp(representation("cube_map").texel_directions(TEXELS), frame)
-    mips = tuple(mip.astype(np.float32) for mip in filtered_mips(faces, tent_halved))
-    chain = MipChain(mips, np.zeros((9, 3)))
-
-    def shade(direction: np.ndarray, corners: np.ndarray | None) -> np.ndarray:
-        return glossy_mean(chain, direction, footprint_or_point(corners, direction), 0.0, Borders.SEAMLESS)
-
-    return shade
-
-
-def lobe_stack(frame: int) -> Shade:
-    maps = lamp(stack_representation("octahedral", 2 * TEXELS).texel_directions(2 * TEXELS), frame)
-    ones = np.ones((1, 2, 3))
-    stack = LobeStack(
-        layout="octahedral",
-        mu=np.array([0.5, 1.0]),
-        maps=maps[None, None],
-        scale=ones,
-        offsets=np.zeros((1, 2, 1, 2)),
-        taps=ones[..., :1],
-        albedo=ones,
-    )
-
-    def shade(direction: np.ndarray, corners: np.ndarray | None) -> np.ndarray:
-        return stack_radiance(stack, mirror_normal(EYE, direction), EYE, StackLook(), corners)
-
-    return shade
-
-
-def captured(frame: int) -> RadianceViews:
-    """A mirror's views."""
-    normals = sphere_map.normal_from_uv(texel_centres(2 * TEXELS, 2 * TEXELS))
-    seen = np.stack(
-        [
-            lamp(reflect(np.broadcast_to(eye, normals.shape), normals @ camera_frame(eye).T), frame)
-            for eye in geodesic_sphere(12).vertices
-        ]
-    )
-    return RadianceViews(np.zeros_like(seen), seen)
-
-
-def views_by_fragment(frame: int) -> Shade:
-    views = captured(frame)
-
-    def shade(direction: np.ndarray, corners: np.ndarray | None) -> np.ndarray:
-        return views_fragment(views, mirror_normal(EYE, direction), EYE, Warping.SPLIT, corners)
-
-    return shade
-
-
-def views_by_texel(frame: int) -> Shade:
-    destination = destination_by_texel(captured(frame), EYE, 2 * TEXELS, Warping.SPLIT)
-
-    def shade(direction: np.ndarray, corners: np.ndarray | None) -> np.ndarray:
-        return destination_lookup(
-            destination, mirror_normal(EYE, direction), np.broadcast_to(EYE, direction.shape), corners
-        )
-
-    return shade
-
+from rsibr.tests.bumpy_kinds import KINDS, frames_of
+from rsibr.tests.bumpy_sphere import energy, error, flicker, missing
 
 type Frames = list[dict[str, np.ndarray]]
 
 
-@pytest.fixture(scope="module", params=[mip_chain, lobe_stack, views_by_fragment, views_by_texel])
+@pytest.fixture(scope="module", params=KINDS)
 def frames(request: pytest.FixtureRequest) -> Frames:
-    middle, corners = footprints(SIZE, 0.1, 0.0)
-    pictures = []
-    for frame in range(FRAMES):
-        shade = request.param(frame)
-        pictures.append(
-            {
-                "reference": supersampled(partial(shade, corners=None), SIZE, 0.1, 0.0),
-                "point": shade(middle, None),
-                "antialiased": shade(middle, corners),
-            }
-        )
-    return pictures
+    return frames_of(KINDS[request.param], 20, 3)
 
 
 def test_highlights_do_not_scintillate(frames: Frames) -> None:
     assert np.abs(energy(frames, "point") - 1.0).max() > 0.25
     # Of ways that are exact, 5 % is the reference's own uncertainty: see test_antialiased_highlights.
     assert flicker(frames, "antialiased") < 0.05
-    np.testing.assert_allclose(energy(frames, "antialiased"), 1.0, atol=0.1)
+    # A few pixels reflect six texels a side, of which `sampling.MOST` lookups find two thirds.
+    np.testing.assert_allclose(energy(frames, "antialiased"), 1.0, atol=0.15)
 
 
 def test_highlights_do_not_break_up(frames: Frames) -> None:

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.antialiased.summed_area import summed_area_table
+from rsibr.rsibr_addon.core.antialiased.summed_area import footprint_mean, summed_area_table
 from rsibr.rsibr_addon.core.directions import dot, normalize, refract
 from rsibr.rsibr_addon.core.maps import equirect, sphere_map
 from rsibr.rsibr_addon.core.reflection_tables import ReflectionTables, Role
@@ -125,10 +125,21 @@ TWINS = {
         FILTERING,
         samplers=samplers,
     ),
+    "footprint_mean": Twin(
+        "summed_area_lib.glsl",
+        f"{CORNERS} vec3 middle = normalize(in_0.xyz + in_1.xyz + in_2.xyz + in_3.xyz);"
+        f"result_0.xyz = footprint_mean(image, sums, {UNIT}, middle, corners);",
+        footprints,
+        lambda *corners: footprint_mean(IMAGE, normalize(np.sum(corners, axis=0)), np.stack(corners, axis=1)),
+        # As of interpolation, and of boxes, below
+        2.0 * (FILTERING + 2 * ROWS * ARCTANGENT) + 6e-6 * 2 * ROWS,
+        samplers=lambda: samplers() | {"sums": ("FLOAT_2D_ARRAY", summed_area_texture(SUMMED))},
+    ),
     "weighted_mean": Twin(
         "reflection_tables_lib.glsl",
         f"{CORNERS} result_0.xyz = weighted_mean("
-        f"in_4.y, sums, {UNIT}, weights, TABLE_SPECULAR, in_4.x, corners);",
+        f"in_4.y, image, sums, {UNIT}, weights, TABLE_SPECULAR, in_4.x, "
+        "vec3(-sqrt(1.0 - in_4.x * in_4.x), 0.0, in_4.x), corners);",
         lambda: [
             *footprints(),
             single(np.c_[RNG.uniform(-0.2, 1.0, COUNT), RNG.integers(0, 2, COUNT).astype(np.float64)]),

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..antialiased.footprint import footprint_box, footprint_or_point
-from ..antialiased.summed_area import box_mean, summed_area_table
+from ..antialiased.footprint import footprint_or_point
+from ..antialiased.summed_area import footprint_mean
 from ..brdf.fresnel import fresnel_schlick
 from ..conventions import Array, ArrayLike
 from ..directions import dot, reflect
@@ -65,18 +65,14 @@ def mirrored_environment(
 
     Notes
     -----
-    Texels are interpolated as Cycles does, over a pixel averaged as of [Miller1984] section 8.3; over a
-    footprint smaller than a texel both are the same but for the solid angles of rows. GLSL twin:
-    gpu_shaders/environment_frag.glsl.
+    Texels are interpolated as Cycles does, and averaged over pixels that reflect more than a texel as of
+    [Miller1984] section 8.3. GLSL twin: gpu_shaders/environment_frag.glsl.
     """
     normal, view_dir = np.broadcast_arrays(np.asarray(normal, np.float64), np.asarray(view_dir, np.float64))
     cosine = np.clip(dot(normal, view_dir), 0.0, 1.0)
     mirror_dir, radiance = reflect(view_dir, normal), environment.radiance
     if look.antialiased:
-        corners = footprint_or_point(mirror_footprint, mirror_dir)
-        light = box_mean(
-            summed_area_table(radiance), footprint_box(corners, radiance.shape[1], radiance.shape[0])
-        )
+        light = footprint_mean(radiance, mirror_dir, footprint_or_point(mirror_footprint, mirror_dir))
     else:
         light = bilinear(radiance, equirect.uv_from_direction(mirror_dir), equirect.wrap)
     shaded: Array = fresnel_schlick(cosine[..., None], look.f_lambda) * light

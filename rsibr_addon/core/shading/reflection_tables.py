@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..antialiased.footprint import footprint_box, footprint_or_point
-from ..antialiased.summed_area import box_mean, summed_area_table
+from ..antialiased.footprint import footprint_or_point
+from ..antialiased.summed_area import footprint_mean
 from ..conventions import Array, ArrayLike
 from ..directions import dot, reflect, refract
 from ..errors import RangeError
@@ -143,11 +143,9 @@ def reflect_tables(
         weight = look.weight(role) * bilinear(
             tables.weights, np.stack([cosine, row], axis=-1), sphere_map.wrap
         )
-        table = tables.maps[role]
+        table, direction = tables.maps[role], lookup_direction(role, normal, view_dir, tables.eta)
         if look.antialiased and role in MIRRORED:
-            box = footprint_box(corners, table.shape[1], table.shape[0])
-            radiance += weight * box_mean(summed_area_table(table), box)
+            radiance += weight * footprint_mean(table, direction, corners)
         else:
-            uv = equirect.uv_from_direction(lookup_direction(role, normal, view_dir, tables.eta))
-            radiance += weight * bilinear(table, uv, equirect.wrap)
+            radiance += weight * bilinear(table, equirect.uv_from_direction(direction), equirect.wrap)
     return radiance

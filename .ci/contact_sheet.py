@@ -1,4 +1,4 @@
-"""Put previews side by side, so many stops brighter: contact_sheet.py OUT.png COLUMNS STOPS PREVIEW.exr ..."""
+"""Put previews side by side, some stops brighter: contact_sheet.py OUT.png COLUMNS STOPS PREVIEW.exr ..."""
 
 import sys
 from pathlib import Path

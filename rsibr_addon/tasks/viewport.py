@@ -3,7 +3,7 @@
 import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from itertools import product
 from typing import Any
 
@@ -41,6 +41,12 @@ class _Contents:
     previews: list[_Preview]
     others: list[Surface] | None
     changed: bool = False
+    paths: dict[Any, str] = field(default_factory=dict)
+
+    @property
+    def moved(self) -> bool:
+        """Whether a map set has been packed or found elsewhere, of which Blender tells nobody."""
+        return any(map_set_of(item) != path for item, path in self.paths.items())
 
 
 @dataclass(frozen=True)
@@ -88,8 +94,7 @@ class Previews:
         self._contents.clear()
 
     def reload(self) -> None:
-        """Read the map sets' files anew, wherever they are by now, and try again what failed."""
-        self.scene_changed()
+        """Read the map sets' files anew, and try again what failed."""
         self._map_sets.clear()
         self._unused = UnusedMapSets()
         self._live.clear()
@@ -207,7 +212,8 @@ class Previews:
 
     def _contents_of(self, view: View) -> _Contents:
         contents = self._contents.get(view.layer)
-        if contents is None or contents.changed or (contents.others is not None) == view.has_depth:
+        known = contents is not None and (contents.others is None) == view.has_depth
+        if not known or contents.changed or contents.moved:
             contents = self._contents[view.layer] = self._collect(view)
             self._let_go_of_unused()
         return contents
@@ -228,6 +234,7 @@ class Previews:
                 continue
             if path:
                 contents.previews.append(_Preview(surface, path))
+                contents.paths[surface.item] = path
             else:
                 contents.others.append(surface)
         return contents

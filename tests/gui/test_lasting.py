@@ -56,6 +56,7 @@ def scenario(told):
         bpy.ops.ed.undo_push(message="packed")
         yield from drawn()
         told["packed"] = [cube.rsibr.image.packed_file is not None, as_at_first()]
+        told["shaded as"] = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport").previews.kind(cube)
         bpy.ops.ed.undo()
         yield from drawn()
         told["undone"] = [bpy.data.objects["Cube"].rsibr.image.packed_file is None, as_at_first()]
@@ -166,6 +167,7 @@ def test_a_preview_is_the_same_in_every_file_that_has_the_object(told: Told) -> 
     assert saved == {
         "stored": "//rsibr/light.rsibr.exr",
         "packed": [True, True],
+        "shaded as": "mip_chain",
         "undone": [True, True],
         "redone": [True, True],
     }

@@ -48,6 +48,7 @@ bench: $(READY)
 	$(PYTHON) .ci/bench_fits.py
 	$(PYTHON) .ci/bench_lobes.py
 	$(PYTHON) .ci/bench_mips.py
+	$(PYTHON) .ci/bench_viewport.py
 
 clean:
 	rm -rf $(VENV) build demo dist wheels rsibr.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache

@@ -1,0 +1,154 @@
+"""What `bench_viewport.py` measures, within Blender's window."""
+
+import functools
+import importlib
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import bpy
+import gpu
+import in_window
+import numpy as np
+from in_window import ROOT, drawn, region, run, view, window
+from mathutils import Quaternion
+
+in_window.SECONDS = 1500.0
+
+FRAMES = 12
+REDRAWS = 6
+ALLOCATED = ("GPUTexture", "GPUUniformBuf", "GPUFrameBuffer", "GPUBatch", "GPUVertBuf", "GPUIndexBuf")
+MODES = ("paper", "texel", "fragment")
+
+tasks = importlib.import_module(f"{ROOT}.rsibr_addon.tasks.viewport")
+device = importlib.import_module(f"{ROOT}.rsibr_addon.device.viewport")
+
+
+def wait_for_gpu() -> None:
+    """Return when all that was drawn is there."""
+    gpu.state.active_framebuffer_get().read_color(0, 0, 1, 1, 4, 0, "UBYTE")
+
+
+class Meter:
+    """Measures the previews' part of each frame."""
+
+    def __init__(self) -> None:
+        self._draw = tasks.previews.draw
+        self.cpu: list[float] = []
+        self.python: list[float] = []
+        self.synchronous = True
+        tasks.previews.draw = self._measured
+
+    def _measured(self, seen: Any) -> bool:
+        if self.synchronous:
+            wait_for_gpu()
+        cpu, python = time.process_time(), time.thread_time()
+        shown: bool = self._draw(seen)
+        self.python.append(1e3 * (time.thread_time() - python))
+        if self.synchronous:
+            wait_for_gpu()
+            self.cpu.append(1e3 * (time.process_time() - cpu))
+        return shown
+
+    def frames(self, synchronous: bool) -> Iterator[None]:
+        """Orbit for some frames, and measure them alone."""
+        self.cpu.clear()
+        self.python.clear()
+        self.synchronous = synchronous
+        orbited = view().spaces.active.region_3d
+        while len(self.python) < FRAMES:
+            count = len(self.python)
+            orbited.view_rotation = orbited.view_rotation @ Quaternion((0.0, 1.0, 0.0), 0.02)
+            view().tag_redraw()
+            while len(self.python) == count:
+                yield
+
+
+class Allocations:
+    """Counts what is made on the GPU."""
+
+    def __init__(self) -> None:
+        self.count = 0
+        for name in ALLOCATED:
+            setattr(gpu.types, name, functools.partial(self._made, getattr(gpu.types, name)))
+
+    def _made(self, made: Callable[..., Any], *arguments: Any, **named: Any) -> Any:
+        self.count += 1
+        return made(*arguments, **named)
+
+
+def redraws() -> Iterator[float]:
+    """CPU time of redraws of the viewport by Blender, each in another view [ms]."""
+    orbited = view().spaces.active.region_3d
+    with bpy.context.temp_override(window=window(), area=view(), region=region(view())):
+        for _ in range(REDRAWS):
+            orbited.view_rotation = orbited.view_rotation @ Quaternion((0.0, 1.0, 0.0), 0.02)
+            start = time.process_time()
+            # The swap waits for the GPU
+            bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
+            yield 1e3 * (time.process_time() - start)
+
+
+def sphere() -> bpy.types.Object:
+    """A smooth sphere of 101,760 triangles that fills the viewport."""
+    for item in list(bpy.data.objects):
+        bpy.data.objects.remove(item)
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=320, ring_count=160)
+    bpy.context.object.data.shade_smooth()
+    view().spaces.active.region_3d.view_distance = 4.0
+    return bpy.context.object
+
+
+def flat(on_device: Any) -> None:
+    """Have a map set draw meshes without any shading."""
+    on_device.draw = lambda mesh, placed, look: device.draw_occluder(mesh, placed)
+
+
+def scenario(told: dict[str, Any]) -> Iterator[None]:
+    """Measure everything, one after the other."""
+    item, meter, allocations = sphere(), Meter(), Allocations()
+    told["switch"] = {}
+    upload = tasks.upload_map_set
+
+    def timed_upload(path: Any) -> Any:
+        start = time.perf_counter()
+        uploaded = upload(path)
+        told["switch"][path.name.partition(".")[0]] = 1e3 * (time.perf_counter() - start)
+        return uploaded
+
+    tasks.upload_map_set = timed_upload
+
+    def measure(name: str) -> Iterator[None]:
+        yield from drawn()
+        yield from meter.frames(synchronous=True)
+        cpu, before = float(np.median(meter.cpu)), allocations.count
+        yield from meter.frames(synchronous=False)
+        python, made = float(np.median(meter.python)), allocations.count - before
+        told[name] = {"cpu": cpu, "python": python, "allocations": made}
+        assert not tasks.previews.fault(item), tasks.previews.fault(item)
+
+    for kind in ("mips", "tables", "stack", "views"):
+        item.rsibr.map_set = f"/job/{kind}.rsibr.exr"
+        if kind != "views":
+            yield from measure(kind)
+            continue
+        for mode in MODES:
+            item.rsibr.radiance_views.mode = mode
+            yield from measure(f"views {mode}")
+    flat(tasks.previews._map_sets["/job/views.rsibr.exr"].on_device)
+    yield from measure("flat")
+
+    start = time.perf_counter()
+    item.rsibr.map_set = "/job/stack.rsibr.exr"
+    told["back"] = 1e3 * (time.perf_counter() - start)
+    yield from drawn()
+    item.rsibr.map_set = ""
+    yield from drawn()
+    told["solid"] = float(np.median(list(redraws())))
+    view().spaces.active.shading.type = "MATERIAL"
+    yield from drawn()
+    list(redraws())  # EEVEE builds its shaders
+    told["eevee"] = float(np.median(list(redraws())))
+
+
+run(scenario)

@@ -1,0 +1,102 @@
+"""A steady orbit allocates nothing on the GPU, whatever is shown."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import gpu
+import numpy as np
+import pytest
+from mathutils import Matrix
+from rsibr.rsibr_addon.core.camera import Camera
+from rsibr.rsibr_addon.core.environment import Environment
+from rsibr.rsibr_addon.core.mips.texture_space import tent_halved
+from rsibr.rsibr_addon.core.shading.environment import EnvironmentLook
+from rsibr.rsibr_addon.core.shading.lobe_stack import StackLook
+from rsibr.rsibr_addon.core.shading.mip_chain import MipLook
+from rsibr.rsibr_addon.core.shading.radiance_views import Mode, ViewsLook
+from rsibr.rsibr_addon.core.shading.reflection_tables import TablesLook
+from rsibr.rsibr_addon.device import buffers
+from rsibr.rsibr_addon.device.context import ensure_context
+from rsibr.rsibr_addon.device.drawing import MeshOnDevice, OnDevice
+from rsibr.rsibr_addon.device.environment import EnvironmentOnDevice
+from rsibr.rsibr_addon.device.live_environment import LiveEnvironmentOnDevice
+from rsibr.rsibr_addon.device.lobe_stack import LobeStackOnDevice
+from rsibr.rsibr_addon.device.mip_chain import MipChainOnDevice
+from rsibr.rsibr_addon.device.radiance_views import RadianceViewsOnDevice
+from rsibr.rsibr_addon.device.reflection_tables import ReflectionTablesOnDevice
+from rsibr.rsibr_addon.device.viewport import Stage, current_sight
+from rsibr.tests.glsl.test_mip_chain_preview import smooth_chain
+from rsibr.tests.glsl.test_reflection_tables import smooth_tables
+from rsibr.tests.lobe_stacks import random_stack
+from rsibr.tests.synthetic_views import smooth_views
+
+ALLOCATED = ("GPUTexture", "GPUUniformBuf", "GPUFrameBuffer", "GPUBatch", "GPUVertBuf", "GPUIndexBuf")
+
+SUBJECTS: dict[str, Callable[[], tuple[OnDevice, Any]]] = {
+    **{
+        mode.value: lambda mode=mode: (RadianceViewsOnDevice(smooth_views(12, 16)), ViewsLook(mode))
+        for mode in Mode
+    },
+    "mip chain": lambda: (MipChainOnDevice(smooth_chain(tent_halved)), MipLook()),
+    "tables": lambda: (ReflectionTablesOnDevice(smooth_tables(1.5)), TablesLook()),
+    "tables, antialiased": lambda: (
+        ReflectionTablesOnDevice(smooth_tables(1.5)),
+        TablesLook(antialiased=True),
+    ),
+    "lobe stack": lambda: (LobeStackOnDevice(random_stack("dual_paraboloid")), StackLook()),
+    "environment": lambda: (
+        EnvironmentOnDevice(Environment(np.ones((8, 16, 3), np.float32), "even")),
+        EnvironmentLook(),
+    ),
+    "live light": lambda: (LiveEnvironmentOnDevice(8), MipLook()),
+}
+
+
+@contextmanager
+def allocations() -> Iterator[list[str]]:
+    """What is made on the GPU within, by type."""
+    made: list[str] = []
+
+    def counted(name: str, original: type) -> Callable[..., Any]:
+        def make(*arguments: Any, **named: Any) -> Any:
+            made.append(name)
+            return original(*arguments, **named)
+
+        return make
+
+    with pytest.MonkeyPatch.context() as patch:
+        for name in ALLOCATED:
+            patch.setattr(gpu.types, name, counted(name, getattr(gpu.types, name)))
+        yield made
+
+
+@pytest.mark.parametrize("name", SUBJECTS)
+def test_frames_after_the_first_few_allocate_nothing(name: str) -> None:
+    ensure_context()
+    subject, look = SUBJECTS[name]()
+    corners, stage = np.eye(3), Stage()
+    mesh = MeshOnDevice(corners, corners, np.array([[0, 1, 2]]))
+    display = buffers.table_texture(np.ones((96, 96, 96, 3)))
+    colour = gpu.types.GPUTexture((32, 32), format="RGBA32F")
+    depth = gpu.types.GPUTexture((32, 32), format="DEPTH_COMPONENT32F")
+    target = gpu.types.GPUFrameBuffer(depth_slot=depth, color_slots=(colour,))
+
+    def frame(angle: float) -> None:
+        camera = Camera((np.cos(angle), np.sin(angle), 0.3), field_of_view=1.0)
+        with target.bind(), gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
+            gpu.matrix.load_matrix(Matrix(np.linalg.inv(camera.world_from_camera)))
+            gpu.matrix.load_projection_matrix(Matrix(camera.projection))
+            placed = current_sight().on(np.eye(4), np.eye(3))
+            with stage.drawing():
+                subject.draw(mesh, placed, look)
+            stage.show(display, 1.0, (0.0, 1.0), among_others=True)
+
+    with allocations() as made:
+        for number in range(buffers.FRAMES_IN_FLIGHT):
+            frame(0.1 * number)
+        assert "GPUUniformBuf" in made
+        made.clear()
+        for number in range(2 * buffers.FRAMES_IN_FLIGHT):
+            frame(0.1 * number)
+        assert made == []

@@ -28,6 +28,8 @@ BAKES = {
 }
 """Name of a map set -> the command that makes it."""
 
+SCENE = "import sys; sys.path.insert(0, '/job'); import bench_viewport_scene"
+
 FRAMES = {
     "flat": "depth alone, no shading",
     "mips": "mip chain (Kautz et al. 2004)",
@@ -87,7 +89,7 @@ def _measure(folder: Path) -> dict[str, Any]:
         return process.stdout
 
     blender("--command", "extension", "install-file", "-r", "user_default", "-e", "/job/extension.zip")
-    output = blender("--window", "--python", "/job/bench_viewport_scene.py")
+    output = blender("--window", "--python-expr", SCENE)
     (line,) = (line for line in output.splitlines() if line.startswith("TOLD "))
     told: dict[str, Any] = json.loads(line.removeprefix("TOLD "))
     if "error" in told:

@@ -1,7 +1,5 @@
 """Arrays to the GPU and back."""
 
-from collections import deque
-
 import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
@@ -131,10 +129,10 @@ class KeptBlock:
     """
 
     def __init__(self) -> None:
-        self._uploaded: deque[gpu.types.GPUUniformBuf] = deque(maxlen=FRAMES_IN_FLIGHT)
+        self._uploaded: dict[bytes, gpu.types.GPUUniformBuf] = {}
 
     def filled(self, *fields: Array) -> gpu.types.GPUUniformBuf:
-        """Upload fields, as many each time.
+        """Upload fields, as many each time, unless they were uploaded lately.
 
         Parameters
         ----------
@@ -145,13 +143,15 @@ class KeptBlock:
         -------
         GPUUniformBuf
         """
-        values = _block(fields)
-        if len(self._uploaded) < FRAMES_IN_FLIGHT:
-            self._uploaded.append(gpu.types.GPUUniformBuf(values))
-        else:
-            self._uploaded.rotate(-1)
-            self._uploaded[-1].update(values)
-        return self._uploaded[-1]
+        values = _block(fields).tobytes()
+        block = self._uploaded.pop(values, None)
+        if block is None and len(self._uploaded) < FRAMES_IN_FLIGHT:
+            block = gpu.types.GPUUniformBuf(values)
+        elif block is None:
+            block = self._uploaded.pop(next(iter(self._uploaded)))
+            block.update(values)
+        self._uploaded[values] = block  # the newest last
+        return block
 
 
 def pixels(framebuffer: gpu.types.GPUFrameBuffer, size: int) -> Array:

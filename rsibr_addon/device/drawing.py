@@ -1,5 +1,6 @@
 """What every kind of map set has in common on the GPU: an upload, drawn on a mesh as its look says."""
 
+from copy import copy
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
@@ -53,6 +54,12 @@ class MeshOnDevice:
         attributes = {"position": positions, "normal": normals}
         self._batch = buffers.triangles(shaders.views_fragment_shader(), attributes, triangles)
         self._placed = buffers.KeptBlock()
+
+    def again(self) -> "MeshOnDevice":
+        """The same mesh, to be drawn elsewhere in the same frames: with a block of its own."""
+        other = copy(self)
+        other._placed = buffers.KeptBlock()
+        return other
 
     def draw(self, shader: gpu.types.GPUShader, draw: Draw) -> None:
         """Draw it into the active frame buffer.

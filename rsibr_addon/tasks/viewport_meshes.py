@@ -17,13 +17,14 @@ class UploadedMeshes:
     def __init__(self) -> None:
         self._contents: dict[int, bytes] = {}
         self._uploaded: dict[bytes, MeshOnDevice] = {}
+        self._standing: dict[Surface, MeshOnDevice] = {}
 
     def __len__(self) -> int:
         return len(self._uploaded)
 
     def __getitem__(self, surface: Surface) -> MeshOnDevice:
         """What a surface is drawn with, once it is `there`."""
-        return self._uploaded[self._contents[surface.mesh]]
+        return self._standing[surface]
 
     def there(self, surface: Surface, evaluated: Any, depsgraph: Any) -> bool:
         """Whether a surface can be drawn: it has faces, and is uploaded from now on.
@@ -43,10 +44,14 @@ class UploadedMeshes:
                     self._uploaded[content] = MeshOnDevice(
                         triangles.positions, triangles.normals, triangles.triangles
                     )
-        return self._contents[surface.mesh] in self._uploaded
+        uploaded = self._uploaded.get(self._contents[surface.mesh])
+        if uploaded is not None:
+            self._standing[surface] = uploaded.again()
+        return uploaded is not None
 
     def keep(self, surfaces: list[Surface]) -> None:
         """Let go of what none of these surfaces has."""
+        self._standing = {surface: self._standing[surface] for surface in surfaces}
         wanted = {surface.mesh for surface in surfaces}
         self._contents = {mesh: content for mesh, content in self._contents.items() if mesh in wanted}
         contents = set(self._contents.values())

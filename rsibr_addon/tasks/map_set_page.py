@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ..core.brdf.gallery import gallery_name
 from ..core.brdf.model import Brdf
 from ..core.camera import Camera
 from ..core.conventions import Array
@@ -128,7 +129,7 @@ def _truth(spec: str) -> Brdf | None:
 
 def _title(header: Mapping[str, Any]) -> str:
     material = header["material"]
-    name = material.get("name") or material.get("brdf")
+    name = material.get("name") or gallery_name(material.get("brdf", ""))
     environment = Path(header["environment"]["name"]).stem
     return f"{name} in {environment}" if name else environment
 

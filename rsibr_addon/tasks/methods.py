@@ -237,7 +237,7 @@ class Tables:
         maps = (2 * self.diffuse_rows**2 + 2 * (self.rows or 512) ** 2) * RGB
         diffuse = 3e-4 * self.diffuse_rows**2
         return Cost(
-            BLENDER_SECONDS + 1.0 + diffuse + 2e-7 * maps,
+            BLENDER_SECONDS + 0.5 + diffuse + 1.5e-7 * maps,
             BLENDER_MEMORY + 200e6 + 4 * maps,
             STORED * (maps + ENVIRONMENT_TEXELS * RGB),
         )

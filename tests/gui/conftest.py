@@ -44,7 +44,7 @@ def blender(extension: Path, blender_window: Path, job: Path) -> Blender:
         environment = {name: value for name, value in os.environ.items() if name != "OCIO"}
         command = [blender_window, folder, *arguments]
         return subprocess.run(
-            command, env=environment, capture_output=True, text=True, check=False, timeout=300
+            command, env=environment, capture_output=True, text=True, check=False, timeout=600
         )
 
     install = run("--command", "extension", "install-file", "-r", "user_default", "-e", "/job/extension.zip")

@@ -2,6 +2,9 @@
 
 import bpy
 
+THUMBNAIL_SCALE = 4.0
+"""Of an environment's picture; a button is 1 high."""
+
 
 class RSIBR_MT_pictures(bpy.types.Menu):
     """Make an environment from photographs or a painting"""  # noqa: D400  (a tooltip)
@@ -32,9 +35,11 @@ class RSIBR_PT_environment(bpy.types.Panel):
             case "WORLD":
                 layout.template_ID(context.scene, "world", new="world.new")
             case "STUDIO":
-                layout.template_icon_view(chosen, "studio", show_labels=True, scale=4.0)
+                layout.template_icon_view(chosen, "studio", show_labels=True, scale=THUMBNAIL_SCALE)
                 layout.prop(chosen, "studio", text="")
             case _:
+                if chosen.image is not None:
+                    layout.template_icon(bpy.types.UILayout.icon(chosen.image), scale=THUMBNAIL_SCALE)
                 layout.prop(chosen, "picture", text="")
         capture = layout.operator(
             "rsibr.capture_environment", text="Capture from Scene...", icon="RENDER_STILL"

@@ -69,11 +69,11 @@ class RSIBR_PG_reflection_tables(bpy.types.PropertyGroup):
         ],
         default={"diffuse", "specular", "coat", "retro", "refraction"},
     )
-    w_diffuse: _weight("Diffuse Weight", "Multiplies the diffuse table's weight, Wd of the paper of 1984")
-    w_specular: _weight("Specular Weight", "Multiplies the specular table's weight, Ws of the paper of 1984")
-    w_coat: _weight("Coat Weight", "Multiplies the coat's weight")
-    w_retro: _weight("Retro Weight", "Multiplies the weight of light that is sent back")
-    w_refraction: _weight("Refraction Weight", "Multiplies the weight of light that is let through")
+    w_diffuse: _weight("Diffuse ×", "Multiplies the diffuse table's weight, Wd of the paper of 1984")
+    w_specular: _weight("Specular ×", "Multiplies the specular table's weight, Ws of the paper of 1984")
+    w_coat: _weight("Coat ×", "Multiplies the coat's weight")
+    w_retro: _weight("Retro ×", "Multiplies the weight of light that is sent back")
+    w_refraction: _weight("Refraction ×", "Multiplies the weight of light that is let through")
     antialiased: bpy.props.BoolProperty(
         name="Antialiased",
         description="Average specular and coat over what each pixel reflects: small lamps do not shimmer",

@@ -64,5 +64,13 @@ class RSIBR_PT_preview(bpy.types.Panel):
 def _show_look(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup | None) -> None:
     """Every setting of how a kind of map set is shaded; there are kinds without."""
     for setting in settings.bl_rna.properties if settings else ():
-        if setting.identifier not in bpy.types.PropertyGroup.bl_rna.properties:
+        if setting.identifier in bpy.types.PropertyGroup.bl_rna.properties:
+            continue
+        if setting.type == "ENUM" and setting.is_enum_flag:
+            # In a row, as it would be, there is room for one letter of each
+            layout.label(text=setting.name)
+            flow = layout.column_flow(columns=2, align=True)
+            flow.use_property_split = False
+            flow.prop(settings, setting.identifier)
+        else:
             layout.prop(settings, setting.identifier)

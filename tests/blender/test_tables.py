@@ -98,7 +98,7 @@ def test_a_preview_is_what_the_reference_says(light: np.ndarray, shown: str | No
     ("options", "told"),
     [
         ([], "A material needs a table at least: give it a diffuse or a specular part."),
-        (["--material", "gold"], "There is no preset gold: choose one of chrome, matte, plastic,"),
+        (["--material", "granite"], "There is no preset granite: choose one of chrome, "),
         (["--diffuse", "0.5"], 'diffuse: there is no model "0.5" for it: choose one of lambert, luminous.'),
         (["--diffuse", "lambert:kd=2"], "diffuse: lambert: kd is 2, but it must be from 0 to 1."),
         (["--specular", "phong:ks=1"], "specular: phong: n is missing; it must be a number from 1 to"),

@@ -28,7 +28,7 @@ test: $(READY)
 	$(PYTHON) -m pytest
 
 test-quick: $(READY)
-	$(PYTHON) -m pytest -m "not slow" --ignore tests/cycles --ignore tests/glsl --ignore tests/gui
+	$(PYTHON) -m pytest -n 2 -m "not slow" --ignore tests/cycles --ignore tests/glsl --ignore tests/gui
 
 test-gui: extension
 	RSIBR_REQUIRE=gui $(PYTHON) -m pytest tests/gui

@@ -66,6 +66,7 @@ def test_better_costs_more(kind: str) -> None:
         assert less.disk < more.disk
 
 
+@pytest.mark.slow
 def test_the_file_is_as_large_as_was_said() -> None:
     chosen = bpy.context.scene.rsibr_bake
     chosen.kind, chosen.light, chosen.studio = "mip_chain", "STUDIO", "forest"

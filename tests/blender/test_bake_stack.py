@@ -40,6 +40,7 @@ def in_white_light(stack: LobeStack) -> np.ndarray:
     return stack_radiance(stack, NORMAL, view_dir, StackLook())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("layout", ["dual_paraboloid", "octahedral"])
 def test_in_white_light_a_stack_shows_the_albedo(layout: str, capfd: pytest.CaptureFixture[str]) -> None:
     stack = bake("--brdf", SPEC, *QUICK, "--layout", layout, "--json")
@@ -56,6 +57,7 @@ def test_in_white_light_a_stack_shows_the_albedo(layout: str, capfd: pytest.Capt
     assert 0.0 < max(header["error_bound"]["filter"]) < 1e-3
 
 
+@pytest.mark.slow
 def test_a_fit_that_was_made_before_makes_the_same_stack() -> None:
     direct = bake("--brdf", SPEC, *QUICK)
     assert run(["fit", "--brdf", SPEC, "--lobes", "2", "--slices", "4", "-o", "fit.json"]) == 0
@@ -83,6 +85,7 @@ def test_a_preview_shows_it() -> None:
     assert not np.allclose(read_exr("lobe.exr"), rgba, atol=1e-3)
 
 
+@pytest.mark.slow
 def test_small_maps_are_told(capfd: pytest.CaptureFixture[str]) -> None:
     spiky = np.random.default_rng(5).random((256, 512, 3), dtype=np.float32) ** 40
     write_radiance(Path("light.exr"), spiky, force=True)
@@ -90,6 +93,7 @@ def test_small_maps_are_told(capfd: pytest.CaptureFixture[str]) -> None:
     assert "Lookups in maps of 8 texels cost about" in capfd.readouterr().err
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("options", "complaint"),
     [

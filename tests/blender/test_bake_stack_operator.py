@@ -21,6 +21,7 @@ def _registered() -> Iterator[None]:
     rsibr.unregister()
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("_registered")
 def test_the_operator_writes_what_the_command_writes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)

@@ -54,6 +54,7 @@ def test_the_operator_does_the_same(light) -> None:
     np.testing.assert_array_equal(held.bound, expected.bound)
 
 
+@pytest.mark.slow
 @pytest.mark.needs("gl")
 def test_one_bank_is_any_material(capfd: pytest.CaptureFixture[str]) -> None:
     told("bank", "--environment", "light.exr", "--size", "16", "-o", "a.rsibr.exr", capfd=capfd)

@@ -22,6 +22,7 @@ def _registered(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     rsibr.unregister()
 
 
+@pytest.mark.slow
 def test_the_operator_writes_what_the_task_writes(tmp_path: Path) -> None:
     by_operator, by_task = tmp_path / "operator.exr", tmp_path / "task.exr"
     before = open_file_state()
@@ -32,6 +33,7 @@ def test_the_operator_writes_what_the_task_writes(tmp_path: Path) -> None:
     assert by_operator.read_bytes() == by_task.read_bytes()
 
 
+@pytest.mark.slow
 def test_a_material_can_be_named(tmp_path: Path) -> None:
     bpy.data.materials["Material"].copy().name = "Paint"
     path = tmp_path / "paint.exr"
@@ -55,6 +57,7 @@ def test_errors_are_reports(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == [path]
 
 
+@pytest.mark.slow
 def test_warnings_are_reports_too(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     bsdf = bpy.data.materials["Material"].node_tree.nodes["Principled BSDF"]
     bsdf.inputs["Anisotropic"].default_value = 0.5

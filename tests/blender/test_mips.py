@@ -68,6 +68,7 @@ def test_texture_space_mips_keep_the_light(light: np.ndarray, name: str) -> None
     assert read_map_set("out.rsibr.exr").header["error_bound"] is None
 
 
+@pytest.mark.slow
 @pytest.mark.needs("gl")
 def test_a_chain_is_previewed_as_it_is_asked_for(light: np.ndarray) -> None:
     chain = bake("--size", "16", "--filter", "bordered")

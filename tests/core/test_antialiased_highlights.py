@@ -25,6 +25,7 @@ def test_highlights_do_not_scintillate(frames: list[dict[str, np.ndarray]]) -> N
         assert flicker(frames, way) < 0.05
 
 
+@pytest.mark.slow
 def test_highlights_do_not_break_up(frames: list[dict[str, np.ndarray]]) -> None:
     assert missing(frames, "point") > 0.3
     assert [missing(frames, way) for way in WAYS] == [0.0, 0.0, 0.0]

@@ -13,6 +13,7 @@ def frames(request: pytest.FixtureRequest) -> Frames:
     return frames_of(KINDS[request.param], 20, 3)
 
 
+@pytest.mark.slow
 def test_highlights_do_not_scintillate(frames: Frames) -> None:
     assert np.abs(energy(frames, "point") - 1.0).max() > 0.25
     # Of ways that are exact, 5 % is the reference's own uncertainty: see test_antialiased_highlights.

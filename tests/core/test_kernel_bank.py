@@ -96,6 +96,7 @@ def test_larger_maps_hold_sharper_kernels_until_the_environment_ends() -> None:
         baked(16, radiance=np.ones((1, 2, 3)))
 
 
+@pytest.mark.slow
 def test_lookups_cost_what_each_kernel_says() -> None:
     found = baked(32)
     direction = normalize(np.random.default_rng(8).normal(size=(600, 3)))

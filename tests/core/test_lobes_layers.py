@@ -41,6 +41,7 @@ def test_lobes_are_added_until_the_error_is_small_enough() -> None:
     assert fit_errors(fine, MODEL).error <= 0.05
 
 
+@pytest.mark.slow
 def test_lobes_that_are_far_off_are_looked_up_more_often() -> None:
     coat, matt = Ggx(alpha=0.1, fresnel=Schlick(f0=0.04)), Lambert(kd=0.5)
     one, several, enough = (
@@ -73,6 +74,7 @@ class Noisy(Brdf):
         return Ggx(alpha=self.widths[cell], fresnel=self.coat.fresnel).above_horizon(geometry)
 
 
+@pytest.mark.slow
 def test_taps_that_follow_noise_are_not_taken(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(layers, "spec_from_brdf", lambda brdf: "noisy")
     noisy, clean = (drain(layered_fit(brdf, MANY, 2)) for brdf in (Noisy(), Noisy.coat))
@@ -80,6 +82,7 @@ def test_taps_that_follow_noise_are_not_taken(monkeypatch: pytest.MonkeyPatch) -
     assert noisy.taps.shape[2] == 1
 
 
+@pytest.mark.slow
 def test_layers_that_hardly_count_keep_one_tap() -> None:
     model = Sum(parts=(Ward(alpha=0.05, ks=0.8), Lambert(kd=0.01)))
     fit = drain(layered_fit(model, MANY, lobes=2))
@@ -88,6 +91,7 @@ def test_layers_that_hardly_count_keep_one_tap() -> None:
     assert used.tolist() == [TAPS, TAPS, 1]
 
 
+@pytest.mark.slow
 def test_smoothing_brings_a_noisy_fit_nearer_to_the_truth(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(layers, "spec_from_brdf", lambda brdf: "noisy")
     rough, smooth = (drain(layered_fit(Noisy(told), MANY, 2, taps=1)) for told in (False, True))

@@ -72,6 +72,7 @@ def test_exposures_of_different_crops_are_merged(tmp_path: Path, capfd: pytest.C
     assert median_error(out) < 0.08
 
 
+@pytest.mark.slow
 def test_bad_input_is_told_and_nothing_written(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     ball, out = write_side(tmp_path / "ball.exr"), tmp_path / "room.exr"
 

@@ -41,6 +41,7 @@ def test_a_set_that_something_was_appended_to_is_whole(path: Path, make_views: C
     np.testing.assert_array_equal(read_map_set(path).maps["environment"], make_views().maps["environment"])
 
 
+@pytest.mark.slow
 def test_a_flipped_bit_is_found_or_does_no_harm(path: Path, make_views: Callable[..., MapSet]) -> None:
     whole, views = path.read_bytes(), make_views()
     description = range(whole.index(b"rsibr"), whole.index(b"}", whole.index(b'"software"')))

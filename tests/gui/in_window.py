@@ -75,10 +75,12 @@ def drawn() -> Iterator[None]:
     settled = 0
     while settled < 2:
         before = draws.copy()
-        shown = viewports()
-        for viewport in shown:
-            viewport.tag_redraw()
-        while any(draws[viewport.as_pointer()] == before[viewport.as_pointer()] for viewport in shown):
+        # Asked for at every step: where a render begins, Blender forgets what it was to draw
+        while waiting := [
+            each for each in viewports() if draws[each.as_pointer()] == before[each.as_pointer()]
+        ]:
+            for viewport in waiting:
+                viewport.tag_redraw()
             yield
         settled = 0 if previews_wait() else settled + 1
 

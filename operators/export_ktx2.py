@@ -5,7 +5,7 @@ from pathlib import Path
 import bpy
 
 from ..rsibr_addon.core.progress import drain
-from ..rsibr_addon.host.map_sets import written_path
+from ..rsibr_addon.host.map_sets import planned_path, written_path
 from ..rsibr_addon.tasks.export import Up, export
 from .reporting import reporting
 
@@ -49,7 +49,7 @@ class RSIBR_OT_export_ktx2(bpy.types.Operator):
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Ask for the file."""
-        name = Path(written_path(context.object.rsibr)).name.removesuffix(".exr").removesuffix(".rsibr")
+        name = Path(planned_path(context.object.rsibr)).name.removesuffix(".exr").removesuffix(".rsibr")
         self.filepath = f"{name}.ktx2"
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}

@@ -2,9 +2,11 @@
 
 import json
 from dataclasses import dataclass
+from typing import Literal
 
-from .core.errors import InputFileError, RangeError
+from .core.errors import InputFileError, RangeError, SchemaError
 from .core.geodesic import VERTEX_COUNTS
+from .core.schema import decode, loads
 
 FORMAT = 1
 """Of a job's JSON."""
@@ -62,6 +64,12 @@ class CaptureJob:
 
 
 @dataclass(frozen=True)
+class _File:
+    format: Literal[1]
+    arguments: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class BakeJob:
     """One piece of work: what `rsibr` is to do, whoever has it done.
 
@@ -111,19 +119,16 @@ class BakeJob:
             The text is no such object, or of a newer format.
         """
         try:
-            given = json.loads(text)
-        except (ValueError, RecursionError) as error:
-            raise InputFileError(f"{name} is not JSON ({error}): write it anew.") from error
-        if not isinstance(given, dict) or given.keys() != {"format", "arguments"}:
-            raise InputFileError(f"{name} is no job: give an object with the fields format and arguments.")
-        if given["format"] != FORMAT:
+            given = loads(text)
+            if isinstance(given, dict) and given.get("format", FORMAT) != FORMAT:
+                raise InputFileError(
+                    f"{name} is a job of format {given['format']!r:.40}, not {FORMAT}: update RSIBR, or "
+                    f"write it anew."
+                )
+            return cls(decode(_File, given).arguments)
+        except SchemaError as error:
             raise InputFileError(
-                f"{name} is a job of format {given['format']}, not {FORMAT}: update RSIBR, or write it anew."
-            )
-        arguments = given["arguments"]
-        if not isinstance(arguments, list) or not all(isinstance(each, str) for each in arguments):
-            raise InputFileError(f"{name} has arguments that are no list of text: write it anew.")
-        try:
-            return cls(tuple(arguments))
+                f"{name} is no job ({error}): give an object with the fields format and arguments."
+            ) from error
         except RangeError as error:
             raise InputFileError(f"{name} cannot be done. {error}") from error

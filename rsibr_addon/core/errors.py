@@ -18,6 +18,13 @@ class ShapeError(RsibrError):
     """An array has not the shape that its function states."""
 
 
+class SchemaError(RsibrError):
+    """A text is no JSON, or a value is not what its schema demands.
+
+    The message is a phrase, as "parts[2].size is missing": whoever read the file makes a sentence of it.
+    """
+
+
 class InputFileError(RsibrError):
     """A file that was to be read is missing, unreadable or does not hold what it should."""
 

@@ -2,18 +2,29 @@
 
 import json
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, TypedDict
 
-import numpy as np
-
-from ..core.errors import InputFileError, RsibrError
+from ..core.errors import InputFileError, RangeError, SchemaError, ShapeError
 from ..core.lobes.bank import KernelBank
 from ..core.lobes.fit import Fit
+from ..core.schema import LARGEST_TEXT, array, decode, length, loads
 from .atomic import written_aside
+from .map_set_header import MOST_KERNELS, Colour
 from .reading import opened
 
 KIND, FORMAT = "rsibr lobe fit", 1
 _ARRAYS = {"mu": 1, "weights": 4, "scale": 3, "offsets": 4, "taps": 3}
+
+
+class _File(TypedDict):
+    brdf: str
+    method: str
+    concentrations: Annotated[list[float], length(1, MOST_KERNELS)]
+    mu: list[float]
+    weights: list[list[list[Colour]]]
+    scale: list[list[Colour]]
+    offsets: list[list[list[list[float]]]]
+    taps: list[list[list[float]]]
 
 
 def write_fit(path: str | Path, fit: Fit, report: dict[str, Any], force: bool = False) -> None:
@@ -65,20 +76,17 @@ def read_fit(path: str | Path) -> Fit:
         The file is missing, unreadable or no fit, of a newer format, or its values do not make one.
     """
     with opened(path) as stream:
-        data = stream.read()
+        text = stream.read(LARGEST_TEXT + 1)
     try:
-        text = json.loads(data)
-    except ValueError as error:
-        raise InputFileError(f"{path} is no JSON: give a file that rsibr fit wrote.") from error
-    if not isinstance(text, dict) or text.get("kind") != KIND:
-        raise InputFileError(f"{path} is no lobe fit: give a file that rsibr fit wrote.")
-    if text.get("format") != FORMAT:
-        raise InputFileError(f"{path} has format {text.get('format')}, which is newer: update the program.")
-    try:
-        arrays = {name: np.array(text[name], dtype=np.float64) for name in _ARRAYS}
-        kernels = [float(kappa) for kappa in text["concentrations"]]
-        if any(arrays[name].ndim != axes for name, axes in _ARRAYS.items()):
-            raise ValueError
-        return Fit(str(text["brdf"]), str(text["method"]), bank=KernelBank(tuple(kernels)), **arrays)
-    except (KeyError, TypeError, ValueError, RsibrError) as error:
-        raise InputFileError(f"{path} is damaged: fit again, or restore the file.") from error
+        plain = loads(text)
+        if not isinstance(plain, dict) or plain.get("kind") != KIND:
+            raise InputFileError(f"{path} is no lobe fit: give a file that rsibr fit wrote.")
+        if plain.get("format") != FORMAT:
+            raise InputFileError(
+                f"{path} has format {plain.get('format')!r:.40}, which is newer: update the program."
+            )
+        told: dict[str, Any] = {**decode(_File, plain)}
+        arrays = {name: array(told[name], axes, name) for name, axes in _ARRAYS.items()}
+        return Fit(told["brdf"], told["method"], bank=KernelBank(tuple(told["concentrations"])), **arrays)
+    except (SchemaError, RangeError, ShapeError) as error:
+        raise InputFileError(f"{path} is damaged ({error}): fit again, or restore the file.") from error

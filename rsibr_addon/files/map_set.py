@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 
 from ..core.conventions import Array
-from ..core.errors import InputFileError, MapSetError, RangeError, ShapeError
+from ..core.errors import InputFileError, MapSetError, RangeError, SchemaError, ShapeError
+from ..core.schema import loads
 from .atomic import check_target, written_aside
 from .exr import MAGIC, Part, read_attributes, read_parts, write_parts
 from .map_set_header import FORMAT, check_header
@@ -184,9 +185,11 @@ def read_map_set_header(path: str | Path) -> dict[str, Any]:
     if text is None:
         raise MapSetError(f"{path} is a picture, not a map set: make one with `rsibr capture`.")
     try:
-        header: dict[str, Any] = json.loads(text)
-    except (ValueError, RecursionError) as error:
-        raise MapSetError(f"{path} holds a description that is not JSON: make the map set again.") from error
+        header: dict[str, Any] = loads(text)
+    except SchemaError as error:
+        raise MapSetError(
+            f"{path} holds a description that cannot be read ({error}): make the map set again."
+        ) from error
     check_header(header, str(path))
     listed = {part["name"]: part["size"] for part in header["parts"]}
     found = {part.get("name", ""): _size(part) for part in attributes}

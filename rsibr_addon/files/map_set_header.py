@@ -1,18 +1,20 @@
 """What the description inside a map set file must say; docs/map-set-format.md in code.
 
-A rule table per object: field -> (what it must be, in words; how that is checked).
+A schema per object: see `core.schema`.
 """
 
 import hashlib
 import json
 import math
 import re
-from collections.abc import Callable, Iterator
-from typing import Any
+from collections.abc import Iterator
+from typing import Annotated, Any, NotRequired, TypedDict
 
 from ..core.conventions import WORLD_AXES
 from ..core.environment import Environment
-from ..core.errors import MapSetError
+from ..core.errors import MapSetError, SchemaError
+from ..core.geodesic import VERTEX_COUNTS
+from ..core.schema import Rule, between, decode, length
 
 FORMAT = 1
 """The version of the format that this code writes, and the only one that it reads."""
@@ -20,94 +22,136 @@ FORMAT = 1
 ENVIRONMENT = "environment"
 """The role of the part that holds the environment, and its name."""
 
-type Rule = tuple[str, Callable[[Any], bool]]
+MOST_PARTS, MOST_LOBES, MOST_ELEVATIONS, MOST_TAPS, MOST_KERNELS = 8192, 1024, 1024, 64, 64
+"""More than anything that is baked has, and few enough for any memory."""
+
+WIDEST = 2**17
+"""Of a map, in texels."""
 
 
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
-
-
-def _is_index(value: Any) -> bool:
-    return isinstance(value, int) and not isinstance(value, bool) and value >= 0
-
-
-def _is_size(value: Any) -> bool:
-    return isinstance(value, list) and len(value) == 2 and all(_is_index(n) and n > 0 for n in value)
-
-
-def _is_colour(value: Any) -> bool:
-    return isinstance(value, list) and len(value) == 3 and all(_is_number(n) for n in value)
-
-
-def _is_direction(value: Any) -> bool:
+def _is_unit(value: list[float]) -> bool:
     # Unit length to what a writer may round to: six digits
-    return _is_colour(value) and abs(math.hypot(*value) - 1.0) < 1e-5
+    return abs(math.hypot(*value) - 1.0) < 1e-5
 
 
-def _is_hash(value: Any) -> bool:
-    return isinstance(value, str) and re.fullmatch("[0-9a-f]{64}", value) is not None
+type Size = Annotated[list[Annotated[int, between(1, WIDEST)]], length(2, 2)]
+type Colour = Annotated[list[float], length(3, 3)]
+type Direction = Annotated[Colour, Rule("a unit vector", _is_unit)]
+type Hash = Annotated[
+    str, Rule("64 hexadecimal digits", lambda value: re.fullmatch("[0-9a-f]{64}", value) is not None)
+]
+type Word = Annotated[
+    str, Rule("a word of at most 64 letters", lambda value: re.fullmatch(r"[\w.-]{1,64}", value) is not None)
+]
+"""Part of a file's name, when maps are exported."""
 
 
-TEXT: Rule = ("text", lambda value: isinstance(value, str))
-NUMBER: Rule = ("a finite number", _is_number)
-NUMBER_OR_NULL: Rule = ("a finite number or null", lambda value: value is None or _is_number(value))
-INDEX: Rule = ("a whole number from 0", _is_index)
-SIZE: Rule = ("[width, height]", _is_size)
-COLOUR: Rule = ("three numbers", _is_colour)
-DIRECTION: Rule = ("a unit vector", _is_direction)
-HASH: Rule = ("64 hexadecimal digits", _is_hash)
-OBJECT: Rule = ("an object", lambda value: isinstance(value, dict))
-OBJECT_OR_NULL: Rule = ("an object or null", lambda value: value is None or isinstance(value, dict))
-TEXTS: Rule = (
-    "a list of texts",
-    lambda value: isinstance(value, list) and all(isinstance(item, str) for item in value),
-)
-TEXT_OR_NULL: Rule = ("text or null", lambda value: value is None or isinstance(value, str))
-OBJECTS: Rule = (
-    "a list of at least one object",
-    lambda value: isinstance(value, list) and bool(value) and all(isinstance(item, dict) for item in value),
-)
+class _Environment(TypedDict):
+    name: str
+    sha256: Hash
+    size: Size
+    part: str | None
 
-HEADER: dict[str, Rule] = {
-    "layout": TEXT,
-    "size": SIZE,
-    "axes": TEXT,
-    "environment": OBJECT,
-    "material": OBJECT,
-    "parts": OBJECTS,
-    "error_bound": OBJECT_OR_NULL,
-    "settings": OBJECT,
-    "software": TEXT,
-}
-ENVIRONMENT_FIELDS: dict[str, Rule] = {"name": TEXT, "sha256": HASH, "size": SIZE, "part": TEXT_OR_NULL}
-PART_FIELDS: dict[str, Rule] = {"name": TEXT, "role": TEXT, "size": SIZE, "sha256": HASH}
 
-MATERIAL_FIELDS: dict[str, dict[str, Rule]] = {
-    "radiance_views": {"spec": TEXT, "name": TEXT, "fingerprint": TEXT},
-    "lobe_stack": {"brdf": TEXT, "method": TEXT},
-    "reflection_tables": {},
-    "mip_chain": {},
-    "kernel_bank": {},
+class _Material(TypedDict):
+    name: NotRequired[str]
+    brdf: NotRequired[str]
+
+
+class _Part(TypedDict):
+    name: str
+    role: Word
+    size: Size
+    sha256: Hash
+
+
+class _Header(TypedDict):
+    layout: str
+    size: Size
+    axes: str
+    environment: _Environment
+    material: _Material
+    parts: Annotated[list[_Part], length(1, MOST_PARTS)]
+    error_bound: dict[str, float | Annotated[list[float], length(1, MOST_KERNELS)]] | None
+    settings: dict[str, Any]
+    software: str
+
+
+class _ViewsMaterial(TypedDict):
+    spec: str
+    name: str
+    fingerprint: str
+
+
+class _StackMaterial(TypedDict):
+    brdf: str
+    method: str
+
+
+MATERIALS: dict[str, Any] = {
+    "radiance_views": _ViewsMaterial,
+    "lobe_stack": _StackMaterial,
+    "reflection_tables": _Material,
+    "mip_chain": _Material,
+    "kernel_bank": _Material,
 }
 """Kind -> what it says of the material; its keys are the kinds that there are."""
 
-_VIEW: dict[str, Rule] = {"view": INDEX, "view_dir": DIRECTION}
-ROLE_FIELDS: dict[tuple[str, str], dict[str, Rule]] = {
-    ("radiance_views", "diffuse"): _VIEW,
-    ("radiance_views", "glossy"): _VIEW,
-    ("radiance_views", "albedo"): {},
-    ("lobe_stack", "prefiltered"): {"lobe": INDEX, "elevations": OBJECTS},
-    ("reflection_tables", "weights"): {"rows": TEXTS},
-    ("reflection_tables", "refraction"): {"eta": NUMBER},
-    ("mip_chain", "prefiltered"): {"mip": INDEX, "roughness": NUMBER_OR_NULL},
-    ("mip_chain", "harmonics"): {},
-    ("kernel_bank", "prefiltered"): {"concentration": NUMBER, "bound": COLOUR, "interpolation": NUMBER},
-}
-"""Kind and role -> what a part says beyond `PART_FIELDS`; parts of other roles say no more."""
 
-ELEVATION_FIELDS: dict[str, Rule] = {"mu": NUMBER, "taps": OBJECTS, "scale": COLOUR, "albedo": COLOUR}
-TAP_FIELDS: dict[str, Rule] = {"tilt": NUMBER, "turn": NUMBER, "weight": NUMBER}
-"""Of a lobe stack's maps, and of their lookups at each elevation."""
+class _View(TypedDict):
+    view: Annotated[int, between(0, max(VERTEX_COUNTS) - 1)]
+    view_dir: Direction
+
+
+class Tap(TypedDict):
+    """A lookup of a lobe stack's map."""
+
+    tilt: float
+    turn: float
+    weight: float
+
+
+class _Elevation(TypedDict):
+    mu: float
+    taps: Annotated[list[Tap], length(1, MOST_TAPS)]
+    scale: Colour
+    albedo: Colour
+
+
+class _Lobe(TypedDict):
+    lobe: Annotated[int, between(0, MOST_LOBES - 1)]
+    elevations: Annotated[list[_Elevation], length(1, MOST_ELEVATIONS)]
+
+
+class _Weights(TypedDict):
+    rows: list[str]
+
+
+class _Refraction(TypedDict):
+    eta: float
+
+
+class _Mip(TypedDict):
+    mip: Annotated[int, between(0, 31)]
+    roughness: Annotated[float, between(0.0, 1.0)] | None
+
+
+class _Kernel(TypedDict):
+    concentration: float
+    bound: Colour
+    interpolation: float
+
+
+ROLES: dict[tuple[str, str], Any] = {
+    ("radiance_views", "diffuse"): _View,
+    ("radiance_views", "glossy"): _View,
+    ("lobe_stack", "prefiltered"): _Lobe,
+    ("reflection_tables", "weights"): _Weights,
+    ("reflection_tables", "refraction"): _Refraction,
+    ("mip_chain", "prefiltered"): _Mip,
+    ("kernel_bank", "prefiltered"): _Kernel,
+}
+"""Kind and role -> what a part says beyond `_Part`; parts of other roles say no more."""
 
 
 def make_header(
@@ -189,7 +233,7 @@ def check_header(header: Any, name: str) -> None:
         It is of a newer version or an unknown kind; a field is missing or not what it must be; two
         parts have one name; the environment's part, or a view's diffuse or glossy part, is missing.
     """
-    if not isinstance(header, dict) or not _is_index(header.get("format")) or header["format"] < 1:
+    if not isinstance(header, dict) or type(header.get("format")) is not int or header["format"] < 1:
         raise MapSetError(f"{name} states no format version, so it is no map set: make it again.")
     if header["format"] > FORMAT:
         raise MapSetError(
@@ -197,36 +241,32 @@ def check_header(header: Any, name: str) -> None:
             f"update RSIBR."
         )
     kind = header.get("kind")
-    if kind not in MATERIAL_FIELDS:
-        raise MapSetError(f"{name} is a map set of unknown kind {kind!r}: update, or make it again.")
+    if not isinstance(kind, str) or kind not in MATERIALS:
+        raise MapSetError(f"{name} is a map set of unknown kind {kind!r:.40}: update, or make it again.")
+    try:
+        _check_types(header, kind)
+    except SchemaError as error:
+        raise MapSetError(f"{name} is not a whole map set ({error}): make it again.") from error
     for problem in _problems(header, kind):
         raise MapSetError(f"{name} is not a whole map set ({problem}): make it again.")
 
 
+def _check_types(header: dict[str, Any], kind: str) -> None:
+    decode(_Header, header)
+    decode(MATERIALS[kind], header["material"], "material")
+    for number, part in enumerate(header["parts"]):
+        if (kind, part["role"]) in ROLES:
+            decode(ROLES[kind, part["role"]], part, f"parts[{number}]")
+
+
 def _problems(header: dict[str, Any], kind: str) -> Iterator[str]:
-    """What is wrong, the first things first: later checks rely on the earlier ones."""
-    yield from _broken_rules(header, HEADER, "")
-    yield from _broken_rules(header["environment"], ENVIRONMENT_FIELDS, "environment.")
-    yield from _broken_rules(header["material"], MATERIAL_FIELDS[kind], "material.")
-    for i, part in enumerate(header["parts"]):
-        yield from _broken_rules(part, PART_FIELDS, f"parts[{i}].")
-        yield from _broken_rules(part, ROLE_FIELDS.get((kind, part["role"]), {}), f"parts[{i}].")
+    """What does not fit together, where each thing alone is what it must be."""
     parts = {part["name"]: part for part in header["parts"]}
     if len(parts) < len(header["parts"]):
         yield "two parts have one name"
     yield from _environment_problems(header["environment"], parts)
     if kind == "radiance_views":
         yield from _view_problems(header)
-    elif kind == "lobe_stack":
-        yield from _elevation_problems(header)
-
-
-def _broken_rules(fields: dict[str, Any], rules: dict[str, Rule], where: str) -> Iterator[str]:
-    for field, (words, holds) in rules.items():
-        if field not in fields:
-            yield f"{where}{field} is missing"
-        elif not holds(fields[field]):
-            yield f"{where}{field} is not {words}"
 
 
 def _environment_problems(environment: dict[str, Any], parts: dict[str, dict[str, Any]]) -> Iterator[str]:
@@ -254,15 +294,3 @@ def _view_problems(header: dict[str, Any]) -> Iterator[str]:
         yield "its views are not each there with a diffuse and a glossy part"
     elif diffuse != glossy:
         yield "a view's diffuse and glossy parts state different directions"
-
-
-def _elevation_problems(header: dict[str, Any]) -> Iterator[str]:
-    """Every elevation that a map is for says how the map is looked up there."""
-    for i, part in enumerate(header["parts"]):
-        if part["role"] != "prefiltered":
-            continue
-        for j, elevation in enumerate(part["elevations"]):
-            where = f"parts[{i}].elevations[{j}]."
-            yield from _broken_rules(elevation, ELEVATION_FIELDS, where)
-            for k, tap in enumerate(elevation["taps"]):
-                yield from _broken_rules(tap, TAP_FIELDS, f"{where}taps[{k}].")

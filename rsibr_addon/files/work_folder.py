@@ -9,7 +9,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import IO, Any
 
-from ..core.errors import OutputFileError, RsibrWarning
+from ..core.errors import OutputFileError, RsibrWarning, SchemaError
+from ..core.schema import loads
 from .atomic import written_aside
 
 WORK = "job.json"
@@ -95,8 +96,8 @@ def _parts(path: Path) -> list[Path]:
 
 def _read_work(path: Path) -> Any:
     try:
-        return json.loads(path.read_text())
-    except (OSError, ValueError):
+        return loads(path.read_bytes())
+    except (OSError, SchemaError):
         return None
 
 

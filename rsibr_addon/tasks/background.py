@@ -1,7 +1,6 @@
 """Bakes in Blenders of their own, one after another, so that the artist's Blender never waits."""
 
 import contextlib
-import json
 import os
 import subprocess
 import sys
@@ -12,9 +11,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
-from typing import Any, TextIO
+from typing import NotRequired, TextIO, TypedDict
 
+from ..core.errors import SchemaError
 from ..core.progress import Progress
+from ..core.schema import decode, loads
 
 LAST_LINES = 20
 """Of what a Blender said, kept for the case that it ends without a word of ours."""
@@ -58,10 +59,22 @@ def blender_command(blender: str, extension: str, blend: Path | None, job: Path)
     list of str
     """
     return [
-        *(blender, "--background", *(() if blend is None else (str(blend),))),
+        # First of all: what it forbids is what is opened after it
+        *(blender, "--background", "--disable-autoexec", *(() if blend is None else (str(blend),))),
         *("--addons", extension, "--command", "rsibr"),
         *("bake", str(job), "--json", "--progress", "json"),
     ]
+
+
+@dataclass(frozen=True)
+class _Step:
+    progress: Progress
+
+
+class _Result(TypedDict):
+    ok: bool
+    error: NotRequired[str]
+    warnings: NotRequired[list[str]]
 
 
 @dataclass
@@ -164,7 +177,7 @@ class Bake:
             reader.join()
         result = self._parsed_result()
         self.warnings = result.get("warnings", [])
-        if result.get("ok"):
+        if result["ok"]:
             self.state = State.DONE
         else:
             self.state = State.FAILED
@@ -188,8 +201,8 @@ class Bake:
     def _read_progress(self, stderr: TextIO) -> None:
         with stderr:
             for line in stderr:
-                with contextlib.suppress(ValueError, KeyError, TypeError):
-                    self.progress = Progress(**json.loads(line)["progress"])
+                with contextlib.suppress(SchemaError):
+                    self.progress = decode(_Step, loads(line)).progress
                     if self._first_step is None:
                         self._first_step = time.monotonic(), self.progress.done
                     continue
@@ -202,12 +215,11 @@ class Bake:
                 if line.startswith("{"):
                     self._result = line
 
-    def _parsed_result(self) -> dict[str, Any]:
+    def _parsed_result(self) -> "_Result":
         try:
-            result = json.loads(self._result)
-        except ValueError:
-            return {}
-        return result if isinstance(result, dict) else {}
+            return decode(_Result, loads(self._result))
+        except SchemaError:
+            return {"ok": False}
 
 
 class BakeQueue:

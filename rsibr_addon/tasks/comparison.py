@@ -4,21 +4,26 @@ import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from statistics import median
-from typing import Any, Self
+from typing import Annotated, Any, Self, TypedDict
 
 import numpy as np
 
 from ..core.camera import Camera
 from ..core.conventions import Array
 from ..core.directions import normalize
-from ..core.errors import RangeError
+from ..core.errors import RangeError, SchemaError
+from ..core.schema import Rule, between, decode, length
 from ..core.shading.radiance_views import Mode, Warping
+from ..files.map_set_header import WIDEST
 
 RESULT = "comparison.json"
 """The file by which a comparison's folder is known."""
 
 LARGEST = 1024
 """Width and height of the largest picture to compare."""
+
+MOST_VIEWS, MOST_WAYS = 2**16, 1024
+"""Of a comparison that is read."""
 
 
 @dataclass(frozen=True)
@@ -245,20 +250,51 @@ class Comparison:
         return plain
 
     @classmethod
-    def from_json(cls, plain: dict[str, Any]) -> Self:
-        """The inverse of `to_json`, also after a round through JSON text."""
-        exact = "rings" in plain["settings"]
-        view_dirs = tuple(tuple(view_dir) for view_dir in plain["view_dirs"])
-        settings: ComparisonSettings | StackComparisonSettings
-        if exact:
-            settings = StackComparisonSettings(**plain["settings"])
-        else:
-            settings = _views_settings(plain["settings"])
-        errors = tuple(
-            WayError(_stack_way(each) if exact else _views_way(each), tuple(each["per_view"]), each["pooled"])
-            for each in plain["errors"]
+    def from_json(cls, plain: Any) -> Self:
+        """The inverse of `to_json`, also after a round through JSON text.
+
+        Raises
+        ------
+        SchemaError
+            It is no comparison, or one of another version.
+        """
+        told: dict[str, Any] = {**decode(_File, plain)}
+        return cls(
+            **{name: told[name] for name in ("map_set", "content", "environment", "material", "map_size")},
+            settings=decode(ComparisonSettings | StackComparisonSettings, told["settings"], "settings"),
+            view_dirs=decode(tuple[tuple[float, float, float], ...], told["view_dirs"], "view_dirs"),
+            reference_noise=told["reference_noise"],
+            errors=tuple(_way_error(each, len(told["view_dirs"])) for each in told["errors"]),
         )
-        return cls(**{**plain, "settings": settings, "view_dirs": view_dirs, "errors": errors})
+
+
+type _NotNegative = Annotated[float, Rule("a number from 0", lambda value: value >= 0.0)]
+
+
+class _Error(TypedDict):
+    per_view: Annotated[list[_NotNegative], length(1, MOST_VIEWS)]
+    pooled: _NotNegative
+    median: _NotNegative
+    worst: _NotNegative
+
+
+class _File(TypedDict):
+    map_set: str
+    content: str
+    environment: str
+    material: str
+    map_size: Annotated[int, between(1, WIDEST)]
+    settings: dict[str, Any]
+    view_dirs: Annotated[list[Any], length(1, MOST_VIEWS)]
+    reference_noise: _NotNegative
+    errors: Annotated[list[_Error], length(1, MOST_WAYS)]
+
+
+def _way_error(told: _Error, views: int) -> WayError:
+    way = {name: value for name, value in told.items() if name not in _Error.__annotations__}
+    if len(told["per_view"]) != views:
+        raise SchemaError(f"errors are of {len(told['per_view'])} views, not {views}")
+    return WayError(decode(Way | StackWay, way, "errors"), tuple(told["per_view"]), told["pooled"])
 
 
 def random_directions(count: int, seed: int) -> Array:
@@ -275,21 +311,6 @@ def random_directions(count: int, seed: int) -> Array:
     """
     # Normal distributions along three axes favour no direction.
     return normalize(np.random.default_rng(seed).standard_normal((count, 3)))
-
-
-def _views_settings(plain: dict[str, Any]) -> ComparisonSettings:
-    settings = {name: tuple(value) if isinstance(value, list) else value for name, value in plain.items()}
-    settings["modes"] = tuple(Mode(mode) for mode in settings["modes"])
-    settings["warpings"] = tuple(Warping(warping) for warping in settings["warpings"])
-    return ComparisonSettings(**settings)
-
-
-def _views_way(plain: dict[str, Any]) -> Way:
-    return Way(plain["captured_views"], Mode(plain["mode"]), Warping(plain["warping"]))
-
-
-def _stack_way(plain: dict[str, Any]) -> StackWay:
-    return StackWay(plain["lobes"], plain["elevations"], plain["taps"])
 
 
 def comparison_table(comparisons: Sequence[Comparison]) -> str:

@@ -98,24 +98,27 @@ def map_set_facts(path: Path) -> dict[str, str]:
     }
 
 
-def map_title(part: dict[str, Any]) -> str:
+def map_title(kind: str, part: dict[str, Any]) -> str:
     """What a map is, for people.
 
     Parameters
     ----------
+    kind : str
+        Of the map set.
     part : dict
-        Of a map set's description.
+        Of its description.
     """
-    if "view" in part:
-        return f"View {part['view'] + 1}, {part['role'].capitalize()}"
-    if "mip" in part:
-        sharpness = "" if part["roughness"] is None else f", Roughness {part['roughness']:.2f}"
-        return f"Mip {part['mip']}{sharpness}"
-    if "lobe" in part:
-        first, *others = part["elevations"]
-        at = "All Elevations" if others else f"n\N{DOT OPERATOR}v {first['mu']:.2f}"
-        return f"Lobe {part['lobe'] + 1}, {at}"
     role: str = part["role"]
+    match kind, role:
+        case "radiance_views", "diffuse" | "glossy":
+            return f"View {part['view'] + 1}, {role.capitalize()}"
+        case "mip_chain", "prefiltered":
+            sharpness = "" if part["roughness"] is None else f", Roughness {part['roughness']:.2f}"
+            return f"Mip {part['mip']}{sharpness}"
+        case "lobe_stack", "prefiltered":
+            first, *others = part["elevations"]
+            at = "All Elevations" if others else f"n\N{DOT OPERATOR}v {first['mu']:.2f}"
+            return f"Lobe {part['lobe'] + 1}, {at}"
     return role.capitalize()
 
 

@@ -61,7 +61,10 @@ def map_set_pictures(path: Path) -> list[MapPicture]:
     """
     held = read_map_set(path)
     parts = sorted(held.header["parts"], key=lambda part: part["role"] in BEHIND)
-    return [MapPicture(part["name"], map_title(part), _pixels(held.maps[part["name"]])) for part in parts]
+    return [
+        MapPicture(part["name"], map_title(held.kind, part), _pixels(held.maps[part["name"]]))
+        for part in parts
+    ]
 
 
 def _pixels(radiance: Array) -> Array:

@@ -1,9 +1,11 @@
 """What a comparison has found of a map set, for as long as it is the same."""
 
-import json
 from pathlib import Path
 from typing import Any
 
+from ..core.errors import InputFileError, SchemaError
+from ..core.schema import LARGEST_TEXT, loads
+from ..files.reading import opened
 from .beside import comparison_beside
 from .comparison import RESULT, Comparison, ComparisonSettings, WayError
 from .map_set_facts import map_set_content, read_once
@@ -28,7 +30,10 @@ def measured_facts(map_set: Path, look: Any = None) -> dict[str, str]:
     MapSetError
         There is no such map set.
     """
-    comparison = _comparison(comparison_beside(map_set) / RESULT)
+    try:
+        comparison = _comparison(comparison_beside(map_set) / RESULT)
+    except InputFileError as error:
+        return {"Measured": str(error)}
     if comparison is None:
         return {}
     if comparison.content != map_set_content(map_set):
@@ -46,11 +51,21 @@ def measured_facts(map_set: Path, look: Any = None) -> dict[str, str]:
 
 @read_once
 def _comparison(path: Path) -> Comparison | None:
-    """What a comparison has written; None where there is none, or it is of another version."""
-    try:
-        return Comparison.from_json(json.loads(path.read_text(encoding="utf-8")))
-    except (OSError, ValueError, KeyError, TypeError):
+    """What a comparison has written; None where there is none.
+
+    Raises
+    ------
+    InputFileError
+        It cannot be read, or is none of this version.
+    """
+    if not path.exists():
         return None
+    with opened(path) as stream:
+        text = stream.read(LARGEST_TEXT + 1)
+    try:
+        return Comparison.from_json(loads(text))
+    except SchemaError as error:
+        raise InputFileError(f"{path} is no comparison of this version ({error}): compare again.") from error
 
 
 def _is_of(error: WayError, look: Any) -> bool:

@@ -148,7 +148,7 @@ def test_a_bake_gets_a_copy_of_the_file_as_it_is(tmp_path: Path, monkeypatch: py
     bake = bake_of(order(), bpy.context.object, tmp_path / "out.rsibr.exr")
     assert open_file_state() == before
     assert bake.variables == {"RSIBR_ORIGINAL": ""}
-    blend, job = Path(bake.command[2]), Path(bake.command[8])
+    blend, job = Path(bake.command[3]), Path(bake.command[9])
     assert json.loads(job.read_text())["arguments"][:3] == ["capture", "--material", ":Material"]
     with bpy.data.libraries.load(str(blend)) as (found, _):
         assert "Material" in found.materials
@@ -226,7 +226,7 @@ def test_a_comparison_is_a_job_with_a_page(tmp_path: Path, monkeypatch: pytest.M
     path = tmp_path / "flat.rsibr.exr"
     write_flat_capture(path, (0.5, 0.0, 0.5))
     comparison = comparison_of(bpy.context.object, path)
-    job = BakeJob.from_json(Path(comparison.command[8]).read_text(), "job")
+    job = BakeJob.from_json(Path(comparison.command[9]).read_text(), "job")
     comparison.tidy()
     assert comparison.output == tmp_path / "flat-compared" / "index.html"
     assert parsed(job.arguments).output == comparison.output.parent

@@ -17,13 +17,16 @@ def test_a_job_survives_json() -> None:
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("{", "job.json is not JSON"),
-        ("[]", "job.json is no job: give an object with the fields format and arguments"),
+        ("{", r"job.json is no job \(it is not JSON: "),
+        (
+            "[]",
+            r"job.json is no job \(it is not an object\): give an object with the fields",
+        ),
         ('{"format": 1}', "job.json is no job"),
         ('{"format": 1, "arguments": [], "more": 0}', "job.json is no job"),
         ('{"format": 2, "arguments": ["capture"]}', "job.json is a job of format 2, not 1: update"),
-        ('{"format": 1, "arguments": "capture"}', "arguments that are no list of text"),
-        ('{"format": 1, "arguments": ["capture", 3]}', "arguments that are no list of text"),
+        ('{"format": 1, "arguments": "capture"}', "arguments is not a list"),
+        ('{"format": 1, "arguments": ["capture", 3]}', r"arguments\[1\] is not text"),
         ('{"format": 1, "arguments": []}', "job.json cannot be done. A job begins with what is to be made"),
         ('{"format": 1, "arguments": ["info", "a"]}', "one of capture, bake, tables, mips, bank, illuminate"),
     ],

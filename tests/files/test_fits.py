@@ -51,7 +51,7 @@ def test_a_fit_is_not_replaced_unless_told(tmp_path: Path) -> None:
     [
         ({"kind": "something"}, "is no lobe fit: give a file that rsibr fit wrote"),
         ({"format": 2}, "has format 2, which is newer: update the program"),
-        ({"mu": None}, "is damaged: fit again, or restore the file"),
+        ({"mu": None}, r"is damaged \(mu is not a list\): fit again, or restore the file"),
         ({"mu": [0.5, 0.4, 0.3]}, "is damaged"),
         ({"taps": [1.0]}, "is damaged"),
         ({"weights": [[[["x"]]]]}, "is damaged"),
@@ -72,7 +72,7 @@ def test_a_truncated_or_missing_file_is_told(tmp_path: Path) -> None:
     path = tmp_path / "FIT.json"
     write_fit(path, some_fit(), {})
     path.write_text(path.read_text()[:-100])
-    with pytest.raises(InputFileError, match="is no JSON"):
+    with pytest.raises(InputFileError, match=r"is damaged \(it is not JSON: "):
         read_fit(path)
     with pytest.raises(InputFileError, match="does not exist"):
         read_fit(tmp_path / "other.json")

@@ -235,7 +235,7 @@ def test_a_picture_is_told_from_a_map_set(tmp_path: Path) -> None:
 @pytest.mark.parametrize("text", ["", "{", "[" * 100000, '{"format": 1', "{'format': 1}"])
 def test_a_description_that_is_no_json_is_refused(path: Path, text: str) -> None:
     rewrite(path, lambda header, parts: None, text)
-    assert "holds a description that is not JSON" in refusal(path)
+    assert "holds a description that cannot be read (it is not JSON: " in refusal(path)
 
 
 @pytest.mark.parametrize(
@@ -297,14 +297,14 @@ def test_a_field_of_another_type_is_named(path: Path, field: str) -> None:
     [
         (lambda parts: parts[1].update(view_dir=[1, 1, 0]), "parts[1].view_dir is not a unit vector"),
         (
-            lambda parts: parts[1].update(view_dir=[float("nan"), 0, 0]),
-            "parts[1].view_dir is not a unit vector",
+            lambda parts: parts[1].update(view_dir=[[], 0, 0]),
+            "parts[1].view_dir[0] is not a finite number",
         ),
-        (lambda parts: parts[1].update(view=-1), "parts[1].view is not a whole number from 0"),
-        (lambda parts: parts[1].update(view=True), "parts[1].view is not a whole number from 0"),
+        (lambda parts: parts[1].update(view=-1), "parts[1].view is not a number from 0 to 161"),
+        (lambda parts: parts[1].update(view=True), "parts[1].view is not a whole number"),
         (lambda parts: parts[1].update(view=7), "not each there with a diffuse and a glossy part"),
         (
-            lambda parts: parts[1].update(role="?"),
+            lambda parts: parts[1].update(role="other"),
             "not each there with a diffuse and a glossy part",
         ),
         (lambda parts: parts[3].update(view=0), "view 0 has two diffuse parts"),
@@ -315,8 +315,10 @@ def test_a_field_of_another_type_is_named(path: Path, field: str) -> None:
             lambda parts: parts[0].update(size=[24, 13]),
             "has another size than environment.size",
         ),
-        (lambda parts: parts[2].update(size=[20, 0]), "parts[2].size is not [width, height]"),
+        (lambda parts: parts[2].update(size=[20, 0]), "parts[2].size[1] is not a number from 1 to 131072"),
         (lambda parts: parts[2].update(size=[20, 21]), "'view000.glossy' has another size than the views"),
+        (lambda parts: parts[2].update(size=[20]), "parts[2].size is not 2 long"),
+        (lambda parts: parts[2].update(role="../a"), "parts[2].role is not a word"),
         (lambda parts: parts[0].update(sha256="F" * 64), "parts[0].sha256 is not 64 hexadecimal digits"),
     ],
 )

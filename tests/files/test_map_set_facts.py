@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -74,10 +75,27 @@ def test_measured_errors_are_told_while_the_content_is_the_same(path: Path) -> N
     assert measured_facts(path) == {"Measured": "before the file changed: compare again"}
 
 
-def test_a_comparison_of_another_version_is_none(path: Path) -> None:
+@pytest.mark.parametrize(
+    ("change", "why"),
+    [
+        ({"settings": {}, "view_dirs": []}, "view_dirs is not 1 to 65536 long"),
+        ({"settings": "x"}, "settings is not an object"),
+        (
+            {"settings": {"views": 0}},
+            "settings is impossible: A comparison of 0 views compares nothing: ask for 1 or more",
+        ),
+        ({"errors": [{"pooled": 10**400}]}, "the number 1000000000000000... is too large"),
+        ({"reference_noise": None}, "reference_noise is not a finite number"),
+        ({"view_dirs": [[0.0, 0.0, 1.0]]}, "errors are of 2 views, not 1"),
+    ],
+)
+def test_a_comparison_of_another_version_is_told(path: Path, change: dict[str, Any], why: str) -> None:
     write_comparison(path, facts.map_set_content(path))
-    (path.parent / "flat-compared" / "comparison.json").write_text('{"settings": {}}')
-    assert measured_facts(path) == {}
+    file = path.parent / "flat-compared" / "comparison.json"
+    file.write_text(json.dumps({**json.loads(file.read_text()), **change}))
+    assert measured_facts(path) == {
+        "Measured": f"{file} is no comparison of this version ({why}): compare again."
+    }
 
 
 def test_bright_maps_are_shown_darker(tmp_path: Path) -> None:

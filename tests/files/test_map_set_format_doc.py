@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import MapSetError
 from rsibr.rsibr_addon.files.map_set import MapSet, read_map_set_header, write_map_set
-from rsibr.rsibr_addon.files.map_set_header import ROLE_FIELDS, check_header
+from rsibr.rsibr_addon.files.map_set_header import ROLES, check_header
 
 DOC = (Path(__file__).parents[2] / "docs" / "map-set-format.md").read_text(encoding="utf-8")
 
@@ -63,6 +63,6 @@ def test_the_example_is_a_good_description() -> None:
 
 def test_every_field_of_every_role_is_told() -> None:
     table = [line for line in DOC.splitlines() if line.startswith("| `")]
-    for (kind, role), fields in ROLE_FIELDS.items():
+    for (kind, role), schema in ROLES.items():
         (row,) = [line for line in table if line.startswith(f"| `{kind}` |") and f"`{role}`" in line]
-        assert all(f"`{field}`" in row for field in fields)
+        assert all(f"`{field}`" in row for field in schema.__annotations__)

@@ -3,18 +3,19 @@
 from collections import defaultdict
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, TypedDict
 
 import numpy as np
 
 from ...core.conventions import Array
 from ...core.environment import Environment
-from ...core.errors import MapSetError, RangeError, ShapeError
+from ...core.errors import MapSetError, RangeError, SchemaError, ShapeError
 from ...core.lobes.bank import KernelBank
 from ...core.lobes.fit import Fit
 from ...core.lobes.stack import LobeStack, stack_representation
+from ...core.schema import array, decode, length
 from ..map_set import MapSet
-from ..map_set_header import ENVIRONMENT, TAP_FIELDS, make_header
+from ..map_set_header import ENVIRONMENT, MOST_KERNELS, Colour, Tap, make_header
 from .sheets import sheets_from_strip, strip_from_sheets
 
 KIND = "lobe_stack"
@@ -24,6 +25,11 @@ PROFILES = "profiles"
 
 _DIGITS = 6
 """Of a profile's weights, significant."""
+
+
+class _Profiles(TypedDict):
+    concentrations: Annotated[list[float], length(1, MOST_KERNELS)]
+    weights: list[list[list[Colour]]]
 
 
 def to_map_set(
@@ -106,19 +112,20 @@ def fit_of(path: Path, header: dict[str, Any]) -> Fit | None:
     if PROFILES not in material:
         return None
     try:
+        told = decode(_Profiles, material[PROFILES], PROFILES)
         tables = _tables(_by_lobe(header["parts"]))
         taps = _taps(tables)
         return Fit(
             brdf=material["brdf"],
             method=material["method"],
             mu=np.array([elevation["mu"] for elevation in tables[0]]),
-            bank=KernelBank(tuple(material[PROFILES]["concentrations"])),
-            weights=np.array(material[PROFILES]["weights"], dtype=np.float64),
+            bank=KernelBank(tuple(told["concentrations"])),
+            weights=array(told["weights"], 4, "weights"),
             scale=_array(tables, lambda elevation: elevation["scale"]),
             offsets=taps[..., :2],
             taps=taps[..., 2],
         )
-    except (KeyError, TypeError, ValueError, RangeError, ShapeError) as error:
+    except (SchemaError, RangeError, ShapeError) as error:
         raise MapSetError(f"{path} describes no lobes ({error}): bake it again.") from error
 
 
@@ -174,7 +181,7 @@ def _parts_by_lobe(path: Path, map_set: MapSet) -> list[list[dict[str, Any]]]:
             raise MapSetError(f"{path} holds maps of another size than it says: bake it again.")
     try:
         return _by_lobe(map_set.header["parts"])
-    except KeyError as error:
+    except SchemaError as error:
         raise MapSetError(f"{path} lacks one of its lobes: bake it again.") from error
 
 
@@ -186,7 +193,9 @@ def _by_lobe(parts: list[dict[str, Any]]) -> list[list[dict[str, Any]]]:
     by_elevation = {
         lobe: sorted(its, key=lambda part: part["elevations"][0]["mu"]) for lobe, its in lobes.items()
     }
-    return [by_elevation[lobe] for lobe in range(max(len(by_elevation), 1))]
+    if not by_elevation or set(by_elevation) != set(range(len(by_elevation))):
+        raise SchemaError("its lobes are not numbered from 0")
+    return [by_elevation[lobe] for lobe in range(len(by_elevation))]
 
 
 def _tables(lobes: list[list[dict[str, Any]]]) -> list[list[dict[str, Any]]]:
@@ -195,8 +204,9 @@ def _tables(lobes: list[list[dict[str, Any]]]) -> list[list[dict[str, Any]]]:
 
 
 def _taps(tables: list[list[dict[str, Any]]]) -> Array:
+    fields = Tap.__annotations__
     return _array(
-        tables, lambda elevation: [[tap[field] for field in TAP_FIELDS] for tap in elevation["taps"]]
+        tables, lambda elevation: [[tap[field] for field in fields] for tap in elevation["taps"]], axes=4
     )
 
 
@@ -205,7 +215,7 @@ def _elevation(stack: LobeStack, lobe: int, number: int) -> dict[str, Any]:
     return {
         "mu": float(stack.mu[number]),
         "taps": [
-            dict(zip(TAP_FIELDS, (*offset, weight), strict=True))
+            dict(zip(Tap.__annotations__, (*offset, weight), strict=True))
             for offset, weight in zip(offsets.tolist(), weights.tolist(), strict=True)
         ],
         "scale": stack.scale[lobe, number].tolist(),
@@ -213,6 +223,8 @@ def _elevation(stack: LobeStack, lobe: int, number: int) -> dict[str, Any]:
     }
 
 
-def _array(tables: list[list[dict[str, Any]]], value: Callable[[dict[str, Any]], Any]) -> Array:
+def _array(
+    tables: list[list[dict[str, Any]]], value: Callable[[dict[str, Any]], Any], axes: int = 3
+) -> Array:
     """One value of every elevation of every lobe."""
-    return np.array([[value(elevation) for elevation in table] for table in tables], dtype=np.float64)
+    return array([[value(elevation) for elevation in table] for table in tables], axes, "elevations")

@@ -29,10 +29,13 @@ def from_map_set(path: Path, map_set: MapSet) -> RadianceViews:
     MapSetError
         Its views are not the 12, 42 or 162 that RSIBR blends.
     """
-    directions = {part["view"]: part["view_dir"] for part in map_set.header["parts"] if "view" in part}
+    parts = map_set.header["parts"]
+    directions = {part["view"]: part["view_dir"] for part in parts if part["role"] == "diffuse"}
+    # Other writers may not have measured albedo.
+    albedo = [map_set.maps[part["name"]] for part in parts if part["role"] == "albedo"]
+    if len(albedo) > 1:
+        raise MapSetError(f"{path} holds two tables of albedo: capture it again.")
     try:
-        # Other writers may not have measured albedo.
-        albedo = [map_set.maps[part["name"]] for part in map_set.header["parts"] if part["role"] == "albedo"]
         views = RadianceViews(_stack(map_set, "diffuse"), _stack(map_set, "glossy"), *albedo)
     except (RangeError, ShapeError) as error:
         raise MapSetError(f"{path} holds {len(directions)} views. {error}") from error

@@ -36,12 +36,42 @@ def rec709_from(chromaticities: ArrayLike) -> Array:
     ValueError
         The primaries lie on a line, the white has no luminance, or a number is NaN.
     """
+    with np.errstate(over="ignore", invalid="ignore"):
+        matrix = _rec709_from(chromaticities)
+    if not np.all(np.isfinite(matrix)):
+        raise ValueError("its chromaticities span no colours")
+    return np.eye(3) if np.max(np.abs(matrix - np.eye(3))) < ROUNDING else matrix
+
+
+def luminance_weights(chromaticities: ArrayLike) -> Array:
+    """How much of a colour's luminance each primary gives.
+
+    Parameters
+    ----------
+    chromaticities : array_like, shape (8,)
+        As `rec709_from` takes them.
+
+    Returns
+    -------
+    ndarray, shape (3,), float64
+        They add up to 1.
+
+    Raises
+    ------
+    ValueError
+        As `rec709_from` does.
+    """
+    weights: Array = _xyz_from_rgb(chromaticities)[0][1]
+    return weights
+
+
+def _rec709_from(chromaticities: ArrayLike) -> Array:
     source, source_white = _xyz_from_rgb(chromaticities)
     target, target_white = _xyz_from_rgb(REC_709)
     gains = (BRADFORD @ target_white) / (BRADFORD @ source_white)
     adapted = np.linalg.solve(BRADFORD, gains[:, None] * (BRADFORD @ source))
     matrix: Array = np.linalg.solve(target, adapted)
-    return np.eye(3) if np.max(np.abs(matrix - np.eye(3))) < ROUNDING else matrix
+    return matrix
 
 
 def _xyz_from_rgb(chromaticities: ArrayLike) -> tuple[Array, Array]:

@@ -3,24 +3,30 @@
 The format is [Ward1991]'s: a text header, a line with the axes and the size, then scanlines.
 """
 
-import re
-from dataclasses import dataclass
+import os
+import warnings
 from pathlib import Path
 
 import numpy as np
 
 from ..core.conventions import Array, Indices
-from ..core.errors import InputFileError, RangeError, ShapeError
+from ..core.errors import InputFileError, RangeError, RsibrWarning, ShapeError
 from .atomic import written_aside
-from .chromaticities import REC_709, XYZ, rec709_from
+from .memory import check_memory
+from .radiance_header import LONGEST, RadianceHeader, parse_header
 from .reading import opened
 
 MAGIC = b"#?"
 """How every file of the format begins."""
 
-AXES = re.compile(rb"([-+])([XY]) +(\d+) +([-+])([XY]) +(\d+) *")
 NEW_CODING_WIDTHS = range(8, 0x8000)
 """Widths that the newer run-length coding can state."""
+
+GREATEST_SIDE = 1 << 16
+"""Of a picture in pixels: with the older run lengths, some bytes can state more than any memory holds."""
+
+BYTES_OF_TEXEL = 20
+"""Of memory for each texel: 3 floats, 4 bytes of the file, and as much again to be safe."""
 
 GREATEST = 255.0 * 2.0**119
 """The greatest value that the format can state."""
@@ -44,6 +50,13 @@ def read_hdr(path: str | Path) -> Array:
     ------
     InputFileError
         The file is missing, unreadable, not a Radiance picture, or truncated or damaged.
+    RangeError
+        It is too large for this machine's memory.
+
+    Warns
+    -----
+    RsibrWarning
+        A line of the header is not used, or cannot be read; says which.
 
     Notes
     -----
@@ -52,23 +65,46 @@ def read_hdr(path: str | Path) -> Array:
     """
     with opened(path) as stream:
         data = stream.read()
-    if not data.startswith(MAGIC):
-        raise InputFileError(f"{path} is not a Radiance picture: convert it, or give another.")
-    try:
-        header, start = _parse_header(data)
-    except ValueError as error:
-        raise InputFileError(f"{path} has a header that cannot be read ({error}): convert it.") from error
-    lines = []
+    header, start = _header(path, data)
+    for remark in header.remarks:
+        warnings.warn(f"{path} {remark}", RsibrWarning, stacklevel=2)
+    check_memory(header.line_count * header.line_length * BYTES_OF_TEXEL, str(path), header.size)
+    picture: Array = np.empty((*header.size[::-1], 3), np.float32)
+    lines = _lines_of(picture, header.axes)
+    surely_whole = True
     for index in range(header.line_count):
         try:
-            line, start = _decode_line(data, start, header.line_length)
+            line, start, as_announced = _decode_line(data, start, header.line_length)
         except (IndexError, ValueError) as error:
-            raise InputFileError(
-                f"{path} is truncated or damaged in scanline {index + 1} of {header.line_count}: "
-                f"fetch or make it again."
-            ) from error
-        lines.append(line)
-    return _upright(_radiance(np.stack(lines)) @ header.matrix.T.astype(np.float32), header.axes)
+            raise _damaged(path, f"in scanline {index + 1} of {header.line_count}") from error
+        surely_whole &= as_announced
+        with np.errstate(over="ignore", invalid="ignore"):  # an exposure near 0 leads to infinity
+            lines[index] = _radiance(line) @ header.matrix.T.astype(np.float32)
+    if not surely_whole and start != len(data):
+        raise _damaged(path, "in a scanline that states another length")
+    return picture
+
+
+def read_hdr_header(path: str | Path) -> RadianceHeader:
+    """Read what comes before the pixels.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    RadianceHeader
+
+    Raises
+    ------
+    InputFileError
+        As `read_hdr`, but for the pixels.
+    """
+    with opened(path) as stream:
+        start = stream.read(LONGEST)
+        stream.seek(0, os.SEEK_END)
+        return _header(path, start, stream.tell())[0]
 
 
 def write_hdr(path: str | Path, radiance: Array, force: bool = False) -> None:
@@ -106,61 +142,43 @@ def write_hdr(path: str | Path, radiance: Array, force: bool = False) -> None:
         aside.write_bytes(header.encode() + _rgbe(radiance[::-1]).tobytes())
 
 
-@dataclass(frozen=True)
-class _Header:
-    """What the text before the pixels says; `matrix` makes Rec. 709 radiance of the stored values."""
-
-    axes: str
-    line_count: int
-    line_length: int
-    matrix: Array
-
-
-def _parse_header(data: bytes) -> tuple[_Header, int]:
-    """The header, and where the pixels start."""
-    end = re.search(rb"\r?\n\r?\n", data)
-    if end is None:
-        raise ValueError("it does not end")
-    scale, primaries = np.ones(3), np.array(REC_709)
-    for line in data[: end.start()].decode("latin-1").splitlines():
-        key, _, value = line.partition("=")
-        if key == "FORMAT" and value.strip() == "32-bit_rle_xyze":
-            primaries = np.array(XYZ)
-        elif key == "FORMAT" and value.strip() != "32-bit_rle_rgbe":
-            raise ValueError(f"its format is {value.strip()}")
-        elif key == "PRIMARIES":
-            primaries = _numbers(value, 8)
-        elif key == "EXPOSURE":
-            scale = scale * _factor(_numbers(value, 1))
-        elif key == "COLORCORR":
-            scale = scale * _factor(_numbers(value, 3))
-    line_end = data.find(b"\n", end.end())
-    axes = AXES.fullmatch(data[end.end() : max(line_end, 0)].rstrip(b"\r"))
-    if axes is None or {axes[2], axes[5]} != {b"X", b"Y"} or int(axes[3]) < 1 or int(axes[6]) < 1:
-        raise ValueError("it states no size")
-    order = b"".join(axes.group(1, 2, 4, 5)).decode()
-    return _Header(order, int(axes[3]), int(axes[6]), rec709_from(primaries) / scale), line_end + 1
+def _header(path: str | Path, data: bytes, length: int | None = None) -> tuple[RadianceHeader, int]:
+    """The header, and where the pixels start, for which `length` bytes, by default all, have room."""
+    if not data.startswith(MAGIC):
+        raise InputFileError(f"{path} is not a Radiance picture: convert it, or give another.")
+    try:
+        header, start = parse_header(data)
+    except ValueError as error:
+        raise InputFileError(f"{path} has a header that cannot be read ({error}): convert it.") from error
+    available = (len(data) if length is None else length) - start
+    if max(header.size) > GREATEST_SIDE or available < header.line_count * _least_bytes(header.line_length):
+        size = "{}x{}".format(*header.size)
+        raise _damaged(path, f"as {available} bytes cannot hold the {size} pixels that it states")
+    return header, start
 
 
-def _numbers(text: str, count: int) -> Array:
-    numbers = np.array(text.split(), dtype=np.float64)
-    if numbers.shape != (count,):
-        raise ValueError(f"{text.strip()!r} are not {count} numbers")
-    return numbers
+def _damaged(path: str | Path, where: str) -> InputFileError:
+    return InputFileError(f"{path} is truncated or damaged {where}: fetch or make it again.")
 
 
-def _factor(factors: Array) -> Array:
-    """Factors that were multiplied in; FreeImage writes an exposure of 0, which means none."""
-    return factors if np.all(np.isfinite(factors) & (factors > 0.0)) else np.ones_like(factors)
+def _least_bytes(length: int) -> int:
+    """Of a scanline in the coding that is shortest for one colour: digits to the base 256, or runs of 127."""
+    digits = ((length - 1).bit_length() + 7) // 8
+    runs = 4 + 4 * 2 * -(-length // 127)
+    return min(4 + 4 * digits, runs) if length in NEW_CODING_WIDTHS else 4 + 4 * digits
 
 
-def _decode_line(data: bytes, start: int, length: int) -> tuple[Indices, int]:
-    """One scanline as (length, 4) bytes, and where the next one starts."""
+def _decode_line(data: bytes, start: int, length: int) -> tuple[Indices, int, bool]:
+    """One scanline as (length, 4) bytes, where the next one starts, and whether that is sure.
+
+    A line of flat pixels may begin as one in the newer coding does, but then states another length: such
+    a picture must end where its pixels do, or it is a damaged one.
+    """
     if length in NEW_CODING_WIDTHS and data[start : start + 2] == b"\2\2" and data[start + 2] < 0x80:
-        if data[start + 2] << 8 | data[start + 3] != length:
-            raise ValueError("a scanline states another length")
-        return _decode_components(data, start + 4, length)
-    return _decode_pixels(data, start, length)
+        if data[start + 2] << 8 | data[start + 3] == length:
+            return *_decode_components(data, start + 4, length), True
+        return *_decode_pixels(data, start, length), False
+    return *_decode_pixels(data, start, length), True
 
 
 def _decode_components(data: bytes, at: int, length: int) -> tuple[Indices, int]:
@@ -222,10 +240,8 @@ def _rgbe(radiance: Array) -> Indices:
     return rgbe.astype(np.uint8)
 
 
-def _upright(lines: Array, axes: str) -> Array:
-    """Row 0 at the bottom, column 0 at the left, from scanlines along `axes`, such as "-Y+X"."""
+def _lines_of(picture: Array, axes: str) -> Array:
+    """The scanlines along `axes`, such as "-Y+X", of a picture with row 0 at the bottom: a view of it."""
     slow, fast = axes[:2], axes[2:]
-    picture = lines[:: -1 if slow[0] == "-" else 1, :: -1 if fast[0] == "-" else 1]
-    if slow[1] == "X":
-        picture = picture.transpose(1, 0, 2)
-    return np.ascontiguousarray(picture)
+    lines = picture if slow[1] == "Y" else picture.transpose(1, 0, 2)
+    return lines[:: -1 if slow[0] == "-" else 1, :: -1 if fast[0] == "-" else 1]

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.errors import InputFileError
+from rsibr.rsibr_addon.core.errors import InputFileError, RsibrWarning
 from rsibr.rsibr_addon.files.chromaticities import XYZ, rec709_from
-from rsibr.rsibr_addon.files.radiance_hdr import read_hdr
+from rsibr.rsibr_addon.files.radiance_hdr import read_hdr, read_hdr_header
 
 HEADER = b"#?RADIANCE\n# a comment\nFORMAT=32-bit_rle_rgbe\n"
 
@@ -117,13 +117,87 @@ PIXEL = np.array([[[128, 64, 32, 136]]], np.uint8)
         (b"EXPOSURE=2\nEXPOSURE= 4.0\n", (8, 8, 8)),
         (b"COLORCORR=1 2 4\nEXPOSURE=0.5\n", (0.5, 1, 2)),
         (b"EXPOSURE=0\n", (1, 1, 1)),  # as FreeImage writes
-        (b"GAMMA=2.2\n\tEXPOSURE=3\n", (1, 1, 1)),  # an indented line is another program's history
+        (b"COLORCORR=0 0 0\n", (1, 1, 1)),
+        (b"\tEXPOSURE=3\n\tany=thing\n", (1, 1, 1)),  # an indented line is another program's history
+        (b"EXPOSURE = 2\r\ncolorcorr=1, 2, 4\n", (2, 4, 8)),
+        (b"EXPOSURE=1,5\nColorCorr= 0,5 1 2\n", (0.75, 1.5, 3)),
+        (b"rpict -vta -av 1 1 1 room.oct\npfilt -e +2 x=3\nVIEW= -vta\nPIXASPECT=1\n#x=1\n", (1, 1, 1)),
+        (b"PRIMARIES=0 0 0 0 0 0 0 0\nGAMMA=1\nSOFTWARE=x\n", (1, 1, 1)),  # as Photoshop writes
     ],
 )
 def test_what_was_multiplied_in_is_divided_out(tmp_path: Path, lines: bytes, factors: tuple) -> None:
     path = tmp_path / "a.hdr"
     path.write_bytes(HEADER + lines + b"\n-Y 1 +X 1\n" + PIXEL.tobytes())
     np.testing.assert_array_equal(read_hdr(path), np.float32(values(PIXEL) / factors))
+
+
+@pytest.mark.parametrize(
+    ("line", "factor"),
+    [
+        (b"EXPOSURE=much", 1),
+        (b"EXPOSURE=", 1),
+        (b"EXPOSURE=-2", 1),
+        (b"EXPOSURE=nan", 1),
+        (b"EXPOSURE=2 # stops", 2),
+        (b"COLORCORR=1 1", 1),
+        (b"COLORCORR=1 0 1", 1),
+        (b"PRIMARIES=.64 .33 .3 .6 0 0 0 0", 1),
+        (b"PRIMARIES=nan nan nan nan nan nan nan nan", 1),
+        (b"PRIMARIES=.3 .3 .3 .3 .3 .3 .3 .3", 1),
+        (b"GAMMA=2.2", 1),
+        (b"PIXASPECT=2", 1),
+        (b"ROTATE=90", 1),
+        (b"EXPOSURE=\x1b[31m", 1),
+    ],
+)
+def test_a_line_that_is_not_used_is_told_of(tmp_path: Path, line: bytes, factor: float) -> None:
+    path = tmp_path / "a.hdr"
+    path.write_bytes(HEADER + line + b"\n\n-Y 1 +X 1\n" + PIXEL.tobytes())
+    with pytest.warns(RsibrWarning, match=r"a\.hdr has the header line") as caught:
+        picture = read_hdr(path)
+    np.testing.assert_array_equal(picture, np.float32(values(PIXEL) / factor))
+    (warning,) = caught
+    assert repr(line.decode()) in str(warning.message)
+    assert str(warning.message).isprintable()
+
+
+@pytest.mark.parametrize(
+    "start", [b"#?RGBE\n", b"#?AUTOPANO\r\n\r\n", b"#?RADIANCE\n", b"#?\nNo statement\n\n"]
+)
+def test_beginnings_differ(tmp_path: Path, start: bytes) -> None:
+    path = tmp_path / "a.hdr"
+    path.write_bytes(start + b"-Y 1 +X 1\n" + PIXEL.tobytes())
+    np.testing.assert_array_equal(read_hdr(path), values(PIXEL))
+
+
+def test_flat_pixels_may_look_like_the_start_of_runs(tmp_path: Path) -> None:
+    picture = np.random.default_rng(2).integers(2, 256, (3, 20, 4), dtype=np.uint8)
+    picture[:, 0] = 2, 2, 3, 130
+    whole = HEADER + b"\n-Y 3 +X 20\n" + picture.tobytes()
+    path = tmp_path / "a.hdr"
+    path.write_bytes(whole)
+    np.testing.assert_array_equal(read_hdr(path), values(picture)[::-1])
+    path.write_bytes(whole + b"\0")
+    with pytest.raises(InputFileError, match="in a scanline that states another length"):
+        read_hdr(path)
+
+
+@pytest.mark.parametrize(
+    ("size", "data"),
+    [
+        (b"-Y 1 +X 134217728", b"\x80\1\1\x80" + b"\1\1\1\xff" * 3 + b"\1\1\1\7"),
+        (b"-Y 99999999 +X 8", b"\x80\1\1\x80\1\1\1\7"),
+        (b"-Y 60000 +X 60000", b"\2\2" * 99),
+    ],
+)
+def test_a_size_beyond_the_files_length_is_refused_before_it_is_decoded(
+    tmp_path: Path, size: bytes, data: bytes
+) -> None:
+    path = tmp_path / "a.hdr"
+    path.write_bytes(HEADER + b"\n" + size + b"\n" + data)
+    for read in (read_hdr, read_hdr_header):
+        with pytest.raises(InputFileError, match=f"{len(data)} bytes cannot hold"):
+            read(path)
 
 
 @pytest.mark.parametrize(
@@ -143,21 +217,29 @@ def test_other_primaries_become_rec_709(tmp_path: Path, lines: bytes, matrix: np
     np.testing.assert_allclose(read_hdr(path), values(PIXEL) @ matrix.T, rtol=0, atol=1e-4)
 
 
+def test_the_header_tells_what_it_states(tmp_path: Path) -> None:
+    path = tmp_path / "a.hdr"
+    path.write_bytes(b"#?RADIANCE\nFORMAT=32-bit_rle_xyze\nEXPOSURE=2\n\n+X 3 -Y 5\n" + bytes(60))
+    header = read_hdr_header(path)
+    assert header.size == (3, 5)
+    assert header.colours == "CIE XYZ, as FORMAT says"
+    np.testing.assert_array_equal(header.scale, 2.0)
+
+
 @pytest.mark.parametrize(
     ("content", "sentence"),
     [
         (b"no picture", "not a Radiance picture"),
-        (b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n", "does not end"),
+        (b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n", "states no size"),
         (b"#?RADIANCE\nFORMAT=16-bit\n\n-Y 1 +X 1\n1234", "its format is 16-bit"),
-        (b"#?RADIANCE\nEXPOSURE=much\n\n-Y 1 +X 1\n1234", "cannot be read"),
-        (b"#?RADIANCE\nCOLORCORR=1 1\n\n-Y 1 +X 1\n1234", "are not 3 numbers"),
         (b"#?RADIANCE\n\n-Y 1 +Y 1\n1234", "states no size"),
         (b"#?RADIANCE\n\n-Y 0 +X 1\n1234", "states no size"),
         (b"#?RADIANCE\n\n-Y 1 +X 1", "states no size"),
-        (b"#?RADIANCE\n\n-Y 2 +X 1\n1234", "scanline 2 of 2"),
+        (b"#?RADIANCE\n\n-Y 2 +X 1\n1234", "4 bytes cannot hold the 1x2 pixels"),
+        (b"#?RADIANCE\n\n-Y 2 +X 3\n" + bytes(20), "scanline 2 of 2"),
         (b"#?RADIANCE\n\n-Y 1 +X 9\n\2\2\0\7" + b"\x8f\1" * 9, "scanline 1 of 1"),  # says 7 pixels, not 9
         (b"#?RADIANCE\n\n-Y 1 +X 9\n\2\2\0\x09" + b"\xff\1" * 9, "scanline 1 of 1"),  # a run beyond the end
-        (b"#?RADIANCE\n\n-Y 1 +X 4\n\1\1\1\4", "scanline 1 of 1"),  # a run of nothing
+        (b"#?RADIANCE\n\n-Y 1 +X 4\n\1\1\1\4\1\1\1\4", "scanline 1 of 1"),  # a run of nothing
         (b"#?RADIANCE\n\n-Y 1 +X 4\n\x80\1\1\x80\1\1\1\7", "scanline 1 of 1"),  # a run beyond the end
         (b"#?RADIANCE\n\n-Y 1 +X 9\n\x80\1\1\x80" + b"\1\1\1\xff" * 5, "scanline 1 of 1"),
     ],

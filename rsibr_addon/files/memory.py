@@ -1,0 +1,106 @@
+"""How much memory is left, and whether what is to be done fits into it."""
+
+import math
+import os
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+from ..core.errors import RangeError
+
+
+def check_memory(needed: float, what: str, size: tuple[int, int]) -> None:
+    """Refuse work that this machine has not the memory for, before it begins.
+
+    Parameters
+    ----------
+    needed : float
+        Bytes, in proportion to the number of texels.
+    what : str
+        What takes them, the subject of the sentence.
+    size : tuple of int
+        Width and height of the picture, in texels.
+
+    Raises
+    ------
+    RangeError
+        It does not fit; says which size does.
+    """
+    left = memory_left()
+    if needed > left:
+        scale = math.sqrt(left / needed)
+        fitting = "x".join(str(max(1, math.floor(side * scale))) for side in size)
+        raise RangeError(
+            f"{what} takes {needed / 1e9:.1f} GB of memory at {size[0]}x{size[1]}, and {left / 1e9:.1f} GB "
+            f"are left: shrink it to {fitting} at most."
+        )
+
+
+def memory_left() -> float:
+    """Bytes that this process can still take; infinite where the system does not tell.
+
+    The least of what the machine has, what its control groups leave (a container's limit, a job's) and
+    what the process's own limit does.
+    """
+    return max(0.0, min((_machine(), _address_space(), *_control_groups()), default=math.inf))
+
+
+def _machine() -> float:
+    if sys.platform == "win32":
+        import ctypes
+
+        kilobytes = ctypes.c_ulonglong()
+        ctypes.windll.kernel32.GetPhysicallyInstalledSystemMemory(ctypes.byref(kilobytes))
+        return 1024.0 * kilobytes.value or math.inf
+    for line in _lines(Path("/proc/meminfo")):
+        if line.startswith("MemAvailable:"):
+            return 1024.0 * int(line.split()[1])
+    return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+
+
+def _address_space() -> float:
+    if sys.platform == "win32":
+        return math.inf
+    import resource
+
+    limit = resource.getrlimit(resource.RLIMIT_AS)[0]
+    pages = _lines(Path("/proc/self/statm"))
+    if limit == resource.RLIM_INFINITY or not pages:
+        return math.inf
+    return float(limit - int(pages[0].split()[0]) * os.sysconf("SC_PAGE_SIZE"))
+
+
+def _control_groups() -> Iterator[float]:
+    """What each group above this process leaves, of either version of Linux's control groups."""
+    for line in _lines(Path("/proc/self/cgroup")):
+        _, controllers, group = line.split(":", 2)
+        if controllers == "":
+            root, limit, used = "/sys/fs/cgroup", "memory.max", "memory.current"
+        elif "memory" in controllers.split(","):
+            root, limit, used = "/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes"
+        else:
+            continue
+        folder = Path(root + group)
+        for level in (folder, *folder.parents[: len(Path(group).parts) - 1]):
+            numbers = [_number(level / name) for name in (limit, used)]
+            if None not in numbers:
+                # Files that the system keeps in memory go when they must
+                kept = sum(
+                    int(line.split()[1])
+                    for line in _lines(level / "memory.stat")
+                    if line.startswith("inactive_file ")
+                )
+                yield float(numbers[0] or 0) - float(numbers[1] or 0) + kept
+
+
+def _number(path: Path) -> int | None:
+    """A file's number; None where it is not there or says "max"."""
+    text = "".join(_lines(path))
+    return int(text) if text.isdigit() else None
+
+
+def _lines(path: Path) -> list[str]:
+    try:
+        return path.read_text().splitlines()
+    except OSError:
+        return []

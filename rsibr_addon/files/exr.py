@@ -14,12 +14,23 @@ import OpenEXR  # type: ignore[import-not-found, unused-ignore]  # it has no stu
 
 from ..core.conventions import Array, Indices
 from ..core.errors import InputFileError
+from .exr_sampling import interpolated
+from .memory import check_memory
 from .reading import opened
 
 MAGIC = b"\x76\x2f\x31\x01"
 """The first four bytes of every OpenEXR file."""
 
+CUBE = OpenEXR.ENVMAP_CUBE
+"""Value of the attribute `envmap` where a picture is a cube's six faces."""
+
+primaries_named = OpenEXR.colorInteropIDToChromaticities
+"""Chromaticities of a linear colour space by its `colorInteropID`; None where it is none."""
+
 OpenEXR.set_global_thread_count(os.cpu_count() or 1)
+
+BYTES_OF_SAMPLE = 8
+"""Of memory for each number of a channel: as float, and as much again for the picture made of them."""
 
 _reading = threading.Lock()
 
@@ -79,15 +90,24 @@ def read_parts(path: str | Path) -> list[Part]:
     Raises
     ------
     InputFileError
-        As `read_attributes`; pixels of a part are missing or damaged; a part has deep pixels or
-        subsampled channels.
+        As `read_attributes`; pixels of a part are missing or damaged; a part has deep pixels.
+    RangeError
+        It is too large for this machine's memory.
+
+    Notes
+    -----
+    Subsampled channels are interpolated: see `exr_sampling`.
     """
     headers = read_attributes(path)
     for header in headers:
         if header["type"] not in (OpenEXR.scanlineimage, OpenEXR.tiledimage):
             raise InputFileError(f"{path} holds deep pixels: flatten it, and save it as a plain OpenEXR.")
-        if any((channel.xSampling, channel.ySampling) != (1, 1) for channel in header["channels"]):
-            raise InputFileError(f"{path} holds subsampled chroma: save it with channels R, G and B.")
+    sizes = [_window_size(header["dataWindow"]) for header in headers]
+    texels = sum(
+        width * height * len(header["channels"])
+        for header, (width, height) in zip(headers, sizes, strict=True)
+    )
+    check_memory(BYTES_OF_SAMPLE * texels, str(path), max(sizes))
     with opened(path) as stream, _package_file(path, stream, separate_channels=True) as file:
         # The package leaves out, without an exception, each part whose pixels it cannot read
         if len(file.parts) != len(headers):
@@ -98,11 +118,26 @@ def read_parts(path: str | Path) -> list[Part]:
         return [
             Part(
                 part.header.get("name", ""),
-                {name: channel.pixels[::-1] for name, channel in part.channels.items()},
+                {name: _full(channel, part.header["dataWindow"]) for name, channel in part.channels.items()},
                 dict(part.header),
             )
             for part in file.parts
         ]
+
+
+def _full(channel: Any, window: tuple[Indices, Indices]) -> Array:
+    """A channel's pixels, one for each of its part's, row 0 at the bottom."""
+    sampling, pixels = (channel.ySampling, channel.xSampling), channel.pixels
+    for axis, (step, length) in enumerate(zip(sampling, _window_size(window)[::-1], strict=True)):
+        pixels = interpolated(pixels, axis, step, length)
+    flipped: Array = pixels[::-1]
+    return flipped
+
+
+def _window_size(window: tuple[Indices, Indices]) -> tuple[int, int]:
+    """Width and height."""
+    low, high = window
+    return int(high[0]) - int(low[0]) + 1, int(high[1]) - int(low[1]) + 1
 
 
 def in_display_window(part: Part) -> Part:
@@ -117,21 +152,25 @@ def in_display_window(part: Part) -> Part:
     -------
     Part
         With the pixels of its display window; those that the file does not store are 0.
+
+    Raises
+    ------
+    ValueError
+        It stores none of them.
     """
-    low, high = (np.asarray(corner, dtype=int) for corner in part.attributes["dataWindow"])
-    first, last = (np.asarray(corner, dtype=int) for corner in part.attributes["displayWindow"])
+    low, high = (np.asarray(corner, dtype=np.int64) for corner in part.attributes["dataWindow"])
+    first, last = (np.asarray(corner, dtype=np.int64) for corner in part.attributes["displayWindow"])
     if np.array_equal(low, first) and np.array_equal(high, last):
         return part
+    if np.any(high < first) or np.any(low > last):
+        raise ValueError("no pixel of its data window lies in its display window")
     width, height = last - first + 1
     start, end = np.maximum(low, first), np.minimum(high, last) + 1
     channels = {}
     for name, pixels in part.channels.items():
         picture = np.zeros((height, width), pixels.dtype)
-        if np.all(start < end):
-            # Windows count rows from the top
-            picture[::-1][_between(start - first, end - first)] = pixels[::-1][
-                _between(start - low, end - low)
-            ]
+        # Windows count rows from the top
+        picture[::-1][_between(start - first, end - first)] = pixels[::-1][_between(start - low, end - low)]
         channels[name] = picture
     return Part(part.name, channels, part.attributes)
 

@@ -1,14 +1,19 @@
 """Single pictures as OpenEXR."""
 
+import re
+import warnings
 from pathlib import Path
 
 import numpy as np
 
 from ..core.conventions import Array
-from ..core.errors import InputFileError, ShapeError
+from ..core.errors import InputFileError, RsibrWarning, ShapeError
 from .atomic import written_aside
-from .chromaticities import rec709_from
-from .exr import Part, in_display_window, read_parts, write_parts
+from .chromaticities import XYZ, rec709_from
+from .exr import Part, in_display_window, read_attributes, read_parts, write_parts
+from .exr_header import Meaning, meaning
+from .exr_layers import Layer, choose, layers_of
+from .picture_facts import PictureFacts
 
 
 def write_exr(path: str | Path, rgba: Array, force: bool = False) -> None:
@@ -38,13 +43,15 @@ def write_exr(path: str | Path, rgba: Array, force: bool = False) -> None:
 
 
 def read_exr(path: str | Path) -> Array:
-    """Read the first picture in colour or grey of an OpenEXR file.
+    """Read the picture of an OpenEXR file.
 
     Parameters
     ----------
     path : str or Path
-        Scanlines or tiles, any compression, half or float, one part or several. The channels are R, G,
-        B and perhaps A, or Y alone; else those of the one layer, NAME.R and so on, that has such.
+        Scanlines or tiles, any compression, half or float, one part or several. Its channels are R, G and B,
+        or Y, RY and BY, or X, Y and Z of CIE, or Y alone, and perhaps A, whatever the case; without a
+        layer, or in the one that renderers take for the picture: `exr_layers.choose`. FILE.exr:LAYER
+        names another.
 
     Returns
     -------
@@ -55,44 +62,132 @@ def read_exr(path: str | Path) -> Array:
     Raises
     ------
     InputFileError
-        See `read_parts`; or there is no colour, or it lies in several layers, or its chromaticities
-        make no sense.
+        See `read_parts`; or there is no colour, or it lies in several layers, or beside the picture.
+    RangeError
+        It is too large for this machine's memory.
+
+    Warns
+    -----
+    RsibrWarning
+        Something that the header says is not used; says what.
     """
-    parts = read_parts(path)
-    for part in parts:
-        if names := _colour_channels(path, part):
-            try:
-                return _rec709_picture(path, in_display_window(part), names)
-            except MemoryError as error:
-                raise InputFileError(f"{path} is too large for this machine's memory: shrink it.") from error
-    found = ", ".join(sorted({name for part in parts for name in part.channels})) or "none"
-    raise InputFileError(
-        f"{path} holds no colour (channels: {found}): save it with R, G and B in float or half."
+    file, layer, meant, remarks = _chosen(path)
+    for remark in remarks:
+        warnings.warn(f"{path} {remark}", RsibrWarning, stacklevel=2)
+    part = read_parts(file)[layer.part]
+    wanted = {role: name for role, name in layer.channels.items() if part.channels[name].dtype.kind == "f"}
+    if wanted.keys() | {"A"} != layer.channels.keys() | {"A"}:
+        raise InputFileError(
+            f"{path} holds no colour but whole numbers ({', '.join(layer.channels.values())}): "
+            f"save it in float or half."
+        )
+    try:
+        placed = in_display_window(
+            Part(part.name, {role: part.channels[name] for role, name in wanted.items()}, part.attributes)
+        )
+    except ValueError as error:
+        raise InputFileError(
+            f"{path} is black, as {error}: save it again, cropped to its picture."
+        ) from error
+    return _rec709_picture(placed.channels, meant)
+
+
+def split_layer(path: str | Path) -> tuple[Path, str | None]:
+    """A file, and the layer in it that is named.
+
+    Parameters
+    ----------
+    path : str or Path
+        FILE, or FILE.exr:LAYER; a file whose own name is such goes first.
+
+    Returns
+    -------
+    Path
+    str or None
+    """
+    named = LAYER_OF_FILE.fullmatch(str(path))
+    if named is None or Path(path).is_file():
+        return Path(path), None
+    return Path(named[1]), named[2]
+
+
+def describe_exr(path: str | Path) -> PictureFacts:
+    """Tell what of an OpenEXR file is used, by its headers alone.
+
+    Parameters
+    ----------
+    path : str or Path
+        As `read_exr` takes it.
+
+    Returns
+    -------
+    PictureFacts
+
+    Raises
+    ------
+    InputFileError
+        As `read_exr`, but for the pixels.
+    """
+    file, layer, meant, remarks = _chosen(path)
+    headers = read_attributes(file)
+    header = headers[layer.part]
+    low, high = header["displayWindow"]
+    return PictureFacts(
+        format="OpenEXR",
+        size=(int(high[0] - low[0]) + 1, int(high[1] - low[1]) + 1),
+        window=" to ".join("{},{}".format(*corner) for corner in header["dataWindow"]),
+        channels=", ".join(layer.channels.values()),
+        layers=tuple(other.name for other in layers_of(headers) if other.name),
+        colours="grey" if layer.is_grey else meant.colours,
+        exposure="none stated",
+        remarks=tuple(remarks),
     )
 
 
-def _colour_channels(path: str | Path, part: Part) -> list[str]:
-    """The names of the channels to show, in order; empty where there are none."""
-    floats = {name for name, pixels in part.channels.items() if pixels.dtype.kind == "f"}
-    if floats.issuperset("RGB"):
-        return list("RGBA" if "A" in floats else "RGB")
-    if "Y" in floats:
-        return ["Y"]
-    prefixes = {name.rpartition(".")[0] for name in floats if "." in name}
-    layers = sorted(prefix for prefix in prefixes if floats >= {f"{prefix}.{c}" for c in "RGB"})
-    if len(layers) > 1:
-        raise InputFileError(f"{path} holds several layers ({', '.join(layers)}): save the one to be used.")
-    return [f"{layer}.{c}" for layer in layers for c in "RGBA" if f"{layer}.{c}" in floats]
+LAYER_OF_FILE = re.compile(r"(.+\.exr):([^:/\\]+)", re.IGNORECASE | re.DOTALL)
 
 
-def _rec709_picture(path: str | Path, part: Part, names: list[str]) -> Array:
-    pixels = np.stack([part.channels[name] for name in names], axis=-1).astype(np.float32)
-    if len(names) >= 3 and "chromaticities" in part.attributes:
-        try:
-            matrix = rec709_from(part.attributes["chromaticities"])
-        except (TypeError, ValueError) as error:  # TypeError: they are no numbers at all
-            raise InputFileError(
-                f"{path} cannot be converted to Rec. 709 ({error}): save it again."
-            ) from error
-        pixels[..., :3] = pixels[..., :3] @ matrix.T
+def _chosen(path: str | Path) -> tuple[Path, Layer, Meaning, list[str]]:
+    """The file, its picture, what that means, and what is left of the file."""
+    file, wanted = split_layer(path)
+    headers = read_attributes(file)
+    layers = layers_of(headers)
+    if not layers:
+        found = ", ".join(sorted({channel.name for header in headers for channel in header["channels"]}))
+        raise InputFileError(
+            f"{path} holds no colour (channels: {found[:200] or 'none'}): "
+            f"save it with R, G and B in float or half."
+        )
+    layer, left = choose(file, layers, wanted)
+    meant = meaning(headers[layer.part])
+    if "X" in layer.channels:
+        left.append("has channels X, Y and Z, which are taken as CIE XYZ.")
+    return file, layer, meant, [*left, *meant.remarks]
+
+
+def _rec709_picture(channels: dict[str, Array], meant: Meaning) -> Array:
+    """The picture of channels by their role."""
+    matrix = meant.matrix
+    if "RY" in channels:
+        channels = channels | _from_chroma(channels, meant.luminance_weights.astype(np.float32))
+    elif "X" in channels:
+        channels = channels | {"R": channels["X"], "G": channels["Y"], "B": channels["Z"]}
+        matrix = rec709_from(XYZ)
+    roles = [role for role in "RGBA" if role in channels] if "R" in channels else ["Y"]
+    pixels = np.empty((*channels[roles[0]].shape, len(roles)), np.float32)
+    for number, role in enumerate(roles):
+        pixels[..., number] = channels[role]
+    if len(roles) >= 3 and not np.array_equal(matrix, np.eye(3)):
+        with np.errstate(over="ignore", invalid="ignore"):  # of values that are infinite already
+            for row in pixels:
+                row[:, :3] = row[:, :3] @ matrix.T.astype(np.float32)
     return pixels
+
+
+def _from_chroma(channels: dict[str, Array], weights: Array) -> dict[str, Array]:
+    """R, G and B, whose luminance is Y with `weights`, from the chromas (R - Y) / Y and (B - Y) / Y."""
+    luminance = channels["Y"].astype(np.float32)
+    with np.errstate(over="ignore", invalid="ignore"):
+        red, blue = ((channels[chroma] + np.float32(1.0)) * luminance for chroma in ("RY", "BY"))
+        green = (luminance - weights[0] * red - weights[2] * blue) / weights[1]
+    return {"R": red, "G": green, "B": blue}

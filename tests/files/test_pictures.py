@@ -7,7 +7,6 @@ import numpy as np
 import OpenEXR
 import pytest
 from rsibr.rsibr_addon.core.errors import InputFileError, OutputFileError, ShapeError
-from rsibr.rsibr_addon.files.chromaticities import rec709_from
 from rsibr.rsibr_addon.files.pictures import read_exr, write_exr
 
 SCANLINES = {"type": OpenEXR.scanlineimage, "compression": OpenEXR.ZIP_COMPRESSION}
@@ -112,28 +111,7 @@ def test_grey_has_one_channel(tmp_path: Path, rgb: np.ndarray) -> None:
     np.testing.assert_array_equal(read_exr(path), rgb[::-1, :, :1])
 
 
-def test_the_first_part_in_colour_is_taken(tmp_path: Path, rgb: np.ndarray) -> None:
-    path = write(
-        tmp_path / "a.exr",
-        (SCANLINES, {"Z": rgb[..., 0]}),
-        (SCANLINES, channels(rgb)),
-        (SCANLINES, channels(7 * rgb)),
-    )
-    np.testing.assert_array_equal(read_exr(path), rgb[::-1])
-
-
-def test_a_single_layer_is_taken(tmp_path: Path, rgb: np.ndarray) -> None:
-    layer = channels(rgb, "ViewLayer.Combined.") | {"ViewLayer.Depth.Z": rgb[..., 0]}
-    np.testing.assert_array_equal(read_exr(write(tmp_path / "a.exr", (SCANLINES, layer))), rgb[::-1])
-
-
-def test_a_choice_of_layers_is_left_to_the_user(tmp_path: Path, rgb: np.ndarray) -> None:
-    path = write(tmp_path / "a.exr", (SCANLINES, channels(rgb, "left.") | channels(rgb, "right.")))
-    with pytest.raises(InputFileError, match=r"a\.exr holds several layers \(left, right\)"):
-        read_exr(path)
-
-
-@pytest.mark.parametrize("shift", [(0, 0), (-3, 5), (100, 0)])
+@pytest.mark.parametrize("shift", [(0, 0), (-3, 5), (49, -29)])
 def test_a_data_window_is_placed_in_the_picture(tmp_path: Path, rgb: np.ndarray, shift: tuple) -> None:
     # A picture of 50x40 whose pixels are stored for a window at `shift` only
     x, y = shift
@@ -151,39 +129,11 @@ def test_a_data_window_is_placed_in_the_picture(tmp_path: Path, rgb: np.ndarray,
     np.testing.assert_array_equal(read_exr(path), expected[::-1])
 
 
-def test_other_primaries_become_rec_709(tmp_path: Path, rgb: np.ndarray) -> None:
-    aces = (0.7347, 0.2653, 0.0, 1.0, 0.0001, -0.077, 0.32168, 0.33767)
-    path = write(tmp_path / "a.exr", (SCANLINES | {"chromaticities": aces}, channels(rgb)))
-    # float32 arithmetic: three products of size up to 3 * 32
-    np.testing.assert_allclose(read_exr(path), rgb[::-1] @ rec709_from(aces).T, rtol=0, atol=1e-4)
-
-
-def test_impossible_primaries_are_refused(tmp_path: Path, rgb: np.ndarray) -> None:
-    path = write(tmp_path / "a.exr", (SCANLINES | {"chromaticities": (0.3,) * 8}, channels(rgb)))
-    with pytest.raises(InputFileError, match=r"a\.exr cannot be converted to Rec\. 709"):
-        read_exr(path)
-
-
-def test_primaries_of_another_type_are_refused(tmp_path: Path, rgb: np.ndarray) -> None:
-    path = write(tmp_path / "a.exr", (SCANLINES | {"chromaticities": (0.3,) * 8}, channels(rgb)))
-    path.write_bytes(path.read_bytes().replace(b"s\0chromaticities\0", b"s\0cbromaticities\0"))
-    with pytest.raises(InputFileError, match=r"a\.exr cannot be converted to Rec\. 709"):
-        read_exr(path)
-
-
 @pytest.mark.parametrize("names", ["Z", "RG", "id"])
 def test_a_file_without_colour_is_refused(tmp_path: Path, rgb: np.ndarray, names: str) -> None:
     planes = dict.fromkeys(names, rgb[..., 0]) if names != "id" else channels(rgb.astype(np.uint32))
-    with pytest.raises(InputFileError, match=r"a\.exr holds no colour \(channels: "):
+    with pytest.raises(InputFileError, match=r"a\.exr holds no colour .*: save it"):
         read_exr(write(tmp_path / "a.exr", (SCANLINES, planes)))
-
-
-def test_subsampled_chroma_is_refused(tmp_path: Path) -> None:
-    ones = np.ones((8, 8), np.float32)
-    planes = {"Y": ones} | {name: OpenEXR.Channel(name, ones, 2, 2) for name in ("RY", "BY")}
-    OpenEXR.File(dict(SCANLINES), planes).write(str(tmp_path / "a.exr"))
-    with pytest.raises(InputFileError, match=r"a\.exr holds subsampled chroma"):
-        read_exr(tmp_path / "a.exr")
 
 
 def test_deep_pixels_are_refused(tmp_path: Path) -> None:

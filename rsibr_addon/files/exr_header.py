@@ -1,0 +1,154 @@
+"""What an OpenEXR header says of its pixels beyond their names: colours, windows, orientation."""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..core.conventions import Array, ArrayLike
+from .chromaticities import REC_709, luminance_weights, rec709_from
+from .exr import CUBE, primaries_named
+
+ACES = (0.7347, 0.2653, 0.0, 1.0, 0.0001, -0.077, 0.32168, 0.33767)
+"""Of every picture in an ACES container, whether it states them or not."""
+
+LINEAR_REC_709 = re.compile(
+    r"(scene_?)?linear( rec\.?709.*)?|lin_(srgb|rec709)(_scene)?|unknown|", re.IGNORECASE
+)
+"""Names of colour spaces that ask for nothing."""
+
+COLOUR_SPACE = re.compile(r"(oiio:)?colou?r_?space", re.IGNORECASE)
+
+HARMLESS = re.compile(
+    "name|type|view|multiView|channels|compression|dataWindow|displayWindow|lineOrder|tiles|version|chunkCount|"
+    "chromaticities|colorInteropID|acesImageContainerFlag|adoptedNeutral|pixelAspectRatio|envmap|Orientation|"
+    "screenWindow(Center|Width)|preview|originalDataWindow|deepImageState|idManifest|maxSamplesPerPixel|"
+    "whiteLuminance|renderingTransform|lookModTransform|xDensity|ResolutionUnit|[XY]Resolution|wrapmodes|"
+    "owner|comments|Comment|capDate|[dD]ate(Time)?|utcOffset|longitude|latitude|altitude|focus|expTime|aperture|"
+    "isoSpeed|keyCode|timeCode|framesPerSecond|imageCounter|reelName|shutterAngle|tStop|ascFramingDecisionList|"
+    "(nominal|effective|pinhole)FocalLength|entrancePupilOffset|(camera|lens|sensor)[A-Z].*|worldTo(Camera|NDC)|"
+    "(dwa|zip|zstd|ht)CompressionLevel|[sS]oftware|[cC]opyright|[aA]rtist|[cC]reator|ImageDescription|DocumentName|"
+    "HostComputer|Make|Model|ExposureTime|FNumber|PhotoshopLayerInfo|BlenderMultiChannel|Camera|File|Frame|Memory|"
+    "Marker|Note|Hostname|RenderTime|Scene|Sequence|Strip|Time|TimeCode|"
+    "((Exif|GPS|IPTC|XMP|ICCProfile|oiio|cycles|cryptomatte|nuke|arnold|mantra|husk|rs|vray|renderman|prman|exr|"
+    r"textureformat|MaterialX|openexr)[.:/].*)"
+)
+"""Attributes that `of_part` looks at, or that change nothing of what the pixels mean."""
+
+
+@dataclass(frozen=True)
+class Meaning:
+    """What the pixels of a part mean.
+
+    Attributes
+    ----------
+    primaries : array_like, shape (8,)
+        Of its colours, as `rec709_from` takes them.
+    colours : str
+        What they are, and who says so.
+    remarks : tuple of str
+        What is not used of the header: predicates, whose subject is the file.
+    """
+
+    primaries: ArrayLike
+    colours: str
+    remarks: tuple[str, ...]
+
+    @property
+    def matrix(self) -> Array:
+        """Linear Rec. 709 from the stored colours, shape (3, 3)."""
+        return rec709_from(self.primaries)
+
+    @property
+    def luminance_weights(self) -> Array:
+        """Of the stored colours, shape (3,)."""
+        return luminance_weights(self.primaries)
+
+
+def meaning(header: dict[str, Any]) -> Meaning:
+    """Read what a part's header says of its pixels.
+
+    Parameters
+    ----------
+    header : dict
+        As `exr.read_attributes` gives it.
+
+    Returns
+    -------
+    Meaning
+    """
+    primaries, colours, remarks = _primaries(header)
+    return Meaning(primaries, colours, (*remarks, *_ignored(header, primaries), *_unknown(header)))
+
+
+def _primaries(header: dict[str, Any]) -> tuple[ArrayLike, str, list[str]]:
+    """Stated outright, else by the name of a colour space, else Rec. 709; and what is odd about it."""
+    named, remarks = _named_space(header)
+    stated = header.get("chromaticities")
+    if stated is not None:
+        try:
+            numbers = np.asarray(stated, dtype=np.float64).reshape(8)
+            # Zeros mean that there are none
+            if np.any(numbers):
+                rec709_from(numbers)
+                listed = " ".join(f"{number:.4g}" for number in numbers)
+                if named is not None and not np.allclose(named[0], numbers, atol=1e-3):
+                    remarks.append(
+                        f"states chromaticities that are not those of {named[1]}: these are taken."
+                    )
+                return numbers, f"of the primaries {listed}, as its chromaticities say", remarks
+        except (TypeError, ValueError):  # TypeError: they are no numbers at all
+            remarks.append("states chromaticities that span no colours: they are left out.")
+    if named is not None:
+        return named[0], f"{named[1]}, as it says", remarks
+    return REC_709, "Rec. 709, as nothing else is stated", remarks
+
+
+def _named_space(header: dict[str, Any]) -> tuple[tuple[ArrayLike, str] | None, list[str]]:
+    """Primaries of the colour space that a header names, and its name; and remarks."""
+    space = header.get("colorInteropID")
+    if isinstance(space, str):
+        primaries = primaries_named(space)
+        if primaries is not None:
+            return (primaries, space), []
+        if not LINEAR_REC_709.fullmatch(space):
+            return None, [
+                f"states the colour space {space!r}, which is not linear light: it is taken as such."
+            ]
+    if header.get("acesImageContainerFlag") == 1:
+        return (ACES, "the ACES container's"), []
+    return None, []
+
+
+def _ignored(header: dict[str, Any], primaries: ArrayLike) -> Iterator[str]:
+    """Statements that are read, and make no difference although they should."""
+    aspect = header.get("pixelAspectRatio", 1.0)
+    if np.isfinite(aspect) and aspect > 0.0 and abs(aspect - 1.0) > 1e-3:
+        yield f"states a pixelAspectRatio of {aspect:.4g}, but its pixels are taken as square."
+    if header.get("Orientation", 1) not in (0, 1):
+        yield f"states an Orientation of {header['Orientation']}, but is taken as it is stored."
+    low, high = (np.asarray(corner) for corner in header["displayWindow"])
+    width, height = high - low + 1
+    if header.get("envmap") == CUBE and height != 6 * width:
+        yield "states that it is a cube map, but has not six faces one below the other."
+    neutral = header.get("adoptedNeutral")
+    if (
+        neutral is not None
+        and np.any(neutral)
+        and not np.allclose(neutral, np.ravel(primaries)[6:], atol=1e-3)
+    ):
+        listed = " ".join(f"{number:.4g}" for number in np.ravel(neutral))
+        yield f"states an adoptedNeutral of {listed}, which is not its white: the white is taken."
+    for name, value in header.items():
+        if COLOUR_SPACE.fullmatch(name) and not LINEAR_REC_709.fullmatch(str(value)):
+            yield f"states the {name} {str(value)[:60]!r}, which is not used."
+
+
+def _unknown(header: dict[str, Any]) -> Iterator[str]:
+    """Attributes that nothing is known of."""
+    unknown = [name for name in header if not HARMLESS.fullmatch(name) and not COLOUR_SPACE.fullmatch(name)]
+    if unknown:
+        more = f" and {len(unknown) - 8} more" if len(unknown) > 8 else ""
+        yield f"has attributes that are not used: {', '.join(unknown[:8])}{more}."

@@ -49,6 +49,8 @@ def unregister() -> None:
 
 def _run_command(argv: Sequence[str]) -> int:
     """Run `blender --command rsibr ARGV`; loads the commands only then."""
-    from .command_line.main import run
+    import bpy
 
-    return run(argv)
+    from .command_line.main import run_alone
+
+    return run_alone(argv, bpy.app.tempdir)

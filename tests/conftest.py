@@ -4,11 +4,9 @@ A dependency that is missing skips its tests, and the run's summary says which a
 environment variable RSIBR_REQUIRE (comma-separated: gl, bpy, cycles, gui), it fails them instead.
 """
 
-import ctypes
 import functools
 import os
 import subprocess
-import sys
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
@@ -27,12 +25,9 @@ def _start_bpy() -> None:
 
 
 def _start_gl() -> None:
-    import bpy  # noqa: F401  (the module gpu is there once bpy is)
-    import gpu
+    from rsibr.rsibr_addon.device.context import ensure_context
 
-    if sys.platform == "linux":
-        ctypes.CDLL("libEGL.so.1")  # without it gpu.init ends the process
-    gpu.init()
+    ensure_context()
 
 
 def _start_cycles() -> None:

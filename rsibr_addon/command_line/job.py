@@ -50,7 +50,7 @@ def _text(path: Path) -> str:
 
 def _parsed(argv: Sequence[str], path: Path) -> argparse.Namespace:
     """What a job's arguments ask for; of a usage that is wrong, argparse's own words."""
-    from .main import parsed
+    from .commands import parsed
 
     said = io.StringIO()
     try:

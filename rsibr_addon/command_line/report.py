@@ -1,22 +1,17 @@
 """What a command tells while it works and at its end; standard output belongs to the result alone."""
 
-import ctypes
 import json
-import os
-import shutil
-import signal
-import sys
-import threading
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager, redirect_stdout
-from typing import Any, TextIO
+from contextlib import contextmanager
+from typing import Any
 
 from ..core.errors import RsibrWarning
 from ..core.progress import Progress, Steps
+from .endings import orderly
+from .streams import CLEAR_LINE, Outlet
 
 BAR_WIDTH = 24
-CLEAR_LINE = "\r\x1b[2K"
 
 
 class Report:
@@ -26,6 +21,8 @@ class Report:
     ----------
     progress : {"auto", "bar", "json", "none"}
         A bar, one JSON object a line, or nothing; "auto" is a bar on a terminal and else nothing.
+    told : Outlet
+        Standard error.
 
     Attributes
     ----------
@@ -35,10 +32,11 @@ class Report:
         Each warning once.
     """
 
-    def __init__(self, progress: str) -> None:
+    def __init__(self, progress: str, told: Outlet) -> None:
+        self.told = told
         self.progress = progress
         if progress == "auto":
-            self.progress = "bar" if sys.stderr.isatty() else "none"
+            self.progress = "bar" if told.isatty() else "none"
         self.lines: list[str] = []
         self.warnings: list[str] = []
 
@@ -49,26 +47,19 @@ class Report:
     def steps[Result](self, steps: Steps[Result]) -> Result:
         """Run long work to its end, showing where it is, and return its result.
 
-        Ctrl-C ends it after the step at hand. However it ends, the work's own cleaning up is done
-        before this returns or raises.
-
-        Raises
-        ------
-        KeyboardInterrupt
-            Ctrl-C came, and there was more to do.
+        However it ends, the work's own cleaning up is done before this returns or raises. A signal that asks
+        the process to end does so after the step at hand, or soon.
         """
-        try:
-            with _noting_interrupts() as interrupted:
-                while True:
+        with orderly() as asked:
+            try:
+                while not asked.is_set():
                     self._show(next(steps))
-                    if interrupted.is_set():
-                        raise KeyboardInterrupt
-        except StopIteration as end:
-            result: Result = end.value
-            return result
-        finally:
-            steps.close()
-            self._clear()
+            except StopIteration as end:
+                result: Result = end.value
+            finally:
+                steps.close()
+                self._clear()
+        return result
 
     @contextmanager
     def hearing_warnings(self) -> Iterator[None]:
@@ -90,53 +81,20 @@ class Report:
         if sentence not in self.warnings:
             self.warnings.append(sentence)
             self._clear()
-            print(f"rsibr: warning: {sentence}", file=sys.stderr, flush=True)
+            self.told.write(f"rsibr: warning: {sentence}\n")
 
     def _show(self, progress: Progress) -> None:
         if self.progress == "bar":
             filled = BAR_WIDTH * progress.done // max(progress.total, 1)
             bar = "#" * filled + "." * (BAR_WIDTH - filled)
             line = f"[{bar}] {progress.done}/{progress.total} {progress.what}"
-            columns = shutil.get_terminal_size().columns
-            # Back at the line's begin, so that what Blender logs meanwhile writes over the bar
-            print(CLEAR_LINE + line[: columns - 1], end="\r", file=sys.stderr, flush=True)
+            # Back at the line's begin, so that what comes next writes over the bar
+            self.told.control(CLEAR_LINE)
+            self.told.write(line[: self.told.columns - 1])
+            self.told.control("\r")
         elif self.progress == "json":
-            print(json.dumps({"progress": vars(progress)}), file=sys.stderr, flush=True)
+            self.told.write(json.dumps({"progress": vars(progress)}) + "\n")
 
     def _clear(self) -> None:
         if self.progress == "bar":
-            print(CLEAR_LINE, end="", file=sys.stderr, flush=True)
-
-
-@contextmanager
-def _noting_interrupts() -> Iterator[threading.Event]:
-    """Within, Ctrl-C only sets the event: raised amid a render, Blender would swallow it and go on."""
-    interrupted = threading.Event()
-    before = signal.getsignal(signal.SIGINT)
-    if before is signal.SIG_IGN:  # as of a job in the background, which Ctrl-C is not meant for
-        yield interrupted
-        return
-    signal.signal(signal.SIGINT, lambda number, frame: interrupted.set())
-    try:
-        yield interrupted
-    finally:
-        # None stands for a handler of Blender's own, which Python cannot put back
-        signal.signal(signal.SIGINT, signal.SIG_DFL if before is None else before)
-
-
-@contextmanager
-def result_stream() -> Iterator[TextIO]:
-    """Standard output for the result alone; within, what others write to it goes to standard error.
-
-    Blender and its libraries write beneath Python, to C's stream or to the file descriptor.
-    """
-    sys.stdout.flush()
-    kept = os.dup(1)
-    os.dup2(2, 1)
-    try:
-        with redirect_stdout(sys.stderr), os.fdopen(kept, "w", encoding="utf-8", closefd=False) as stream:
-            yield stream
-    finally:
-        ctypes.CDLL("ucrtbase" if sys.platform == "win32" else None).fflush(None)
-        os.dup2(kept, 1)
-        os.close(kept)
+            self.told.control(CLEAR_LINE)

@@ -1,12 +1,12 @@
 """Blender's graphics context, in a window or without one."""
 
-import ctypes
 import sys
 
 import bpy
 import gpu
 
 from ..core.errors import DeviceError
+from .egl import check_drivers
 
 
 def ensure_context() -> None:
@@ -21,9 +21,9 @@ def ensure_context() -> None:
         return
     try:
         if sys.platform == "linux":
-            ctypes.CDLL("libEGL.so.1")  # Without it gpu.init() ends the process.
+            check_drivers()
         gpu.init()
-    except (OSError, SystemError, RuntimeError) as error:
+    except (DeviceError, OSError, SystemError, RuntimeError) as error:
         raise DeviceError(
             f"Blender found no graphics driver ({error}): install one; Mesa's software driver "
             f"(Debian: libegl1 and libgl1-mesa-dri) is enough."

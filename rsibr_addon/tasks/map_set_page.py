@@ -2,6 +2,7 @@
 
 import base64
 import tempfile
+import warnings
 from collections.abc import Mapping
 from html import escape
 from pathlib import Path
@@ -14,7 +15,7 @@ from ..core.brdf.gallery import gallery_name
 from ..core.brdf.model import Brdf
 from ..core.camera import Camera
 from ..core.conventions import Array
-from ..core.errors import InputFileError, OutputFileError
+from ..core.errors import DeviceError, InputFileError, OutputFileError, RsibrWarning
 from ..core.miniature import miniature
 from ..core.progress import Progress, Steps, drain
 from ..device.preview import PreviewRenderer
@@ -69,7 +70,12 @@ def map_set_page(map_set: Path, output: Path, force: bool = False) -> Steps[Path
 
     Raises
     ------
-    MapSetError, OutputFileError, DeviceError
+    MapSetError, OutputFileError
+
+    Warns
+    -----
+    RsibrWarning
+        Nothing can draw, so the pictures of meshes are left out.
     """
     if output.suffix.lower() != ".html":
         raise OutputFileError(f"{output} would not open in a browser: give a name that ends in .html.")
@@ -97,8 +103,13 @@ def map_set_page(map_set: Path, output: Path, force: bool = False) -> Steps[Path
 
 
 def _looks(map_set: Path) -> dict[str, Array]:
+    """Meshes shaded from the map set; none where nothing can draw them, which a warning tells."""
     opened = open_map_set(map_set)
-    renderer, look = PreviewRenderer(opened.upload()), KINDS[opened.kind].look()
+    try:
+        renderer, look = PreviewRenderer(opened.upload()), KINDS[opened.kind].look()
+    except DeviceError as error:
+        warnings.warn(f"The page shows no mesh: {error}", RsibrWarning, stacklevel=2)
+        return {}
     pictures = {}
     for name, camera in LOOKS.items():
         mesh = load_mesh(name)

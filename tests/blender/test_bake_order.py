@@ -8,7 +8,8 @@ from pathlib import Path
 import bpy
 import pytest
 import rsibr
-from rsibr.rsibr_addon.command_line.main import parsed, run
+from rsibr.rsibr_addon.command_line.commands import parsed
+from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import InputFileError, MapSetError, OutputFileError, RsibrError, SceneError
 from rsibr.rsibr_addon.job import BakeJob
 from rsibr.rsibr_addon.tasks.bake_order import Order, bake_of, comparison_of, is_baked, order_for, output_for

@@ -9,7 +9,8 @@ from pathlib import Path
 import bpy
 import pytest
 import rsibr
-from rsibr.rsibr_addon.command_line.main import parsed, run
+from rsibr.rsibr_addon.command_line.commands import parsed
+from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.job import BakeJob
 
 ROOT = Path(__file__).parents[2]

@@ -1,0 +1,119 @@
+"""The commands, and what a command line asks for."""
+
+import argparse
+from collections.abc import Sequence
+from types import ModuleType
+from typing import Any
+
+from . import (
+    bake,
+    bank,
+    capture,
+    compare,
+    convert,
+    export,
+    fit,
+    illuminate,
+    info,
+    job,
+    mips,
+    page,
+    preview,
+    tables,
+)
+
+COMMANDS = {
+    "capture": capture,
+    "preview": preview,
+    "compare": compare,
+    "info": info,
+    "convert": convert,
+    "illuminate": illuminate,
+    "mips": mips,
+    "tables": tables,
+    "fit": fit,
+    "bake": bake,
+    "bank": bank,
+    "report": page,
+    "export": export,
+    "job": job,
+}
+"""Name -> the module with its arguments and its run; or with `KINDS`, such modules in turn."""
+
+
+def parsed(argv: Sequence[str]) -> argparse.Namespace:
+    """What a command line asks for.
+
+    Parameters
+    ----------
+    argv : sequence of str
+        The arguments after `rsibr`.
+
+    Returns
+    -------
+    argparse.Namespace
+        The command's own arguments; its function, `run`; `json`, `progress` and `verbose`.
+
+    Raises
+    ------
+    SystemExit
+        The usage is wrong, or help was asked for; that is printed.
+    """
+    return _parser().parse_args(_with_joined_directions(_with_jobs_command(argv)))
+
+
+def _with_jobs_command(argv: Sequence[str]) -> Sequence[str]:
+    """`bake JOB.json` under the name of what does it: else `bake` takes options alone."""
+    if argv[:1] and argv[0] == "bake" and argv[1:] and argv[1].endswith(".json"):
+        return ["job", *argv[1:]]
+    return argv
+
+
+def _parser() -> argparse.ArgumentParser:
+    common = argparse.ArgumentParser(add_help=False)
+    common.add_argument("--json", action="store_true", help="print the result as one JSON object")
+    common.add_argument(
+        "--progress",
+        choices=["auto", "bar", "json", "none"],
+        default="auto",
+        help="on standard error: a bar, a JSON object a line, or nothing (default: a bar on a terminal)",
+    )
+    common.add_argument(
+        "--verbose", action="store_true", help="on standard error, also what Blender and its libraries say"
+    )
+    parser = argparse.ArgumentParser(prog="rsibr", description="Prefiltered reflection maps with Blender.")
+    commands = parser.add_subparsers(metavar="COMMAND", required=True)
+    for name, module in COMMANDS.items():
+        if hasattr(module, "KINDS"):
+            summary = _summary(module)
+            family = commands.add_parser(name, help=summary, description=summary, allow_abbrev=False)
+            kinds = family.add_subparsers(metavar="KIND", required=True)
+            for kind, member in module.KINDS.items():
+                _add_command(kinds, kind, member, common)
+        else:
+            _add_command(commands, name, module, common)
+    return parser
+
+
+def _add_command(commands: Any, name: str, module: ModuleType, common: argparse.ArgumentParser) -> None:
+    summary = _summary(module)
+    command = commands.add_parser(
+        name, help=summary, description=summary, parents=[common], allow_abbrev=False
+    )
+    module.add_arguments(command)
+    command.set_defaults(run=module.run)
+
+
+def _summary(module: ModuleType) -> str:
+    return (module.__doc__ or "").splitlines()[0]
+
+
+def _with_joined_directions(argv: Sequence[str]) -> list[str]:
+    """Make `--view -1,0,0` one argument: argparse would take -1,0,0 for an option."""
+    joined: list[str] = []
+    for argument in argv:
+        if joined and joined[-1] in ("--view", "--point"):
+            joined[-1] = f"{joined[-1]}={argument}"
+        else:
+            joined.append(argument)
+    return joined

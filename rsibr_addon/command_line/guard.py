@@ -1,0 +1,111 @@
+"""A command in a process of its own, under the eyes of another that stays light.
+
+Whatever holds the working process (Blender that starts, a shader that is compiled, a crash), the guard ends
+it in time, removes its temporary files and tells what happened.
+"""
+
+import ctypes
+import os
+import shutil
+import signal
+import sys
+import tempfile
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import NoReturn
+
+from . import endings
+
+PATIENCE_SECONDS = 0.6
+"""Until a process that was asked to end is killed: a little longer than it takes itself."""
+
+PR_SET_PDEATHSIG = 1
+"""Of Linux's prctl: a signal for this process when its parent ends."""
+
+
+def guarded(work: Callable[[], int], argv: Sequence[str]) -> int:
+    """Do work in a child process, and see to its end.
+
+    To be called before anything heavy is imported and any thread is started.
+
+    Parameters
+    ----------
+    work : callable
+        Returns an exit code.
+    argv : sequence of str
+        The command's arguments.
+
+    Returns
+    -------
+    int
+        The exit code: the work's, 128 and the number of the signal that ended it, or 1 after a crash.
+    """
+    asking = endings.heeded()
+    signal.signal(signal.SIGCHLD, lambda number, frame: None)  # of an ignored one there would be no word
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, asking | {signal.SIGCHLD, signal.SIGALRM})
+    with _temporary_folder():
+        child = os.fork()
+        if not child:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+            _work(work)
+        code = _watch(child, asking)
+    number = -code if code < 0 else code - 128
+    if number in endings.SIGNALS:
+        endings.tell(endings.SENTENCE, argv, 1, 2)
+        return 128 + number
+    if code < 0:
+        endings.tell(_crash(number), argv, 1, 2)
+        return 1
+    return code
+
+
+@contextmanager
+def _temporary_folder() -> Iterator[None]:
+    """Have all temporary files, Blender's too, in a folder that goes with the guard."""
+    try:
+        folder = tempfile.mkdtemp(prefix="rsibr-")
+    except OSError:  # what needs a temporary file will say so
+        yield
+        return
+    os.environ["TMPDIR"] = tempfile.tempdir = folder
+    try:
+        yield
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def _work(work: Callable[[], int]) -> NoReturn:
+    """Work to the end; without Blender's own, which takes time and has nothing left to do."""
+    if sys.platform == "linux":
+        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    endings.listen(lambda number: os._exit(128 + number))
+    try:
+        os._exit(work())
+    except BaseException:
+        sys.excepthook(*sys.exc_info())
+        os._exit(1)
+
+
+def _watch(child: int, asking: set[signal.Signals]) -> int:
+    """Pass signals on to a child, and kill it if it does not end by them; its exit code, as Popen has it."""
+    asked = 0
+    while True:
+        number = signal.sigwait(asking | {signal.SIGCHLD, signal.SIGALRM})
+        if number == signal.SIGCHLD:
+            ended, status = os.waitpid(child, os.WNOHANG)
+            if ended:
+                code = os.waitstatus_to_exitcode(status)
+                return -asked if asked and code < 0 else code
+        elif number == signal.SIGALRM:
+            os.kill(child, signal.SIGKILL)
+        else:
+            asked = asked or number
+            os.kill(child, number)
+            signal.setitimer(signal.ITIMER_REAL, PATIENCE_SECONDS)
+
+
+def _crash(number: int) -> str:
+    name = signal.Signals(number).name
+    if number == signal.SIGKILL:
+        return f"The system ended the process ({name}), as it does when memory is short: ask for less."
+    return f"Blender crashed ({name}): --verbose shows what it said."

@@ -12,7 +12,7 @@ class RSIBR_OT_apply_quality(bpy.types.Operator):
     bl_label = "Quality"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  (Blender reads the class)
 
-    quality: bpy.props.EnumProperty(
+    quality = bpy.props.EnumProperty(
         name="Quality",
         items=[
             ("DRAFT", "Draft", "To see at once what it will be like"),

@@ -17,7 +17,7 @@ class RSIBR_OT_assemble_faces(FromPictures, EnvironmentSize, bpy.types.Operator)
     bl_label = "Assemble Faces"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  (Blender reads the class)
 
-    balance: bpy.props.BoolProperty(
+    balance = bpy.props.BoolProperty(
         name="Balance",
         description="Scale each photograph so that they agree along the edges: for a camera that chose its "
         "exposures itself",

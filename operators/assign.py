@@ -16,7 +16,7 @@ class RSIBR_OT_assign(bpy.types.Operator):
     bl_label = "Assign Map Set"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  (Blender reads the class)
 
-    filepath: bpy.props.StringProperty(
+    filepath = bpy.props.StringProperty(
         name="Map Set",
         description="File to shade from",
         subtype="FILE_PATH",

@@ -13,7 +13,7 @@ from ..rsibr_addon.tasks.viewport import previews
 SECONDS = 0.2
 """Between two looks."""
 
-queue = BakeQueue()
+queue = BakeQueue[ObjectBake]()
 """The bakes of this Blender."""
 
 

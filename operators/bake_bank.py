@@ -16,24 +16,24 @@ class RSIBR_OT_bake_bank(bpy.types.Operator):
     bl_label = "Bake Kernel Bank"
     bl_options = {"REGISTER"}  # noqa: RUF012  (Blender reads the class)
 
-    filepath: bpy.props.StringProperty(
+    filepath = bpy.props.StringProperty(
         name="Map Set",
         description="File to write",
         subtype="FILE_PATH",
         options={"SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
     )
-    environment: bpy.props.StringProperty(
+    environment = bpy.props.StringProperty(
         name="Environment",
         description="Latitude-longitude picture, or the name of one of Blender's own; empty for the world",
     )
-    layout_of_maps: bpy.props.EnumProperty(
+    layout_of_maps = bpy.props.EnumProperty(
         name="Layout",
         items=[("dual_paraboloid", "Dual Paraboloid", ""), ("octahedral", "Octahedral", "")],
     )
-    size: bpy.props.IntProperty(
+    size = bpy.props.IntProperty(
         name="Size", description="Width of a map in texels", default=128, min=2, max=1024
     )
-    force: bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
+    force = bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Bake at a stretch."""

@@ -16,17 +16,17 @@ class RSIBR_OT_bake_mips(bpy.types.Operator):
     bl_label = "Bake Mip Chain"
     bl_options = {"REGISTER"}  # noqa: RUF012  (Blender reads the class)
 
-    filepath: bpy.props.StringProperty(
+    filepath = bpy.props.StringProperty(
         name="Map Set",
         description="File to write",
         subtype="FILE_PATH",
         options={"SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
     )
-    environment: bpy.props.StringProperty(
+    environment = bpy.props.StringProperty(
         name="Environment",
         description="Latitude-longitude picture, or the name of one of Blender's own; empty for the world",
     )
-    filter: bpy.props.EnumProperty(
+    filter = bpy.props.EnumProperty(
         name="Filter",
         items=[
             ("ggx", "GGX", "GGX lobes, as engines use them"),
@@ -34,13 +34,13 @@ class RSIBR_OT_bake_mips(bpy.types.Operator):
             ("box", "Box", "Means within each face, as graphics hardware makes them"),
         ],
     )
-    size: bpy.props.EnumProperty(
+    size = bpy.props.EnumProperty(
         name="Size",
         description="Width of the first mip's faces in texels",
         items=[(str(size), str(size), "") for size in (64, 128, 256, 512, 1024)],
         default="256",
     )
-    roughness: bpy.props.EnumProperty(
+    roughness = bpy.props.EnumProperty(
         name="Roughness",
         description="How roughness grows from mip to mip; of GGX",
         items=[
@@ -48,7 +48,7 @@ class RSIBR_OT_bake_mips(bpy.types.Operator):
             ("quadratic", "Quadratic", "1 - sqrt(1 - mip / last), as Filament's"),
         ],
     )
-    force: bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
+    force = bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Bake at a stretch."""

@@ -17,32 +17,32 @@ class RSIBR_OT_bake_stack(bpy.types.Operator):
     bl_label = "Bake Lobe Stack"
     bl_options = {"REGISTER"}  # noqa: RUF012  (Blender reads the class)
 
-    filepath: bpy.props.StringProperty(
+    filepath = bpy.props.StringProperty(
         name="Map Set",
         description="File to write",
         subtype="FILE_PATH",
         options={"SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
     )
-    environment: bpy.props.StringProperty(
+    environment = bpy.props.StringProperty(
         name="Environment",
         description="Latitude-longitude picture, or the name of one of Blender's own; empty for the world",
     )
-    brdf: bpy.props.StringProperty(
+    brdf = bpy.props.StringProperty(
         name="BRDF", description="Model and its parameters", default="ggx:alpha=0.3,metal=copper"
     )
-    lobes: bpy.props.IntProperty(
+    lobes = bpy.props.IntProperty(
         name="Lobes", description="For each layer of the model", default=3, min=1, max=12
     )
-    slices: bpy.props.IntProperty(name="Slices", description="View elevations", default=16, min=1, max=256)
-    layout_of_maps: bpy.props.EnumProperty(
+    slices = bpy.props.IntProperty(name="Slices", description="View elevations", default=16, min=1, max=256)
+    layout_of_maps = bpy.props.EnumProperty(
         name="Layout",
         items=[("dual_paraboloid", "Dual Paraboloid", ""), ("octahedral", "Octahedral", "")],
     )
-    size: bpy.props.IntProperty(
+    size = bpy.props.IntProperty(
         name="Size", description="Width of a map in texels; 0 for what the lobes need", min=0, max=1024
     )
-    half: bpy.props.BoolProperty(name="Half Floats", description="Half the space, 11 significant bits")
-    force: bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
+    half = bpy.props.BoolProperty(name="Half Floats", description="Half the space, 11 significant bits")
+    force = bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Bake at a stretch."""

@@ -11,7 +11,7 @@ class RSIBR_OT_cancel_bake(bpy.types.Operator):
     bl_idname = "rsibr.cancel_bake"
     bl_label = "Cancel Bake"
 
-    number: bpy.props.IntProperty(
+    number = bpy.props.IntProperty(
         name="Number", description="Place in the queue, from 0", options={"SKIP_SAVE"}
     )
 

@@ -19,13 +19,13 @@ class RSIBR_OT_capture_environment(Stepwise, bpy.types.Operator):
     bl_label = "Capture Environment"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  (Blender reads the class)
 
-    filepath: bpy.props.StringProperty(
+    filepath = bpy.props.StringProperty(
         name="Picture",
         description="File to write, OpenEXR or Radiance HDR by its name",
         subtype="FILE_PATH",
         options={"SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
     )
-    source: bpy.props.EnumProperty(
+    source = bpy.props.EnumProperty(
         name="Light",
         description="What light is captured",
         items=[
@@ -38,7 +38,7 @@ class RSIBR_OT_capture_environment(Stepwise, bpy.types.Operator):
             ("WORLD", "World", "The world alone"),
         ],
     )
-    size: bpy.props.IntProperty(
+    size = bpy.props.IntProperty(
         name="Size",
         description="Width of the picture in texels, even; it is half as high",
         default=1024,
@@ -46,19 +46,19 @@ class RSIBR_OT_capture_environment(Stepwise, bpy.types.Operator):
         max=LARGEST,
         step=2,
     )
-    samples: bpy.props.IntProperty(
+    samples = bpy.props.IntProperty(
         name="Samples", description="Samples of Cycles a pixel; not of the world alone", default=128, min=1
     )
-    faces: bpy.props.BoolProperty(
+    faces = bpy.props.BoolProperty(
         name="Six Faces", description="Render the six faces of a cube instead of a panorama"
     )
-    denoise: bpy.props.BoolProperty(name="Denoise", description="Denoise what is rendered")
-    seed: bpy.props.IntProperty(name="Seed", description="Seed of Cycles' noise", min=0)
-    force: bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
-    load_image: bpy.props.BoolProperty(
+    denoise = bpy.props.BoolProperty(name="Denoise", description="Denoise what is rendered")
+    seed = bpy.props.IntProperty(name="Seed", description="Seed of Cycles' noise", min=0)
+    force = bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
+    load_image = bpy.props.BoolProperty(
         name="Load", description="Load the picture into this file afterwards", default=True
     )
-    use: bpy.props.BoolProperty(
+    use = bpy.props.BoolProperty(
         name="Use", description="Bake with this light from now on", options={"SKIP_SAVE"}
     )
 

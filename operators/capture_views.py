@@ -18,29 +18,31 @@ class RSIBR_OT_capture_views(Stepwise, bpy.types.Operator):
     bl_label = "Capture Radiance Views"
     bl_options = {"REGISTER"}  # noqa: RUF012  (Blender reads the class)
 
-    filepath: bpy.props.StringProperty(
+    filepath = bpy.props.StringProperty(
         name="Map Set",
         description="File to write",
         subtype="FILE_PATH",
         options={"SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
     )
-    material: bpy.props.StringProperty(
+    material = bpy.props.StringProperty(
         name="Material", description="Material of this file; empty for the active object's active one"
     )
-    views: bpy.props.EnumProperty(
+    views = bpy.props.EnumProperty(
         name="Views",
         description="View directions to capture from",
         items=[(count, count, "") for count in ("12", "42", "162")],
     )
-    size: bpy.props.IntProperty(
+    size = bpy.props.IntProperty(
         name="Size", description="Width and height of a view in texels", default=256, min=4, max=8192
     )
-    samples: bpy.props.IntProperty(name="Samples", description="Samples of Cycles a texel", default=64, min=2)
-    denoise: bpy.props.BoolProperty(
+    samples = bpy.props.IntProperty(
+        name="Samples", description="Samples of Cycles a texel", default=64, min=2
+    )
+    denoise = bpy.props.BoolProperty(
         name="Denoise", description="Denoise each view; good for rough materials, bad for mirrors"
     )
-    seed: bpy.props.IntProperty(name="Seed", description="Seed of Cycles' noise", min=0)
-    force: bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
+    seed = bpy.props.IntProperty(name="Seed", description="Seed of Cycles' noise", min=0)
+    force = bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
 
     interrupted = "Capture interrupted; started again, it goes on"
 

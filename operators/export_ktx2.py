@@ -16,15 +16,15 @@ class RSIBR_OT_export_ktx2(bpy.types.Operator):
     bl_idname = "rsibr.export_ktx2"
     bl_label = "Export Reflection Maps"
 
-    filepath: bpy.props.StringProperty(
+    filepath = bpy.props.StringProperty(
         name="File",
         description="Texture to write",
         subtype="FILE_PATH",
         options={"SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
     )
-    filter_glob: bpy.props.StringProperty(default="*.ktx2", options={"HIDDEN"})
-    check_existing: bpy.props.BoolProperty(default=True, options={"HIDDEN"})
-    up: bpy.props.EnumProperty(
+    filter_glob = bpy.props.StringProperty(default="*.ktx2", options={"HIDDEN"})
+    check_existing = bpy.props.BoolProperty(default=True, options={"HIDDEN"})
+    up = bpy.props.EnumProperty(
         name="Up",
         description="Axis that points up in the textures; of mip chains alone it can be another than Z",
         items=[("z", "Z", "As in Blender"), ("y", "Y", "As in glTF")],

@@ -19,17 +19,17 @@ class RSIBR_OT_fit_lobes(Stepwise, bpy.types.Operator):
     bl_options = {"REGISTER"}  # noqa: RUF012  (Blender reads the class)
     interrupted = "Fit interrupted; nothing was written"
 
-    filepath: bpy.props.StringProperty(
+    filepath = bpy.props.StringProperty(
         name="Fit",
         description="File to write",
         subtype="FILE_PATH",
         options={"SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
     )
-    brdf: bpy.props.StringProperty(
+    brdf = bpy.props.StringProperty(
         name="Reflectance",
         description="Model such as ward:alpha=0.04,ks=0.8; empty to measure the active object's material",
     )
-    method: bpy.props.EnumProperty(
+    method = bpy.props.EnumProperty(
         name="Method",
         items=[
             ("joint", "Joint", "All profiles, colours and axes at once"),
@@ -38,18 +38,18 @@ class RSIBR_OT_fit_lobes(Stepwise, bpy.types.Operator):
             ("single-2d", "Single 2D", "One lobe that all elevations share"),
         ],
     )
-    lobes: bpy.props.IntProperty(
+    lobes = bpy.props.IntProperty(
         name="Lobes", description="For each layer of the material, at most", default=3, min=1, max=12
     )
-    slices: bpy.props.IntProperty(name="Slices", description="View elevations", default=16, min=1, max=256)
-    taps: bpy.props.IntProperty(
+    slices = bpy.props.IntProperty(name="Slices", description="View elevations", default=16, min=1, max=256)
+    taps = bpy.props.IntProperty(
         name="Taps",
         description="Directions in which each lobe's map is looked up; 0 for as many as pay",
         default=0,
         min=0,
         max=9,
     )
-    force: bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
+    force = bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
 
     def work(self, context: bpy.types.Context) -> Steps[Any]:
         """See `Stepwise`."""

@@ -13,25 +13,25 @@ from .taking import take_picture
 class FromPictures(Stepwise):
     """Of a picture of light; `work` is to return its path."""
 
-    filepath: bpy.props.StringProperty(
+    filepath = bpy.props.StringProperty(
         name="Picture",
         description="Picture to work on",
         subtype="FILE_PATH",
         options={"SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
     )
-    filter_image: bpy.props.BoolProperty(default=True, options={"HIDDEN", "SKIP_SAVE"})
-    filter_folder: bpy.props.BoolProperty(default=True, options={"HIDDEN", "SKIP_SAVE"})
-    output: bpy.props.StringProperty(
+    filter_image = bpy.props.BoolProperty(default=True, options={"HIDDEN", "SKIP_SAVE"})
+    filter_folder = bpy.props.BoolProperty(default=True, options={"HIDDEN", "SKIP_SAVE"})
+    output = bpy.props.StringProperty(
         name="Output",
         description="File to write, OpenEXR or Radiance HDR by its name, in the folder of what it is made "
         "from unless it names another; empty for that one's name with -light.exr",
         options={"SKIP_SAVE"},
     )
-    force: bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
-    load_image: bpy.props.BoolProperty(
+    force = bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
+    load_image = bpy.props.BoolProperty(
         name="Load", description="Load the result into this file afterwards", default=True
     )
-    use: bpy.props.BoolProperty(
+    use = bpy.props.BoolProperty(
         name="Use", description="Bake with this light from now on", options={"SKIP_SAVE"}
     )
 
@@ -64,13 +64,13 @@ class FromPictures(Stepwise):
 class FromSeveralPictures(FromPictures):
     """The same, from one picture or several of a folder."""
 
-    directory: bpy.props.StringProperty(
+    directory = bpy.props.StringProperty(
         name="Folder",
         description="Of the pictures",
         subtype="DIR_PATH",
         options={"HIDDEN", "SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
     )
-    files: bpy.props.CollectionProperty(
+    files = bpy.props.CollectionProperty(
         name="Pictures",
         description="Names in the folder; none for the one picture that is given by its path",
         type=bpy.types.OperatorFileListElement,
@@ -93,7 +93,7 @@ class FromSeveralPictures(FromPictures):
 class EnvironmentSize:
     """Of operators whose result is a latitude-longitude map."""
 
-    size: bpy.props.IntProperty(
+    size = bpy.props.IntProperty(
         name="Size",
         description="Width of the environment in texels, even; it is half as high",
         default=1024,

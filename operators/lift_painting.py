@@ -20,19 +20,19 @@ class RSIBR_OT_lift_painting(FromPictures, EnvironmentSize, bpy.types.Operator):
     bl_label = "Lift Painting"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  (Blender reads the class)
 
-    source_layout: bpy.props.EnumProperty(
+    source_layout = bpy.props.EnumProperty(
         name="Layout",
         description="How the picture is laid out; where that takes several files, select one of them",
         items=[(name, name.replace("_", " ").title(), "") for name in LAYOUTS],
     )
-    white: bpy.props.FloatVectorProperty(
+    white = bpy.props.FloatVectorProperty(
         name="White",
         description="Radiance that white becomes in red, green and blue; the darker a colour the less it is "
         "lifted",
         default=(10.0, 10.0, 10.0),
         min=1.0,
     )
-    knee: bpy.props.FloatProperty(
+    knee = bpy.props.FloatProperty(
         name="Knee",
         description="Linear luminance up to which nothing is lifted",
         default=0.7,
@@ -43,5 +43,6 @@ class RSIBR_OT_lift_painting(FromPictures, EnvironmentSize, bpy.types.Operator):
     def work(self, context: bpy.types.Context) -> Steps[Path]:
         """Lift the whites."""
         source = layout(self.source_layout).whole(self.source())
-        settings = PaintedSettings(self.source_layout, self.size, tuple(self.white), self.knee)
+        red, green, blue = self.white
+        settings = PaintedSettings(self.source_layout, self.size, (red, green, blue), self.knee)
         return illuminate_from_painting(source, settings, self.target(source), self.force)

@@ -18,13 +18,13 @@ class RSIBR_OT_merge_brackets(FromSeveralPictures, bpy.types.Operator):
     bl_label = "Merge Brackets"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  (Blender reads the class)
 
-    times: bpy.props.StringProperty(
+    times = bpy.props.StringProperty(
         name="Exposure Times",
         description="In seconds, 1/125 or 0.5, one for each photograph in the order in which they are "
         "listed; empty for what the files tell",
         options={"SKIP_SAVE"},
     )
-    curve: bpy.props.EnumProperty(
+    curve = bpy.props.EnumProperty(
         name="Curve",
         description="How the camera encodes light; OpenEXR and Radiance HDR are linear",
         items=[
@@ -33,7 +33,7 @@ class RSIBR_OT_merge_brackets(FromSeveralPictures, bpy.types.Operator):
             (Curve.LINEAR.value, "Linear", "Known to be none"),
         ],
     )
-    align: bpy.props.BoolProperty(
+    align = bpy.props.BoolProperty(
         name="Align", description="Undo the camera's movements between the photographs", default=True
     )
 

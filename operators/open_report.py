@@ -16,7 +16,7 @@ class RSIBR_OT_open_report(bpy.types.Operator):
     bl_idname = "rsibr.open_report"
     bl_label = "Report"
 
-    open_page: bpy.props.BoolProperty(
+    open_page = bpy.props.BoolProperty(
         name="Open", description="Open the page in the browser", default=True, options={"SKIP_SAVE"}
     )
 

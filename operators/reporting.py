@@ -3,14 +3,20 @@
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
-
-import bpy
+from typing import Protocol
 
 from ..rsibr_addon.core.errors import RsibrError, RsibrWarning
 
 
+class Reporter(Protocol):
+    """An operator of Blender's."""
+
+    def report(self, type: set[str], message: str, /) -> None:
+        """Tell a `message` to whoever called it; `type` is one of INFO, WARNING, ERROR."""
+
+
 @contextmanager
-def reporting(operator: bpy.types.Operator) -> Iterator[None]:
+def reporting(operator: Reporter) -> Iterator[None]:
     """Turn our errors, which end the block, and our warnings into an operator's reports."""
     with warnings.catch_warnings(record=True, action="always", category=RsibrWarning) as caught:
         try:

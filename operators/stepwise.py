@@ -1,5 +1,6 @@
 """How operators do long work: at a stretch, or step by step while Blender goes on."""
 
+from collections.abc import Callable
 from typing import Any
 
 import bpy
@@ -21,6 +22,8 @@ class Stepwise:
     """
 
     interrupted: str
+    filepath: str
+    report: Callable[[set[str], str], None]
     _asks = False
     _steps: Steps[Any] | None = None
 
@@ -55,12 +58,12 @@ class Stepwise:
             self.report({"WARNING"}, self.interrupted)
             self.cancel(context)
             return {"CANCELLED"}
-        if event.type != "TIMER":
+        if event.type != "TIMER" or self._steps is None:
             return {"PASS_THROUGH"}
         result = {"CANCELLED"}
         try:
             with reporting(self):
-                result = self._step(context)
+                result = self._step(self._steps, context)
         finally:
             if result != {"RUNNING_MODAL"}:
                 self.cancel(context)
@@ -82,9 +85,9 @@ class Stepwise:
             return {"RUNNING_MODAL"}
         return {"CANCELLED"}
 
-    def _step(self, context: bpy.types.Context) -> set[str]:
+    def _step(self, steps: Steps[Any], context: bpy.types.Context) -> set[str]:
         try:
-            progress = next(self._steps)
+            progress = next(steps)
         except StopIteration as end:
             self.finish(end.value)
             return {"FINISHED"}

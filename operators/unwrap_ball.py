@@ -1,6 +1,7 @@
 """Unwrap photographs of a mirrored ball into an environment."""
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 
 import bpy
@@ -12,7 +13,7 @@ from ..rsibr_addon.tasks.illuminate_ball import BallSettings, SideSettings, illu
 from .from_pictures import EnvironmentSize, FromSeveralPictures
 
 
-def _circle(name: str) -> object:
+def _circle(name: str) -> Sequence[float]:
     return bpy.props.FloatVectorProperty(
         name=name,
         description="Middle and radius of the ball's outline in pixels from the photograph's top left "
@@ -28,11 +29,11 @@ class RSIBR_OT_unwrap_ball(FromSeveralPictures, EnvironmentSize, bpy.types.Opera
     bl_label = "Unwrap Mirror Ball"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  (Blender reads the class)
 
-    circle: _circle("Circle")
-    distance: bpy.props.FloatProperty(
+    circle = _circle("Circle")
+    distance = bpy.props.FloatProperty(
         name="Distance", description="Of the camera in radii of the ball; 0 for far away", min=0.0
     )
-    field_of_view: bpy.props.FloatProperty(
+    field_of_view = bpy.props.FloatProperty(
         name="Field of View",
         description="That the longer side of the photographs shows, not cropped, which tells the distance; 0 "
         "if not known",
@@ -40,10 +41,10 @@ class RSIBR_OT_unwrap_ball(FromSeveralPictures, EnvironmentSize, bpy.types.Opera
         min=0.0,
         max=math.radians(179.0),
     )
-    elevation: bpy.props.FloatProperty(
+    elevation = bpy.props.FloatProperty(
         name="Elevation", description="How far the camera looked down on the ball", subtype="ANGLE"
     )
-    camera: bpy.props.FloatProperty(
+    camera = bpy.props.FloatProperty(
         name="Camera",
         description="How far from its middle the camera and who held it show in the ball, as an angle of "
         "direction; there the other side counts",
@@ -51,14 +52,14 @@ class RSIBR_OT_unwrap_ball(FromSeveralPictures, EnvironmentSize, bpy.types.Opera
         default=math.radians(15.0),
         min=0.0,
     )
-    turn: bpy.props.FloatProperty(
+    turn = bpy.props.FloatProperty(
         name="Turn",
         description="How far the camera went around the ball for the second photograph, counterclockwise as "
         "seen from above",
         subtype="ANGLE",
         default=math.radians(90.0),
     )
-    second_circle: _circle("Second Circle")
+    second_circle = _circle("Second Circle")
 
     def work(self, context: bpy.types.Context) -> Steps[Path]:
         """Unwrap, and say where the balls are."""
@@ -83,6 +84,6 @@ class RSIBR_OT_unwrap_ball(FromSeveralPictures, EnvironmentSize, bpy.types.Opera
             )
         circles, turns = (self.circle, self.second_circle), (0.0, self.turn)
         return tuple(
-            SideSettings(BracketSettings((path,)), tuple(circle) if circle[2] else None, turn)
-            for path, circle, turn in zip(photographs, circles, turns, strict=False)
+            SideSettings(BracketSettings((path,)), (x, y, radius) if radius else None, turn)
+            for path, (x, y, radius), turn in zip(photographs, circles, turns, strict=False)
         )

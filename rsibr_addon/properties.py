@@ -17,7 +17,7 @@ def _notice(group: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
 class RSIBR_PG_radiance_views(bpy.types.PropertyGroup):
     """The fields of `core.shading.radiance_views.ViewsLook`; so with every kind of map set."""
 
-    mode: bpy.props.EnumProperty(
+    mode = bpy.props.EnumProperty(
         name="Mode",
         description="Where views are warped and blended",
         update=_notice,
@@ -27,7 +27,7 @@ class RSIBR_PG_radiance_views(bpy.types.PropertyGroup):
             ("paper", "Paper", "Once a frame, on a tessellated disk, as in the paper of 1999"),
         ],
     )
-    warping: bpy.props.EnumProperty(
+    warping = bpy.props.EnumProperty(
         name="Warp",
         description="What is warped how",
         update=_notice,
@@ -37,7 +37,7 @@ class RSIBR_PG_radiance_views(bpy.types.PropertyGroup):
             ("single", "Single", "All light by the mirror direction, as in the paper of 1999"),
         ],
     )
-    antialiased: bpy.props.BoolProperty(
+    antialiased = bpy.props.BoolProperty(
         name="Antialiased",
         description="Average glossy light over what each pixel reflects, so that small lamps do not shimmer",
         update=_notice,
@@ -45,7 +45,7 @@ class RSIBR_PG_radiance_views(bpy.types.PropertyGroup):
     )
 
 
-def _weight(name: str, description: str) -> Any:
+def _weight(name: str, description: str) -> float:
     """A slider for what multiplies a table."""
     return bpy.props.FloatProperty(
         name=name, description=description, update=_notice, default=1.0, min=0.0, soft_max=2.0
@@ -55,7 +55,7 @@ def _weight(name: str, description: str) -> Any:
 class RSIBR_PG_reflection_tables(bpy.types.PropertyGroup):
     """The fields of `core.shading.reflection_tables.TablesLook`."""
 
-    shown: bpy.props.EnumProperty(
+    shown = bpy.props.EnumProperty(
         name="Tables",
         description="Those that count",
         update=_notice,
@@ -69,12 +69,12 @@ class RSIBR_PG_reflection_tables(bpy.types.PropertyGroup):
         ],
         default={"diffuse", "specular", "coat", "retro", "refraction"},
     )
-    w_diffuse: _weight("Diffuse ×", "Multiplies the diffuse table's weight, Wd of the paper of 1984")
-    w_specular: _weight("Specular ×", "Multiplies the specular table's weight, Ws of the paper of 1984")
-    w_coat: _weight("Coat ×", "Multiplies the coat's weight")
-    w_retro: _weight("Retro ×", "Multiplies the weight of light that is sent back")
-    w_refraction: _weight("Refraction ×", "Multiplies the weight of light that is let through")
-    antialiased: bpy.props.BoolProperty(
+    w_diffuse = _weight("Diffuse ×", "Multiplies the diffuse table's weight, Wd of the paper of 1984")
+    w_specular = _weight("Specular ×", "Multiplies the specular table's weight, Ws of the paper of 1984")
+    w_coat = _weight("Coat ×", "Multiplies the coat's weight")
+    w_retro = _weight("Retro ×", "Multiplies the weight of light that is sent back")
+    w_refraction = _weight("Refraction ×", "Multiplies the weight of light that is let through")
+    antialiased = bpy.props.BoolProperty(
         name="Antialiased",
         description="Average specular and coat over what each pixel reflects: small lamps do not shimmer",
         update=_notice,
@@ -84,13 +84,13 @@ class RSIBR_PG_reflection_tables(bpy.types.PropertyGroup):
 class RSIBR_PG_lobe_stack(bpy.types.PropertyGroup):
     """The fields of `core.shading.lobe_stack.StackLook`."""
 
-    use_lobes: bpy.props.BoolProperty(
+    use_lobes = bpy.props.BoolProperty(
         name="Single Lobe", description="Show one of the lobes that the material is a sum of", update=_notice
     )
-    lobes: bpy.props.IntProperty(
+    lobes = bpy.props.IntProperty(
         name="Lobe", description="Number of the lobe that is shown, from 0", update=_notice, min=0, soft_max=7
     )
-    antialiased: bpy.props.BoolProperty(
+    antialiased = bpy.props.BoolProperty(
         name="Antialiased",
         description="Average light over what each pixel reflects, so that small lamps do not shimmer",
         update=_notice,
@@ -101,7 +101,7 @@ class RSIBR_PG_lobe_stack(bpy.types.PropertyGroup):
 class RSIBR_PG_mip_chain(bpy.types.PropertyGroup):
     """The fields of `core.shading.mip_chain.MipLook`."""
 
-    f_lambda: bpy.props.FloatVectorProperty(
+    f_lambda = bpy.props.FloatVectorProperty(
         name="Reflectance",
         description="Of the glossy part, at normal incidence",
         update=_notice,
@@ -110,7 +110,7 @@ class RSIBR_PG_mip_chain(bpy.types.PropertyGroup):
         min=0.0,
         max=1.0,
     )
-    k_d: bpy.props.FloatVectorProperty(
+    k_d = bpy.props.FloatVectorProperty(
         name="Diffuse",
         description="Albedo of the diffuse part",
         update=_notice,
@@ -119,22 +119,22 @@ class RSIBR_PG_mip_chain(bpy.types.PropertyGroup):
         min=0.0,
         max=1.0,
     )
-    bias: bpy.props.FloatProperty(
+    bias = bpy.props.FloatProperty(
         name="Mip",
         description="That glossy light comes from; linear between two",
         update=_notice,
         min=0.0,
         soft_max=10.0,
     )
-    use_roughness: bpy.props.BoolProperty(
+    use_roughness = bpy.props.BoolProperty(
         name="By Roughness",
         description="Choose the mip of a roughness; the other one has to be 0. For chains of GGX lobes",
         update=_notice,
     )
-    roughness: bpy.props.FloatProperty(
+    roughness = bpy.props.FloatProperty(
         name="Roughness", description="That glossy light is of", update=_notice, default=0.3, min=0.0, max=1.0
     )
-    borders: bpy.props.EnumProperty(
+    borders = bpy.props.EnumProperty(
         name="Borders",
         description="What a lookup near a face's border interpolates with",
         update=_notice,
@@ -143,7 +143,7 @@ class RSIBR_PG_mip_chain(bpy.types.PropertyGroup):
             ("clamped", "Clamped", "The face's own texels, as the hardware of 2004"),
         ],
     )
-    antialiased: bpy.props.BoolProperty(
+    antialiased = bpy.props.BoolProperty(
         name="Antialiased",
         description="Average glossy light over what each pixel reflects, so that small lamps do not shimmer",
         update=_notice,
@@ -154,7 +154,7 @@ class RSIBR_PG_mip_chain(bpy.types.PropertyGroup):
 class RSIBR_PG_environment(bpy.types.PropertyGroup):
     """The fields of `core.shading.environment.EnvironmentLook`."""
 
-    f_lambda: bpy.props.FloatVectorProperty(
+    f_lambda = bpy.props.FloatVectorProperty(
         name="Reflectance",
         description="Of the mirror, at normal incidence; white is a perfect mirror",
         update=_notice,
@@ -163,7 +163,7 @@ class RSIBR_PG_environment(bpy.types.PropertyGroup):
         min=0.0,
         max=1.0,
     )
-    antialiased: bpy.props.BoolProperty(
+    antialiased = bpy.props.BoolProperty(
         name="Antialiased",
         description="Average the light over what each pixel reflects, so that small lamps do not shimmer",
         update=_notice,
@@ -174,18 +174,18 @@ class RSIBR_PG_environment(bpy.types.PropertyGroup):
 class RSIBR_PG_kernel_bank(bpy.types.PropertyGroup):
     """The fields of `core.shading.kernel_bank.BankLook`."""
 
-    brdf: bpy.props.StringProperty(
+    brdf = bpy.props.StringProperty(
         name="Model",
         description="Reflectance model and its parameters, as ggx:alpha=0.1,metal=gold",
         update=_notice,
         default="ggx:alpha=0.3,metal=copper",
     )
-    use_roughness: bpy.props.BoolProperty(
+    use_roughness = bpy.props.BoolProperty(
         name="Set Roughness",
         description="Give every layer of the model the roughness below, instead of its own",
         update=_notice,
     )
-    roughness: bpy.props.FloatProperty(
+    roughness = bpy.props.FloatProperty(
         name="Roughness",
         description="Of the model's layers; their alpha is its square",
         update=_notice,
@@ -193,7 +193,7 @@ class RSIBR_PG_kernel_bank(bpy.types.PropertyGroup):
         min=0.1,
         max=1.0,
     )
-    lobe_count: bpy.props.IntProperty(
+    lobe_count = bpy.props.IntProperty(
         name="Lobes",
         description="For each layer of the model; more follow its reflectance more closely, and take longer",
         update=_notice,
@@ -206,19 +206,19 @@ class RSIBR_PG_kernel_bank(bpy.types.PropertyGroup):
 class RSIBR_PG_live(bpy.types.PropertyGroup):
     """Light rendered around the object while one looks."""
 
-    on: bpy.props.BoolProperty(
+    on = bpy.props.BoolProperty(
         name="Live Light",
         description="Shade the object from its surroundings as the viewport shows them, without a map set",
         update=_notice,
     )
-    size: bpy.props.EnumProperty(
+    size = bpy.props.EnumProperty(
         name="Size",
         description="Of each of the six faces, in pixels",
         update=_notice,
         items=[(str(size), str(size), "") for size in (32, 64, 128, 256)],
         default="64",
     )
-    budget: bpy.props.IntProperty(
+    budget = bpy.props.IntProperty(
         name="Budget (ms)",
         description="What a frame may spend on new light after a change: as many of the six faces as fit, at "
         "least one. Less keeps Blender quick, more lets the light follow sooner",
@@ -232,27 +232,27 @@ class RSIBR_PG_live(bpy.types.PropertyGroup):
 class RSIBR_PG_looks(bpy.types.PropertyGroup):
     """How an object is shaded, for each kind of map set."""
 
-    radiance_views: bpy.props.PointerProperty(type=RSIBR_PG_radiance_views)
-    reflection_tables: bpy.props.PointerProperty(type=RSIBR_PG_reflection_tables)
-    lobe_stack: bpy.props.PointerProperty(type=RSIBR_PG_lobe_stack)
-    mip_chain: bpy.props.PointerProperty(type=RSIBR_PG_mip_chain)
-    environment: bpy.props.PointerProperty(type=RSIBR_PG_environment)
-    kernel_bank: bpy.props.PointerProperty(type=RSIBR_PG_kernel_bank)
+    radiance_views = bpy.props.PointerProperty(type=RSIBR_PG_radiance_views)
+    reflection_tables = bpy.props.PointerProperty(type=RSIBR_PG_reflection_tables)
+    lobe_stack = bpy.props.PointerProperty(type=RSIBR_PG_lobe_stack)
+    mip_chain = bpy.props.PointerProperty(type=RSIBR_PG_mip_chain)
+    environment = bpy.props.PointerProperty(type=RSIBR_PG_environment)
+    kernel_bank = bpy.props.PointerProperty(type=RSIBR_PG_kernel_bank)
 
 
 class RSIBR_PG_preview(bpy.types.PropertyGroup):
     """What shades an object in the viewport."""
 
-    image: bpy.props.PointerProperty(
+    image = bpy.props.PointerProperty(
         type=bpy.types.Image,
         name="Image",
         description="The map set's file as Blender keeps track of it: its path, or its packed bytes",
         update=_notice,
     )
-    content: bpy.props.StringProperty(
+    content = bpy.props.StringProperty(
         name="Content", description="Hash of what the map set held when it was chosen"
     )
-    map_set: bpy.props.StringProperty(
+    map_set = bpy.props.StringProperty(
         name="Map Set",
         description="File that shades the object in the viewport; a picture of an environment is mirrored",
         update=_notice,
@@ -261,32 +261,32 @@ class RSIBR_PG_preview(bpy.types.PropertyGroup):
         get=chosen_path,
         set=use_map_set,
     )
-    show: bpy.props.BoolProperty(
+    show = bpy.props.BoolProperty(
         name="Show", description="Shade the object from its map set", update=_notice, default=True
     )
-    follow_world: bpy.props.BoolProperty(
+    follow_world = bpy.props.BoolProperty(
         name="Follow World",
         description="Turn and scale the light as the world's Mapping and Background do with its Environment "
         "Texture; for map sets that were made in the bare environment",
         update=_notice,
     )
-    other: bpy.props.PointerProperty(type=RSIBR_PG_looks)
-    radiance_views: bpy.props.PointerProperty(type=RSIBR_PG_radiance_views)
-    reflection_tables: bpy.props.PointerProperty(type=RSIBR_PG_reflection_tables)
-    lobe_stack: bpy.props.PointerProperty(type=RSIBR_PG_lobe_stack)
-    mip_chain: bpy.props.PointerProperty(type=RSIBR_PG_mip_chain)
-    environment: bpy.props.PointerProperty(type=RSIBR_PG_environment)
-    kernel_bank: bpy.props.PointerProperty(type=RSIBR_PG_kernel_bank)
-    live: bpy.props.PointerProperty(type=RSIBR_PG_live)
+    other = bpy.props.PointerProperty(type=RSIBR_PG_looks)
+    radiance_views = bpy.props.PointerProperty(type=RSIBR_PG_radiance_views)
+    reflection_tables = bpy.props.PointerProperty(type=RSIBR_PG_reflection_tables)
+    lobe_stack = bpy.props.PointerProperty(type=RSIBR_PG_lobe_stack)
+    mip_chain = bpy.props.PointerProperty(type=RSIBR_PG_mip_chain)
+    environment = bpy.props.PointerProperty(type=RSIBR_PG_environment)
+    kernel_bank = bpy.props.PointerProperty(type=RSIBR_PG_kernel_bank)
+    live = bpy.props.PointerProperty(type=RSIBR_PG_live)
 
 
 class RSIBR_PG_view(bpy.types.PropertyGroup):
     """How viewports show previews, for as long as Blender runs."""
 
-    split: bpy.props.BoolProperty(
+    split = bpy.props.BoolProperty(
         name="Split", description="Show something else right of a line", update=_notice
     )
-    beyond: bpy.props.EnumProperty(
+    beyond = bpy.props.EnumProperty(
         name="Right of It",
         update=_notice,
         items=[
@@ -295,7 +295,7 @@ class RSIBR_PG_view(bpy.types.PropertyGroup):
             ("difference", "Difference", "How far both looks are apart, from black over red to white"),
         ],
     )
-    difference: bpy.props.FloatProperty(
+    difference = bpy.props.FloatProperty(
         name="Full Scale",
         description="The difference that is white, as a part of what the display shows",
         update=_notice,
@@ -303,7 +303,7 @@ class RSIBR_PG_view(bpy.types.PropertyGroup):
         min=0.001,
         max=1.0,
     )
-    line: bpy.props.FloatProperty(
+    line = bpy.props.FloatProperty(
         name="Line",
         description="Where the one ends and the other begins",
         update=_notice,
@@ -335,9 +335,32 @@ OVERRIDABLE = {"LIBRARY_OVERRIDABLE"}
 def keep_in_overrides(classes: Iterable[type[bpy.types.PropertyGroup]]) -> None:
     """Have library overrides keep what groups store; to be called before they are registered."""
     for cls in classes:
-        for declared in cls.__annotations__.values():
+        for declared in _declared(cls).values():
             if "get" not in declared.keywords:
                 declared.keywords["override"] = OVERRIDABLE
+
+
+def annotate(cls: type) -> None:
+    """Say a class's properties as Blender asks for them: `size: IntProperty()`.
+
+    We write `size = IntProperty()`, which tells mypy that `self.size` is an int.
+
+    Parameters
+    ----------
+    cls : type
+        To be registered; what it derives from is seen to as well.
+    """
+    for owner in cls.__mro__:
+        if declared := _declared(owner):
+            owner.__annotations__ = {**owner.__annotations__, **declared}
+            for name in declared:
+                delattr(owner, name)
+
+
+def _declared(cls: type) -> dict[str, Any]:
+    return {
+        name: value for name, value in vars(cls).items() if isinstance(value, bpy.props._PropertyDeferred)
+    }
 
 
 keep_in_overrides(CLASSES)

@@ -21,6 +21,7 @@ def register() -> None:
 
     with ExitStack() as undo:
         for cls in (*properties.CLASSES, *operators.CLASSES, *ui.CLASSES):
+            properties.annotate(cls)
             bpy.utils.register_class(cls)
             undo.callback(bpy.utils.unregister_class, cls)
         pointers = properties.POINTERS | bake_properties.POINTERS | result_properties.POINTERS

@@ -25,6 +25,7 @@ from typing import (
     get_origin,
     get_type_hints,
     is_typeddict,
+    overload,
 )
 
 import numpy as np
@@ -100,12 +101,20 @@ def loads(text: str | bytes) -> Any:
     return plain
 
 
-def decode[Decoded](schema: type[Decoded], plain: Any, where: str = "") -> Decoded:
+@overload
+def decode[Decoded](schema: type[Decoded], plain: Any, where: str = "") -> Decoded: ...
+
+
+@overload
+def decode(schema: types.UnionType, plain: Any, where: str = "") -> Any: ...
+
+
+def decode(schema: Any, plain: Any, where: str = "") -> Any:
     """What JSON values stand for.
 
     Parameters
     ----------
-    schema : type
+    schema : type or union of types
         See the module's text.
     plain : object
         From `loads`.
@@ -122,8 +131,7 @@ def decode[Decoded](schema: type[Decoded], plain: Any, where: str = "") -> Decod
     SchemaError
         A value is missing, or is not what it must be; says which.
     """
-    decoded: Decoded = _decoded(schema, plain, where)
-    return decoded
+    return _decoded(schema, plain, where)
 
 
 def array(plain: Any, axes: int, where: str) -> Array:

@@ -7,7 +7,7 @@ from typing import Any, Protocol
 import gpu
 import numpy as np
 
-from ..core.conventions import Array
+from ..core.conventions import Array, Indices
 from . import buffers, shaders
 
 
@@ -50,7 +50,7 @@ class MeshOnDevice:
     triangles : ndarray of int, shape (F, 3)
     """
 
-    def __init__(self, positions: Array, normals: Array, triangles: Array) -> None:
+    def __init__(self, positions: Array, normals: Array, triangles: Indices) -> None:
         attributes = {"position": positions, "normal": normals}
         self._batch = buffers.triangles(shaders.views_fragment_shader(), attributes, triangles)
         self._placed = buffers.KeptBlock()

@@ -6,7 +6,7 @@ import gpu
 import numpy as np
 
 from ..core.camera import Camera
-from ..core.conventions import Array
+from ..core.conventions import Array, Indices
 from . import buffers
 from .drawing import Draw, MeshOnDevice, OnDevice
 
@@ -29,7 +29,7 @@ class PreviewRenderer:
         self,
         positions: Array,
         normals: Array,
-        triangles: Array,
+        triangles: Indices,
         camera: Camera,
         size: int,
         look: Any,

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 import numpy as np
-import OpenEXR  # type: ignore[import-not-found, unused-ignore]  # it has no stubs
+import OpenEXR
 
 from ..core.conventions import Array, Indices
 from ..core.errors import InputFileError

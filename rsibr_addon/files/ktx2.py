@@ -91,9 +91,9 @@ def write_ktx2(path: str | Path, texture: Texture, notes: Mapping[str, str], for
     )
     with written_aside(path, force) as aside, aside.open("wb") as file:
         file.write(head + index + described + noted)
-        for place, level in sorted(zip(places, pixels, strict=True)):
+        for place, mip in sorted(zip(places, pixels, strict=True)):
             file.write(bytes(place - file.tell()))
-            file.write(level)
+            file.write(mip)
 
 
 def _pixels(level: Array, half: bool) -> bytes:

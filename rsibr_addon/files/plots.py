@@ -130,7 +130,7 @@ def polar_picture(curves: Sequence[Curve]) -> Array:
 @cache
 def _grid_picture() -> Array:
     width, height = (round(side) for side in _POLAR_SIZE)
-    picture = np.ones((height, width, 3))
+    picture: Array = np.ones((height, width, 3))
     for line in _polar_grid():
         picture = _over(picture, line, _GRID_COLOR, 0.5 * _PIXEL_LINE)
     return picture

@@ -120,7 +120,8 @@ def _split(data: bytes) -> tuple[list[str], re.Match[bytes], int]:
 
     An empty line stands before the size, which some writers leave out.
     """
-    lines, start = [], 0
+    lines: list[str] = []
+    start = 0
     while (end := data.find(b"\n", start, LONGEST)) >= 0:
         line, start = data[start:end].rstrip(b"\r"), end + 1
         axes = AXES.fullmatch(line)

@@ -88,7 +88,7 @@ def _checked_fields(path: str | Path) -> dict[str, Array]:
         raise InputFileError(f"{path} is anisotropic, which lobes cannot follow: give an isotropic material.")
     if not np.all(tensors["jacobian"] == 1):
         raise InputFileError(f"{path} is of an unknown scale (jacobian 0): give the database's current file.")
-    fields = {name: tensors[name].astype(np.float64) for name in FIELDS}
+    fields: dict[str, Array] = {name: tensors[name].astype(np.float64) for name in FIELDS}
     if unusable := sum(int(np.count_nonzero(~np.isfinite(field))) for field in fields.values()):
         raise InputFileError(f"{path} holds {unusable} values that are NaN or infinite: fetch it again.")
     negative_density = any((fields[name] < 0.0).any() for name in ("ndf", "vndf"))
@@ -130,7 +130,7 @@ def read_tensors(path: str | Path) -> dict[str, Array]:
                 )
             (count,) = _unpack(stream, "I")
             directory = [_read_entry(stream) for _ in range(count)]
-            return {name: _read_field(stream, *entry) for name, *entry in directory}
+            return {name: _read_field(stream, *place) for name, place in directory}
         except (EOFError, KeyError, UnicodeDecodeError, ValueError) as error:
             raise InputFileError(f"{path} is truncated or damaged ({error}): fetch it again.") from error
 
@@ -146,14 +146,14 @@ def _read(stream: BinaryIO, count: int) -> bytes:
     return data
 
 
-def _read_entry(stream: BinaryIO) -> tuple[str, str, int, tuple[int, ...]]:
-    """Name, type, place and shape of a field."""
+def _read_entry(stream: BinaryIO) -> tuple[str, tuple[str, int, tuple[int, ...]]]:
+    """Name of a field; and its type, place and shape."""
     (length,) = _unpack(stream, "H")
     name = _read(stream, length).decode()
     dimensions, kind, offset = _unpack(stream, "HBQ")
     if kind not in TYPES:
         raise ValueError(f"its field {name} is of unknown type {kind}")
-    return name, TYPES[kind], offset, _unpack(stream, f"{dimensions}Q")
+    return name, (TYPES[kind], offset, _unpack(stream, f"{dimensions}Q"))
 
 
 def _read_field(stream: BinaryIO, kind: str, offset: int, shape: tuple[int, ...]) -> Array:

@@ -165,7 +165,7 @@ def _render_subset(scene: bpy.types.Scene, start: int, count: int) -> dict[str, 
     """What `count` of the samples, from `start` on, show; with guides for the denoiser where they are."""
     scene.cycles.sample_offset, scene.cycles.sample_subset_length = start, count
     passes = {name: pixels.astype(np.float64) for name, pixels in render_passes(scene).items()}
-    seen = {
+    seen: dict[str, Array] = {
         "whole": passes["Combined"][..., :3],
         # Cycles has divided light by colour pixel by pixel, so only within one render is this the light.
         "glossy": passes["Glossy Direct"] * passes["Glossy Color"],

@@ -50,12 +50,12 @@ def baked_exposure(scene: bpy.types.Scene) -> float:
     while the artist moves the slider. With curves, exposure comes after them and has to be contained.
     """
     view = scene.view_settings
-    return view.exposure if view.use_curve_mapping else 0.0
+    return float(view.exposure) if view.use_curve_mapping else 0.0
 
 
 def scale_before_display(scene: bpy.types.Scene) -> float:
     """What radiance is to be multiplied by before it is looked up in `displayed_colours`."""
-    return 2.0 ** (scene.view_settings.exposure - baked_exposure(scene))
+    return float(2.0 ** (scene.view_settings.exposure - baked_exposure(scene)))
 
 
 def displayed_colours(scene: bpy.types.Scene, radiance: Array) -> Array:

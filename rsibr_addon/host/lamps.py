@@ -193,7 +193,7 @@ def _directions(data: bpy.types.Light, pose: Array, point: Array) -> Array:
     return directions_in_cap(towards / distance, np.arctan(data.shadow_soft_size / distance), count)
 
 
-def _points(data: bpy.types.AreaLight) -> Array:
+def _points(data: bpy.types.Light) -> Array:
     """Points spread over an area lamp, shape (count, 3), in its own coordinates."""
     side = int(np.sqrt(PARTS))
     unit = texel_centres(side, side).reshape(-1, 2) - 0.5

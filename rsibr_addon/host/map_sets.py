@@ -7,6 +7,7 @@ it may be packed. What it shows is of no interest here: nothing asks for its pix
 import hashlib
 import shutil
 from pathlib import Path
+from typing import Any, Protocol
 
 import bpy
 
@@ -15,8 +16,18 @@ from ..files.atomic import written_aside
 from ..files.map_set import read_map_set_header
 from ..files.map_set_header import content_hash
 
-type Settings = bpy.types.PropertyGroup
-"""Has an `image`: `properties.RSIBR_PG_preview` of an object, or `ui.bake_properties.RSIBR_PG_bake`."""
+
+class Settings(Protocol):
+    """`properties.RSIBR_PG_preview` of an object, or `ui.bake_properties.RSIBR_PG_bake`."""
+
+    image: Any  # A bpy.types.Image or None
+
+
+class PreviewSettings(Settings, Protocol):
+    """`properties.RSIBR_PG_preview`."""
+
+    content: str
+    id_data: Any
 
 
 class UnpackedFiles:
@@ -89,13 +100,13 @@ def use_file(settings: Settings, path: str) -> None:
     settings.image = _image_of(path) if path else None
 
 
-def use_map_set(settings: Settings, path: str) -> None:
+def use_map_set(settings: PreviewSettings, path: str) -> None:
     """Have an object shaded from a file, as `use_file`, and remember what it holds."""
     use_file(settings, path)
     remember_content(settings)
 
 
-def remember_content(settings: Settings) -> None:
+def remember_content(settings: PreviewSettings) -> None:
     """Take what an object's map set holds now for what it is to hold; how another was baked is forgotten."""
     path, before = planned_path(settings), settings.content
     try:

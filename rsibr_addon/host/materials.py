@@ -120,7 +120,8 @@ def _appended(path: Path, name: str) -> bpy.types.Material:
             wanted.materials = [name]
     except OSError as error:
         raise unreadable(path) from error
-    return wanted.materials[0]
+    appended: bpy.types.Material = wanted.materials[0]
+    return appended
 
 
 def _named(where: str, name: str, found: Any) -> Any:

@@ -9,10 +9,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import bmesh
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.conventions import Array, Indices
 from ..core.errors import InputFileError, SceneError
@@ -318,7 +320,7 @@ def _normals(mesh: bpy.types.Mesh) -> Array:
     return _read(mesh.vertex_normals if of_vertices else mesh.corner_normals, "vector", np.float32, 3)
 
 
-def _read(items: bpy.types.bpy_prop_collection, field: str, kind: type, width: int = 1) -> Array:
+def _read[T: np.generic](items: Any, field: str, kind: type[T], width: int = 1) -> NDArray[T]:
     """A property of every item, shape (len(items), width), without a Python loop."""
     values = np.empty(len(items) * width, dtype=kind)
     items.foreach_get(field, values)

@@ -114,8 +114,8 @@ def build_preset(name: str) -> bpy.types.Material:
     tree = material.node_tree
     tree.nodes.clear()
     bsdf = tree.nodes.new(preset.node)
-    for option, value in preset.options.items():
-        setattr(bsdf, option, value)
+    for option, choice in preset.options.items():
+        setattr(bsdf, option, choice)
     for input_name, value in preset.inputs.items():
         socket = bsdf.inputs[input_name]
         socket.default_value = _in_working_space(value) if socket.type == "RGBA" else value

@@ -67,7 +67,6 @@ def shape_dependence(material: bpy.types.Material) -> list[str]:
     Parameters
     ----------
     material : bpy.types.Material
-        With a surface.
 
     Returns
     -------
@@ -76,6 +75,8 @@ def shape_dependence(material: bpy.types.Material) -> list[str]:
         empty for a material that a radiance map can hold.
     """
     output = surface_output(material)
+    if output is None:
+        return []
     reasons = [
         f"it has a {name.lower()}" for name in ("Volume", "Displacement") if output.inputs[name].is_linked
     ]

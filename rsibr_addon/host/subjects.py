@@ -21,7 +21,7 @@ def find_object(scene: bpy.types.Scene, name: str) -> bpy.types.Object:
     SceneError
         There is none.
     """
-    found = scene.objects.get(name)
+    found: bpy.types.Object | None = scene.objects.get(name)
     if found is None:
         names = [item.name for item in scene.objects]
         shown = ", ".join(names[:NAMES_SHOWN]) or "another scene, as it is empty"

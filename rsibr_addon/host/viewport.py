@@ -82,12 +82,12 @@ class View:
     @property
     def shaded(self) -> bool:
         """Whether surfaces are drawn, and not wires alone."""
-        return self.space.shading.type != "WIREFRAME"
+        return bool(self.space.shading.type != "WIREFRAME")
 
     @property
     def has_depth(self) -> bool:
         """Whether Blender leaves its surfaces' depths to those who draw later."""
-        return self.space.shading.type == "SOLID" or self.space.overlay.show_overlays
+        return bool(self.space.shading.type == "SOLID" or self.space.overlay.show_overlays)
 
     @property
     def sides(self) -> tuple[Side, ...]:

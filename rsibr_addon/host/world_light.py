@@ -40,9 +40,9 @@ def world_light(world: bpy.types.World | None) -> WorldLight | None:
         None unless the world is a Background of constant strength with an Environment Texture, which
         may have a Mapping that does nothing but rotate.
     """
-    background = _before(world and world.node_tree.get_output_node("ALL"), "Surface", "BACKGROUND")
+    background = _before(world.node_tree.get_output_node("ALL") if world else None, "Surface", "BACKGROUND")
     texture = _before(background, "Color", "TEX_ENVIRONMENT")
-    if texture is None or background.inputs["Strength"].is_linked:
+    if background is None or texture is None or background.inputs["Strength"].is_linked:
         return None
     strength = background.inputs["Strength"].default_value
     if not texture.inputs["Vector"].is_linked:

@@ -222,18 +222,18 @@ class Bake:
             return {"ok": False}
 
 
-class BakeQueue:
+class BakeQueue[B: Bake]:
     """Bakes in the order in which they were added, one at a time."""
 
     def __init__(self) -> None:
-        self.bakes: list[Bake] = []
+        self.bakes: list[B] = []
 
-    def add(self, bake: Bake) -> None:
+    def add(self, bake: B) -> None:
         """Start a bake, or have it wait for those before it."""
         self.bakes.append(bake)
         self.update()
 
-    def update(self) -> list[Bake]:
+    def update(self) -> list[B]:
         """Notice what has happened; to be called now and then.
 
         Returns
@@ -249,7 +249,7 @@ class BakeQueue:
             active[0].start()
         return [bake for bake in running if bake.ended]
 
-    def unfinished(self, output: Path) -> Bake | None:
+    def unfinished(self, output: Path) -> B | None:
         """The bake that will write a file; None where none runs or waits."""
         return next((bake for bake in self.bakes if bake.output == output and not bake.ended), None)
 

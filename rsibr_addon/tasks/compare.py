@@ -27,7 +27,7 @@ from .references import Reference, Subject, check_material, render_reference
 
 def compare(
     map_set: Path, settings: ComparisonSettings, output: Path, force: bool = False
-) -> Steps[Comparison]:
+) -> Steps[Comparison[Way]]:
     """Render random views with Cycles, draw the same views from a map set, and tell the difference.
 
     Parameters
@@ -161,7 +161,7 @@ def _subject(map_set: Path, captured: OpenedMapSet, settings: ComparisonSettings
     return Subject(captured.material["spec"], captured.environment, mesh)
 
 
-def _error(way: Way, pictures: list[Array], references: list[Reference]) -> WayError:
+def _error(way: Way, pictures: list[Array], references: list[Reference]) -> WayError[Way]:
     ours = np.stack(pictures)
     first = np.stack([reference.first for reference in references])
     second = np.stack([reference.second for reference in references])

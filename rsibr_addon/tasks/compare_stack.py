@@ -32,7 +32,7 @@ LEAST_RINGS = 32
 
 def compare_stack(
     map_set: Path, settings: StackComparisonSettings, output: Path, force: bool = False
-) -> Steps[Comparison]:
+) -> Steps[Comparison[StackWay]]:
     """Light a sphere exactly, show a mesh as it and from a lobe stack, and tell the difference.
 
     Parameters
@@ -79,8 +79,9 @@ def compare_stack(
     cameras = settings.cameras
     view_dirs = [camera.view_dir for camera in cameras]
     stack = opened.subject
-    settings = replace(settings, rings=settings.rings or max(LEAST_RINGS, stack.size // 2))
-    spheres = yield from lit_spheres(brdf, opened.environment.radiance, view_dirs, settings.rings)
+    rings = settings.rings or max(LEAST_RINGS, stack.size // 2)
+    settings = replace(settings, rings=rings)
+    spheres = yield from lit_spheres(brdf, opened.environment.radiance, view_dirs, rings)
     yield Progress(0, 1, f"writing {output.name}")
     ensure_context()
     references = [
@@ -112,7 +113,7 @@ def _picture(
     return PreviewRenderer(subject).draw(*surface, camera, size, look)
 
 
-def _error(way: StackWay, drawn: Array, references: Array) -> WayError:
+def _error(way: StackWay, drawn: Array, references: Array) -> WayError[StackWay]:
     compared = unpremultiplied(drawn), unpremultiplied(references), references[..., 3]
     per_view = tuple(relative_rmse(*each) for each in zip(*compared, strict=True))
     return WayError(way, per_view, pooled=relative_rmse(*compared))

@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from statistics import median
-from typing import Annotated, Any, Self, TypedDict
+from typing import Annotated, Any, TypedDict
 
 import numpy as np
 
@@ -176,7 +176,7 @@ class StackWay:
 
 
 @dataclass(frozen=True)
-class WayError:
+class WayError[W: Way | StackWay = Way | StackWay]:
     """Relative RMSE of one way to draw, see `core.metrics`.
 
     Attributes
@@ -188,7 +188,7 @@ class WayError:
         Of all views as one picture.
     """
 
-    way: Way | StackWay
+    way: W
     per_view: tuple[float, ...]
     pooled: float
 
@@ -204,7 +204,7 @@ class WayError:
 
 
 @dataclass(frozen=True)
-class Comparison:
+class Comparison[W: Way | StackWay = Way | StackWay]:
     """How far pictures drawn from a map set are from what they should be.
 
     Attributes
@@ -222,6 +222,7 @@ class Comparison:
         Relative RMSE that Cycles' own noise alone leaves in the reference: an error much smaller
         than it cannot be told. 0 where the reference is exact.
     errors : tuple of WayError
+        Of a `Way` each where Cycles rendered the reference, of a `StackWay` where it is exact.
     """
 
     map_set: str
@@ -232,7 +233,7 @@ class Comparison:
     settings: ComparisonSettings | StackComparisonSettings
     view_dirs: tuple[tuple[float, float, float], ...]
     reference_noise: float
-    errors: tuple[WayError, ...] = field(repr=False)
+    errors: tuple[WayError[W], ...] = field(repr=False)
 
     def to_json(self) -> dict[str, Any]:
         """Everything as JSON values, with the median and the worst of each way."""
@@ -249,8 +250,8 @@ class Comparison:
         ]
         return plain
 
-    @classmethod
-    def from_json(cls, plain: Any) -> Self:
+    @staticmethod
+    def from_json(plain: Any) -> "Comparison":
         """The inverse of `to_json`, also after a round through JSON text.
 
         Raises
@@ -259,7 +260,7 @@ class Comparison:
             It is no comparison, or one of another version.
         """
         told: dict[str, Any] = {**decode(_File, plain)}
-        return cls(
+        return Comparison(
             **{name: told[name] for name in ("map_set", "content", "environment", "material", "map_size")},
             settings=decode(ComparisonSettings | StackComparisonSettings, told["settings"], "settings"),
             view_dirs=decode(tuple[tuple[float, float, float], ...], told["view_dirs"], "view_dirs"),
@@ -313,7 +314,7 @@ def random_directions(count: int, seed: int) -> Array:
     return normalize(np.random.default_rng(seed).standard_normal((count, 3)))
 
 
-def comparison_table(comparisons: Sequence[Comparison]) -> str:
+def comparison_table(comparisons: Sequence[Comparison[Way]]) -> str:
     """Pooled errors of several comparisons of radiance views as a table in Markdown.
 
     Parameters
@@ -339,7 +340,7 @@ def comparison_table(comparisons: Sequence[Comparison]) -> str:
     return "".join(f"| {' | '.join(row)} |\n" for row in rows)
 
 
-def stack_table(comparisons: Sequence[Comparison]) -> str:
+def stack_table(comparisons: Sequence[Comparison[StackWay]]) -> str:
     """Errors of several comparisons of lobe stacks as a table in Markdown.
 
     Parameters

@@ -58,7 +58,7 @@ def illuminate_from_faces(
     equirect.shape(size)
     yield Progress(0, 3, f"reading {source.name}")
     cube = read_map(source, faces, read_light).astype(np.float64)
-    gains = np.ones((6, 3))
+    gains: Array = np.ones((6, 3))
     if balance:
         white = np.inf if holds_radiance(faces.paths(source)[0]) else SATURATED
         try:

@@ -197,7 +197,8 @@ def _assembled(light: SceneLight, seen: dict[int | None, dict[str, Array]]) -> A
     """The map of what was rendered, shape (size / 2, size, 3)."""
     if light.faces:
         cube = np.stack([_radiance(light, seen[face], 0) for face in range(6)])
-        return resample(cube, representation("cube_map"), representation("equirect"), light.size)[0]
+        made: Array = resample(cube, representation("cube_map"), representation("equirect"), light.size)[0]
+        return made
     return _radiance(light, seen[None], OVERLAP)
 
 

@@ -143,7 +143,9 @@ class LiveMaterials:
     def draw(self, mesh: MeshOnDevice, draw: Draw, look: BankLook) -> None:
         """See `OnDevice.draw`; a look that is not ready is not drawn."""
         if self._can_be_drawn(look) or self.is_ready(look):
-            self._shown[look].on_device.draw(mesh, draw, StackLook())
+            on_device = self._shown[look].on_device
+            if on_device is not None:
+                on_device.draw(mesh, draw, StackLook())
 
     def _can_be_drawn(self, look: BankLook) -> bool:
         """The same as `is_ready`, but nothing is made, and nothing raised."""

@@ -7,7 +7,7 @@ from ..core.errors import InputFileError, SchemaError
 from ..core.schema import LARGEST_TEXT, loads
 from ..files.reading import opened
 from .beside import comparison_beside
-from .comparison import RESULT, Comparison, ComparisonSettings, WayError
+from .comparison import RESULT, Comparison, ComparisonSettings, StackWay, WayError
 from .map_set_facts import map_set_content, read_once
 
 
@@ -69,9 +69,9 @@ def _comparison(path: Path) -> Comparison | None:
 
 
 def _is_of(error: WayError, look: Any) -> bool:
-    """Whether it is of a way that is drawn so; there are kinds with one way alone."""
-    names = ("mode", "warping")
-    return all(getattr(error.way, name, getattr(look, name)) == getattr(look, name) for name in names)
+    """Whether it is of a way that is drawn so; there is but one way to draw a lobe stack."""
+    way = error.way
+    return isinstance(way, StackWay) or (way.mode, way.warping) == (look.mode, look.warping)
 
 
 def _words(error: WayError) -> str:

@@ -104,12 +104,12 @@ class Previews:
     def kind(self, item: Any) -> str | None:
         """The kind of map set that shades an object; None before it is drawn."""
         map_set = self._map_sets.get(map_set_of(item))
-        return map_set and map_set.kind
+        return map_set.kind if map_set else None
 
     def fault(self, item: Any) -> str | None:
         """Why an object is not shaded from its map set, in a sentence."""
         fault = self._faults.get(item.session_uid)
-        return fault and fault.message
+        return fault.message if fault else None
 
     def draw(self, view: View) -> bool:
         """Draw the previews of a view into the active frame buffer.
@@ -213,7 +213,7 @@ class Previews:
     def _contents_of(self, view: View) -> _Contents:
         contents = self._contents.get(view.layer)
         known = contents is not None and (contents.others is None) == view.has_depth
-        if not known or contents.changed or contents.moved:
+        if contents is None or not known or contents.changed or contents.moved:
             contents = self._contents[view.layer] = self._collect(view)
             self._let_go_of_unused()
         return contents
@@ -235,7 +235,7 @@ class Previews:
             if path:
                 contents.previews.append(_Preview(surface, path))
                 contents.paths[surface.item] = path
-            else:
+            elif contents.others is not None:
                 contents.others.append(surface)
         return contents
 
@@ -320,7 +320,7 @@ class Previews:
 
 
 def _is_seen(surface: Surface, view: View) -> bool:
-    return surface.shown_by.visible_in_viewport_get(view.space)
+    return bool(surface.shown_by.visible_in_viewport_get(view.space))
 
 
 def _by_strength(previews: list[_Preview], view: View) -> dict[float, list[_Preview]]:

@@ -9,6 +9,7 @@ from ..host.presets import PRESETS
 from ..host.worlds import studio_environments
 from ..properties import keep_in_overrides
 from ..tasks.methods import MEASURED_FORMATS
+from .map_pictures import Item
 
 _OWN_SOURCE = ("OWN", "Object's Own", "The active object's active material, whatever its nodes")
 
@@ -16,34 +17,34 @@ _OWN_SOURCE = ("OWN", "Object's Own", "The active object's active material, what
 class RSIBR_PG_bake_views(bpy.types.PropertyGroup):
     """The fields of `tasks.methods.Views`; and so with every method."""
 
-    source: bpy.props.EnumProperty(
+    source = bpy.props.EnumProperty(
         name="Material",
         description="Which material is captured",
         items=[_OWN_SOURCE, ("PRESET", "Preset", "One that comes with the extension")],
     )
-    preset: bpy.props.EnumProperty(
+    preset = bpy.props.EnumProperty(
         name="Preset",
         description="Material that comes with the extension",
         items=[(name, name.replace("-", " ").title(), each.summary) for name, each in PRESETS.items()],
         default="copper",
     )
-    views: bpy.props.EnumProperty(
+    views = bpy.props.EnumProperty(
         name="Views",
         description="Directions to capture the material from; more show its changing look more truly",
         items=[(count, count, f"{count} views, {degrees} degrees apart") for count, degrees in
                (("12", 63), ("42", 36), ("162", 18))],
     )  # fmt: skip
-    size: bpy.props.IntProperty(
+    size = bpy.props.IntProperty(
         name="Size",
         description="Width and height of a view in texels; sharp materials need more",
         default=256,
         min=4,
         max=8192,
     )
-    samples: bpy.props.IntProperty(
+    samples = bpy.props.IntProperty(
         name="Samples", description="Samples of Cycles a texel; more make less noise", default=32, min=2
     )
-    denoise: bpy.props.BoolProperty(
+    denoise = bpy.props.BoolProperty(
         name="Denoise",
         description="Denoise each view: good for rough materials, bad for mirrors",
         default=True,
@@ -53,7 +54,7 @@ class RSIBR_PG_bake_views(bpy.types.PropertyGroup):
 class RSIBR_PG_bake_stack(bpy.types.PropertyGroup):
     """The fields of `tasks.methods.Lobes`."""
 
-    source: bpy.props.EnumProperty(
+    source = bpy.props.EnumProperty(
         name="Material",
         description="Where the material's reflectance comes from",
         items=[
@@ -63,31 +64,31 @@ class RSIBR_PG_bake_stack(bpy.types.PropertyGroup):
         ],
         default="MODEL",
     )
-    brdf: bpy.props.StringProperty(
+    brdf = bpy.props.StringProperty(
         name="Model",
         description="Model and its parameters, as ggx:alpha=0.3,metal=copper",
         default=GALLERY["Metals"]["Brushed copper"],
     )
-    path: bpy.props.StringProperty(
+    path = bpy.props.StringProperty(
         name="File",
         description=f"Measurement of the MERL, Cornell or RGL database: {', '.join(MEASURED_FORMATS)}",
         subtype="FILE_PATH",
         options={"PATH_SUPPORTS_BLEND_RELATIVE"},
     )
-    lobes: bpy.props.IntProperty(
+    lobes = bpy.props.IntProperty(
         name="Lobes",
         description="Lobes for each layer of the material; more follow its reflectance more closely",
         default=3,
         min=1,
         max=12,
     )
-    slices: bpy.props.IntProperty(
+    slices = bpy.props.IntProperty(
         name="Elevations", description="View elevations to make maps for", default=16, min=1, max=256
     )
-    size: bpy.props.IntProperty(
+    size = bpy.props.IntProperty(
         name="Size", description="Width of a map in texels; 0 for what the lobes need", min=0, max=2048
     )
-    half: bpy.props.BoolProperty(
+    half = bpy.props.BoolProperty(
         name="Half Floats", description="Half the space on disk, with 11 significant bits", default=True
     )
 
@@ -95,7 +96,7 @@ class RSIBR_PG_bake_stack(bpy.types.PropertyGroup):
 class RSIBR_PG_bake_tables(bpy.types.PropertyGroup):
     """The fields of `tasks.methods.Tables`."""
 
-    preset: bpy.props.EnumProperty(
+    preset = bpy.props.EnumProperty(
         name="Material",
         description="Parts that the material is made of",
         items=[
@@ -107,14 +108,14 @@ class RSIBR_PG_bake_tables(bpy.types.PropertyGroup):
             for name, parts in TABLE_PRESETS.items()
         ],
     )
-    diffuse_rows: bpy.props.IntProperty(
+    diffuse_rows = bpy.props.IntProperty(
         name="Diffuse Rows",
         description="Height of the diffuse table in texels; diffuse light changes slowly",
         default=36,
         min=1,
         max=8192,
     )
-    rows: bpy.props.IntProperty(
+    rows = bpy.props.IntProperty(
         name="Rows",
         description="Height of the other tables in texels; 0 for what the material needs",
         min=0,
@@ -125,7 +126,7 @@ class RSIBR_PG_bake_tables(bpy.types.PropertyGroup):
 class RSIBR_PG_bake_mips(bpy.types.PropertyGroup):
     """The fields of `tasks.methods.Mips`."""
 
-    filter: bpy.props.EnumProperty(
+    filter = bpy.props.EnumProperty(
         name="Filter",
         description="How each mip is made",
         items=[
@@ -134,13 +135,13 @@ class RSIBR_PG_bake_mips(bpy.types.PropertyGroup):
             ("box", "Box", "Means within each face of the cube, as in the paper of 2004"),
         ],
     )
-    size: bpy.props.EnumProperty(
+    size = bpy.props.EnumProperty(
         name="Size",
         description="Width of the sharpest mip's faces in texels",
         items=[(str(size), str(size), "") for size in (64, 128, 256, 512, 1024)],
         default="256",
     )
-    roughness: bpy.props.EnumProperty(
+    roughness = bpy.props.EnumProperty(
         name="Roughness",
         description="How roughness grows from mip to mip",
         items=[
@@ -153,7 +154,7 @@ class RSIBR_PG_bake_mips(bpy.types.PropertyGroup):
 class RSIBR_PG_bake_bank(bpy.types.PropertyGroup):
     """The fields of `tasks.methods.Bank`."""
 
-    size: bpy.props.EnumProperty(
+    size = bpy.props.EnumProperty(
         name="Size",
         description="Width of a map in texels; sharper materials need more",
         items=[(str(size), str(size), "") for size in (64, 128, 256, 512)],
@@ -161,11 +162,11 @@ class RSIBR_PG_bake_bank(bpy.types.PropertyGroup):
     )
 
 
-_studios: list[tuple[str, str, str, int, int]] = []
+_studios: list[Item] = []
 """Blender needs the texts of a property's items to stay."""
 
 
-def _studio_items(group: bpy.types.PropertyGroup, context: bpy.types.Context | None) -> list:
+def _studio_items(group: bpy.types.PropertyGroup, context: bpy.types.Context | None) -> list[Item]:
     """Blender's own environments, with the pictures that it has of them."""
     if not _studios:
         lights = bpy.context.preferences.studio_lights
@@ -178,7 +179,7 @@ def _studio_items(group: bpy.types.PropertyGroup, context: bpy.types.Context | N
 class RSIBR_PG_bake(bpy.types.PropertyGroup):
     """What is to be baked for the active object."""
 
-    light: bpy.props.EnumProperty(
+    light = bpy.props.EnumProperty(
         name="Light",
         description="Where the light that is baked comes from",
         items=[
@@ -187,15 +188,15 @@ class RSIBR_PG_bake(bpy.types.PropertyGroup):
             ("PICTURE", "Picture", "A latitude-longitude picture, OpenEXR or Radiance HDR"),
         ],
     )
-    studio: bpy.props.EnumProperty(
+    studio = bpy.props.EnumProperty(
         name="Environment", description="Environment that comes with Blender", items=_studio_items
     )
-    image: bpy.props.PointerProperty(
+    image = bpy.props.PointerProperty(
         type=bpy.types.Image,
         name="Image",
         description="The picture as Blender keeps track of it: its path, or its packed bytes",
     )
-    picture: bpy.props.StringProperty(
+    picture = bpy.props.StringProperty(
         name="Picture",
         description="Latitude-longitude picture of the light, OpenEXR or Radiance HDR",
         subtype="FILE_PATH",
@@ -203,7 +204,7 @@ class RSIBR_PG_bake(bpy.types.PropertyGroup):
         get=chosen_path,
         set=use_file,
     )
-    kind: bpy.props.EnumProperty(
+    kind = bpy.props.EnumProperty(
         name="Method",
         description="What is baked",
         items=[
@@ -214,11 +215,11 @@ class RSIBR_PG_bake(bpy.types.PropertyGroup):
             ("kernel_bank", "Kernel Bank", "Light alone, for any reflectance model: chosen while you look"),
         ],
     )
-    radiance_views: bpy.props.PointerProperty(type=RSIBR_PG_bake_views)
-    lobe_stack: bpy.props.PointerProperty(type=RSIBR_PG_bake_stack)
-    reflection_tables: bpy.props.PointerProperty(type=RSIBR_PG_bake_tables)
-    mip_chain: bpy.props.PointerProperty(type=RSIBR_PG_bake_mips)
-    kernel_bank: bpy.props.PointerProperty(type=RSIBR_PG_bake_bank)
+    radiance_views = bpy.props.PointerProperty(type=RSIBR_PG_bake_views)
+    lobe_stack = bpy.props.PointerProperty(type=RSIBR_PG_bake_stack)
+    reflection_tables = bpy.props.PointerProperty(type=RSIBR_PG_bake_tables)
+    mip_chain = bpy.props.PointerProperty(type=RSIBR_PG_bake_mips)
+    kernel_bank = bpy.props.PointerProperty(type=RSIBR_PG_bake_bank)
 
 
 CLASSES = (

@@ -3,16 +3,18 @@
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import ExitStack
 from pathlib import Path
+from typing import Any
 
 import bpy
 import bpy.utils.previews
 from bpy.app.handlers import persistent
 
 from ..core.errors import MapSetError
+from ..core.lobes.fit import Fit
 from ..host.icons import add_icon
 from ..host.sidebars import redraw_sidebars
 from ..tasks.fit_plots import lobe_picture
-from ..tasks.map_set_facts import file_stamp, map_set_fit
+from ..tasks.map_set_facts import file_stamp
 from ..tasks.map_set_pictures import MapPicture, map_set_pictures
 
 SECONDS = 0.1
@@ -37,7 +39,7 @@ class MapPictures:
         self.items: list[Item] = []
         self.fault = ""
         self._shown: tuple[Path, tuple[int, int] | None] | None = None
-        self._icons: bpy.utils.previews.ImagePreviewCollection | None = None
+        self._icons: Any = None  # A bpy.utils.previews.ImagePreviewCollection from `start` on
         self._reader: ThreadPoolExecutor | None = None
         self._read: Future[list[MapPicture]] | None = None
         self._lobes: float | None = None
@@ -64,31 +66,33 @@ class MapPictures:
     def show(self, path: Path) -> None:
         """Have `items` be of this map set: at once, or when its file has been read."""
         shown = path, file_stamp(path)
-        if shown == self._shown:
+        if shown == self._shown or self._reader is None:
             return
         self._forget()
         self._shown = shown
         self._read = self._reader.submit(map_set_pictures, path)
         bpy.app.timers.register(self._timer, first_interval=SECONDS, persistent=True)
 
-    def lobes(self, path: Path, mu: float) -> int:
+    def lobes(self, fit: Fit, mu: float) -> int:
         """The icon of the lobes of the map set that is shown.
 
         Parameters
         ----------
-        path : Path
-            Of a map set that tells its lobes.
+        fit : Fit
+            What it tells of them.
         mu : float
             n.v, in (0, 1].
         """
         if self._lobes != mu:
             self._icons.pop("lobes", None)
-            add_icon(self._icons, "lobes", lobe_picture(map_set_fit(path), mu))
+            add_icon(self._icons, "lobes", lobe_picture(fit, mu))
             self._lobes = mu
-        return self._icons["lobes"].icon_id
+        return int(self._icons["lobes"].icon_id)
 
     def _take(self) -> float | None:
         """Take what has been read."""
+        if self._read is None:
+            return None
         if not self._read.done():
             return SECONDS
         try:
@@ -111,7 +115,8 @@ class MapPictures:
 
     def _release(self) -> None:
         self._forget()
-        self._reader.shutdown()
+        if self._reader is not None:
+            self._reader.shutdown()
         bpy.utils.previews.remove(self._icons)
         self._icons = self._reader = None
 

@@ -1,5 +1,7 @@
 """Which material is baked."""
 
+from typing import Any
+
 import bpy
 
 from ..core.brdf.gallery import GALLERY, gallery_name
@@ -10,6 +12,7 @@ class _Models:
 
     bl_label = "Models"
     data_path: str
+    layout: bpy.types.UILayout
 
     def draw(self, context: bpy.types.Context) -> None:
         """Show what comes with the extension, by groups."""
@@ -66,7 +69,7 @@ class RSIBR_PT_material(bpy.types.Panel):
                 _draw_source(layout, chosen, context.object)
 
 
-def _draw_source(layout: bpy.types.UILayout, chosen: bpy.types.PropertyGroup, item: bpy.types.Object) -> None:
+def _draw_source(layout: bpy.types.UILayout, chosen: Any, item: bpy.types.Object | None) -> None:
     match chosen.source:
         case "OWN":
             if item is not None:

@@ -10,7 +10,7 @@ class RSIBR_AP_preferences(bpy.types.AddonPreferences):
 
     bl_idname = EXTENSION
 
-    folder: bpy.props.StringProperty(
+    folder = bpy.props.StringProperty(
         name="Baked Files",
         description="Folder for baked map sets; // is that of the open file. For files that are not saved "
         "yet, a folder of the user's own is taken",

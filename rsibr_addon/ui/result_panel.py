@@ -110,9 +110,12 @@ class RSIBR_PT_result_lobes(bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Show them for one view."""
         path, layout = written_path(context.object.rsibr), self.layout
+        fit = map_set_fit(path)
+        if fit is None:  # The file has been replaced since `poll`
+            return
         shown = context.window_manager.rsibr_result
         map_pictures.show(path)
-        layout.template_icon(map_pictures.lobes(path, math.cos(shown.angle)), scale=LOBES_SCALE)
+        layout.template_icon(map_pictures.lobes(fit, math.cos(shown.angle)), scale=LOBES_SCALE)
         row = layout.row()
         row.use_property_split = True
         row.prop(shown, "angle", slider=True)

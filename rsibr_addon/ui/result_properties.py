@@ -11,23 +11,23 @@ def _items(group: bpy.types.PropertyGroup, context: bpy.types.Context | None) ->
     return map_pictures.items
 
 
-def _number(group: bpy.types.PropertyGroup) -> int:
+def _number(group: "RSIBR_PG_result") -> int:
     """Another map set may have fewer maps."""
     return min(group.number, len(map_pictures.items) - 1)
 
 
-def _set_number(group: bpy.types.PropertyGroup, number: int) -> None:
+def _set_number(group: "RSIBR_PG_result", number: int) -> None:
     group.number = number
 
 
 class RSIBR_PG_result(bpy.types.PropertyGroup):
     """Which map, and the lobes from where."""
 
-    number: bpy.props.IntProperty(options={"HIDDEN"})
-    part: bpy.props.EnumProperty(
+    number = bpy.props.IntProperty(options={"HIDDEN"})
+    part = bpy.props.EnumProperty(
         name="Map", description="Which map is shown", items=_items, get=_number, set=_set_number
     )
-    angle: bpy.props.FloatProperty(
+    angle = bpy.props.FloatProperty(
         name="View",
         description="Angle between the surface's normal and the eye, for which the lobes are drawn",
         subtype="ANGLE",

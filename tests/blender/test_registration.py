@@ -4,7 +4,7 @@ import bpy
 import pytest
 import rsibr
 from rsibr.operators import CLASSES
-from rsibr.rsibr_addon import registration
+from rsibr.rsibr_addon import properties, registration
 
 
 def of_ours() -> set[str]:
@@ -61,3 +61,25 @@ def test_a_refused_class_leaves_none_registered(monkeypatch: pytest.MonkeyPatch)
     with pytest.raises(RuntimeError, match="bl_rna"):
         registration.register()
     assert of_ours() == set()
+
+
+def test_properties_of_a_class_and_of_its_mixins_are_blenders() -> None:
+    class Sized:
+        size = bpy.props.IntProperty(default=3)
+
+    class RSIBR_OT_measure(Sized, bpy.types.Operator):  # noqa: N801
+        bl_idname = "rsibr.measure"
+        bl_label = "Measure"
+        unit = bpy.props.StringProperty(default="m")
+
+        def execute(self, context: bpy.types.Context) -> set[str]:
+            seen.append((self.size, self.unit))
+            return {"FINISHED"}
+
+    seen: list[tuple[int, str]] = []
+    for size in (7, 8):  # The second time, they are annotated already
+        properties.annotate(RSIBR_OT_measure)
+        bpy.utils.register_class(RSIBR_OT_measure)
+        bpy.ops.rsibr.measure(size=size)
+        bpy.utils.unregister_class(RSIBR_OT_measure)
+    assert seen == [(7, "m"), (8, "m")]

@@ -16,7 +16,9 @@ OWNERS = {
     "modes": "radiance_views",
     "warpings": "radiance_views",
     "captured_views": "radiance_views",
+    "material": "radiance_views",
     "rings": "lobe_stack",
+    "brdf": "lobe_stack",
 }
 """Name of an option's value -> the kind of map sets that has it."""
 
@@ -64,12 +66,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="append",
         help="draw from so many of the captured views only; may be repeated (default: from all)",
     )
+    views.add_argument(
+        "--material",
+        metavar="PRESET|FILE.blend:NAME",
+        help="the material that was captured, where it is in a file (default: what the map set names)",
+    )
     stacks = parser.add_argument_group("lobe stacks, against their BRDF", argument_default=argparse.SUPPRESS)
     stacks.add_argument(
         "--rings",
         metavar="N",
         type=options.positive,
         help="rings of a sphere on which reflection is integrated exactly (default: as the maps are fine)",
+    )
+    stacks.add_argument(
+        "--brdf",
+        metavar="SPEC",
+        help="the model that was baked, where it is in a file, as rsibr bake takes it (default: what the map "
+        "set names)",
     )
     options.add_output(parser, "FOLDER", "for the page, its pictures and comparison.json")
 
@@ -125,7 +138,9 @@ def _compare_views(
         warpings=tuple(Warping(warping) for warping in given.get("warpings", WARPS)),
         captured_views=tuple(given.get("captured_views", ())),
     )
-    comparison = report.steps(compare(arguments.map_set, settings, arguments.output, arguments.force))
+    comparison = report.steps(
+        compare(arguments.map_set, settings, arguments.output, arguments.force, given.get("material"))
+    )
     return comparison, comparison_table([comparison])
 
 
@@ -135,6 +150,9 @@ def _compare_stack(
     from ..tasks.compare_stack import compare_stack
     from ..tasks.comparison import StackComparisonSettings, stack_table
 
-    settings = StackComparisonSettings(**scene, rings=vars(arguments).get("rings"))
-    comparison = report.steps(compare_stack(arguments.map_set, settings, arguments.output, arguments.force))
+    given = vars(arguments)
+    settings = StackComparisonSettings(**scene, rings=given.get("rings"))
+    comparison = report.steps(
+        compare_stack(arguments.map_set, settings, arguments.output, arguments.force, given.get("brdf"))
+    )
     return comparison, stack_table([comparison])

@@ -17,6 +17,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=Path,
         help="the page, which needs nothing beside it (default: NAME.html beside the map set)",
     )
+    parser.add_argument(
+        "--brdf",
+        metavar="SPEC",
+        help="the model to plot beside a lobe stack's lobes, where it is in a file, as rsibr bake takes it "
+        "(default: what the map set names)",
+    )
     parser.add_argument("--force", action="store_true", help="replace what exists")
 
 
@@ -37,6 +43,6 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     from ..tasks.map_set_page import map_set_page
 
     output = arguments.output or page_beside(arguments.map_set)
-    page = report.steps(map_set_page(arguments.map_set, output, arguments.force))
+    page = report.steps(map_set_page(arguments.map_set, output, arguments.force, arguments.brdf))
     report.say(f"{page}")
     return {"page": str(page)}

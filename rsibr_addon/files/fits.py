@@ -9,7 +9,7 @@ from ..core.lobes.bank import KernelBank
 from ..core.lobes.fit import Fit
 from ..core.schema import LARGEST_TEXT, array, decode, length, loads
 from .atomic import written_aside
-from .map_set_header import MOST_KERNELS, Colour
+from .map_set_header import MOST_KERNELS, Colour, Model
 from .reading import opened
 
 KIND, FORMAT = "rsibr lobe fit", 1
@@ -17,7 +17,7 @@ _ARRAYS = {"mu": 1, "weights": 4, "scale": 3, "offsets": 4, "taps": 3}
 
 
 class _File(TypedDict):
-    brdf: str
+    brdf: Model
     method: str
     concentrations: Annotated[list[float], length(1, MOST_KERNELS)]
     mu: list[float]

@@ -46,6 +46,10 @@ type Word = Annotated[
 """Part of a file's name, when maps are exported."""
 
 
+type Model = Annotated[str, length(0, 4096)]
+"""Of reflectance, as a text."""
+
+
 class _Environment(TypedDict):
     name: str
     sha256: Hash
@@ -55,7 +59,7 @@ class _Environment(TypedDict):
 
 class _Material(TypedDict):
     name: NotRequired[str]
-    brdf: NotRequired[str]
+    brdf: NotRequired[Model]
 
 
 class _Part(TypedDict):
@@ -84,7 +88,7 @@ class _ViewsMaterial(TypedDict):
 
 
 class _StackMaterial(TypedDict):
-    brdf: str
+    brdf: Model
     method: str
 
 

@@ -69,6 +69,18 @@ def material_name(spec: str) -> str:
     return _parsed(spec)[1]
 
 
+def names_other_file(spec: str) -> bool:
+    """Whether `load_material` would open a file for it that is not open.
+
+    Raises
+    ------
+    InputFileError
+        It names no material.
+    """
+    file, _ = _parsed(spec)
+    return bool(file and not _is_open(Path(file)))
+
+
 def lasting_spec(spec: str) -> str:
     """What names the same material also when another file is open, as far as this one has a name."""
     return f"{_open_path()}{spec}" if spec.startswith(":") else spec

@@ -30,7 +30,7 @@ from ..job import BakeJob
 from .background import Bake, blender_command
 from .beside import comparison_beside
 from .map_set_facts import map_set_header
-from .methods import METHODS, Lobes, Method, Views
+from .methods import METHODS, Lobes, Method, Views, measured_spec
 
 HASH_LETTERS = 10
 """Of a file's name: enough to tell a million bakes apart."""
@@ -226,8 +226,23 @@ def comparison_of(item: Any, map_set: Path) -> ObjectBake:
     """
     check_comparable(map_set)
     folder = comparison_beside(map_set)
-    arguments = ("compare", str(map_set), "--views", str(COMPARED_VIEWS), "--output", str(folder), "--force")
-    return _in_background(f"{item.name}: comparison", BakeJob(arguments), item, folder / "index.html", True)
+    views = ("--views", str(COMPARED_VIEWS))
+    job = BakeJob(("compare", str(map_set), *views, *_named_model(item), "--output", str(folder), "--force"))
+    return _in_background(f"{item.name}: comparison", job, item, folder / "index.html", True)
+
+
+def _named_model(item: Any) -> tuple[str, ...]:
+    """The model that the artist chose for a bake: no file is opened because a map set alone names it."""
+    if not item.is_property_set("rsibr_baked") or item.rsibr_baked.kind != Lobes.kind:
+        return ()
+    chosen = getattr(item.rsibr_baked, Lobes.kind)
+    match chosen.source:
+        case "FILE":
+            return "--brdf", measured_spec(existing(chosen.path, "measured material", "its file"))
+        case "MODEL":
+            return "--brdf", chosen.brdf
+        case _:
+            return ()
 
 
 def check_comparable(map_set: Path) -> None:

@@ -1,6 +1,7 @@
 """Reflectance models by their text, materials of Blender files included: those are measured."""
 
 import warnings
+from typing import NoReturn
 
 import numpy as np
 
@@ -8,12 +9,13 @@ from ..core.brdf.albedo import directional_albedo as table_albedo
 from ..core.brdf.albedo import warn_of_gain
 from ..core.brdf.measured_material import MeasuredMaterial, measured_material, measured_pairs
 from ..core.brdf.model import Brdf
-from ..core.errors import RsibrWarning, SceneError
+from ..core.brdf.spec import brdf_from_spec as spec_without_files
+from ..core.errors import InputFileError, RsibrWarning, SceneError
 from ..core.progress import Progress, Steps
 from ..files.brdfs import brdf_from_spec
 from ..host.furnace import COSINES, directional_albedo
 from ..host.goniophotometer import LEAST_COSINE, measure
-from ..host.materials import lasting_spec, load_material
+from ..host.materials import lasting_spec, load_material, names_other_file
 from ..host.scenes import temporary_scene
 from ..host.shape_dependence import shape_dependence
 
@@ -56,10 +58,69 @@ def load_brdf(spec: str) -> Steps[Brdf]:
     RsibrWarning
         See `files.brdfs.brdf_from_spec` and `measure_material`.
     """
-    name, _, material = spec.partition(":")
-    if name.strip() != MATERIAL:
+    if not _is_material(spec):
         return brdf_from_spec(spec)
-    return (yield from measure_material(material.strip()))
+    return (yield from measure_material(_material(spec)))
+
+
+def told_brdf(spec: str) -> Brdf:
+    """The model that a map set's text describes; unlike `load_brdf`, it opens no file and measures nothing.
+
+    Parameters
+    ----------
+    spec : str
+        Of a file that may come from anywhere.
+
+    Returns
+    -------
+    Brdf
+
+    Raises
+    ------
+    RangeError
+        The text describes no model.
+    InputFileError
+        The model is in another file, or is a material of Blender.
+    """
+    if _is_material(spec):
+        raise InputFileError(f"{spec} is a material of Blender: name it with --brdf to have it measured.")
+    return spec_without_files(spec, _refuse_file)
+
+
+def check_told_brdf(spec: str) -> None:
+    """Refuse to open a file because a map set says so.
+
+    Parameters
+    ----------
+    spec : str
+        Of a file that may come from anywhere.
+
+    Raises
+    ------
+    RangeError
+        The text describes no model.
+    InputFileError
+        The model is in a file that is not open.
+    """
+    if not _is_material(spec):
+        told_brdf(spec)
+    elif names_other_file(_material(spec)):
+        _refuse_file(MATERIAL, _material(spec))
+
+
+def _refuse_file(name: str, path: str) -> NoReturn:
+    raise InputFileError(
+        f"The map set says that its model is in {path}, a file that is opened only if you name it: do so "
+        f"with --brdf {name}:..."
+    )
+
+
+def _material(spec: str) -> str:
+    return spec.partition(":")[2].strip()
+
+
+def _is_material(spec: str) -> bool:
+    return spec.partition(":")[0].strip() == MATERIAL
 
 
 def measure_material(material: str) -> Steps[MeasuredMaterial]:

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..core.camera import Camera
 from ..core.conventions import Array
-from ..core.errors import MapSetError
+from ..core.errors import InputFileError, MapSetError
 from ..core.metrics import relative_rmse, relative_rmse_beyond_noise, unpremultiplied
 from ..core.progress import Progress, Steps
 from ..core.shading.radiance_views import ViewsLook
@@ -17,6 +17,7 @@ from ..device.radiance_views import RadianceViewsOnDevice
 from ..files.folders import check_folder_target, folder_written_aside
 from ..files.map_set import read_map_set_header
 from ..files.map_set_header import content_hash
+from ..host.materials import names_other_file
 from ..host.meshes import load_mesh
 from .comparison import RESULT, Comparison, ComparisonSettings, StackWay, Way, WayError
 from .comparison_page import comparison_page
@@ -26,7 +27,11 @@ from .references import Reference, Subject, check_material, render_reference
 
 
 def compare(
-    map_set: Path, settings: ComparisonSettings, output: Path, force: bool = False
+    map_set: Path,
+    settings: ComparisonSettings,
+    output: Path,
+    force: bool = False,
+    material: str | None = None,
 ) -> Steps[Comparison[Way]]:
     """Render random views with Cycles, draw the same views from a map set, and tell the difference.
 
@@ -40,6 +45,9 @@ def compare(
         it by itself, and its pictures as images/*.png.
     force : bool
         Whether an earlier comparison in `output` is replaced.
+    material : str, optional
+        The material that was captured, as `host.materials.load_material` takes it; by default the one that
+        the map set names, which must not be in another file.
 
     Yields
     ------
@@ -54,7 +62,7 @@ def compare(
     MapSetError
         The map set does not hold its environment.
     InputFileError
-        The material is gone, or is not what it was; or the mesh cannot be used.
+        The material is gone, is not what it was, or is in another file; or the mesh cannot be used.
     OutputFileError, RangeError, RenderError, DeviceError
 
     Notes
@@ -67,7 +75,7 @@ def compare(
     total = settings.views + 2
     yield Progress(0, total, f"reading {map_set.name}")
     captured = open_map_set(map_set, "radiance_views")
-    subject = _subject(map_set, captured, settings)
+    subject = _subject(map_set, captured, settings, material)
     easel = _Easel(captured, settings)
     cameras = settings.cameras
     references: list[Reference] = []
@@ -151,14 +159,22 @@ def save_comparison(
         (folder / RESULT).write_text(json.dumps(comparison.to_json(), indent=1), encoding="utf-8")
 
 
-def _subject(map_set: Path, captured: OpenedMapSet, settings: ComparisonSettings) -> Subject:
+def _subject(
+    map_set: Path, captured: OpenedMapSet, settings: ComparisonSettings, named: str | None
+) -> Subject:
     if captured.environment is None:
         raise MapSetError(
             f"{map_set} does not hold the environment to render a reference in: capture it again."
         )
-    check_material(captured.material["spec"], captured.material["fingerprint"])
+    material = named or captured.material["spec"]
+    if named is None and names_other_file(material):
+        raise InputFileError(
+            f"{map_set} says that its material is {material}, in a file that is opened only if you name it: "
+            f"do so with --material."
+        )
+    check_material(material, captured.material["fingerprint"])
     mesh = None if settings.mesh == "sphere" else load_mesh(settings.mesh)
-    return Subject(captured.material["spec"], captured.environment, mesh)
+    return Subject(material, captured.environment, mesh)
 
 
 def _error(way: Way, pictures: list[Array], references: list[Reference]) -> WayError[Way]:

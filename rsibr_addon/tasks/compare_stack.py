@@ -21,7 +21,7 @@ from ..files.folders import check_folder_target
 from ..files.map_set import read_map_set_header
 from ..files.map_set_header import content_hash
 from ..host.meshes import TriangleMesh, load_mesh
-from .brdfs import load_brdf
+from .brdfs import check_told_brdf, load_brdf
 from .compare import save_comparison
 from .comparison import RESULT, Comparison, StackComparisonSettings, StackWay, WayError
 from .kinds import open_map_set
@@ -31,7 +31,11 @@ LEAST_RINGS = 32
 
 
 def compare_stack(
-    map_set: Path, settings: StackComparisonSettings, output: Path, force: bool = False
+    map_set: Path,
+    settings: StackComparisonSettings,
+    output: Path,
+    force: bool = False,
+    brdf: str | None = None,
 ) -> Steps[Comparison[StackWay]]:
     """Light a sphere exactly, show a mesh as it and from a lobe stack, and tell the difference.
 
@@ -44,6 +48,9 @@ def compare_stack(
         A folder to be made, as by `compare.compare`.
     force : bool
         Whether an earlier comparison in `output` is replaced.
+    brdf : str, optional
+        The model that counts as true, as `tasks.brdfs.load_brdf` takes it; by default the map set's own,
+        which must not be in another file.
 
     Yields
     ------
@@ -58,7 +65,7 @@ def compare_stack(
     MapSetError
         The map set does not hold its environment, or is no lobe stack.
     InputFileError, RangeError
-        Its BRDF cannot be read any more; or the mesh cannot be used.
+        Its BRDF is none, cannot be read, or is in another file; or the mesh cannot be used.
     OutputFileError, DeviceError
 
     Notes
@@ -73,15 +80,17 @@ def compare_stack(
     opened = open_map_set(map_set, "lobe_stack")
     if opened.environment is None:
         raise MapSetError(f"{map_set} does not hold the environment to light exactly: bake it again.")
-    spec = opened.material["brdf"]
-    brdf = yield from load_brdf(spec)
+    spec = brdf or opened.material["brdf"]
+    if brdf is None:
+        check_told_brdf(spec)
+    model = yield from load_brdf(spec)
     mesh = load_mesh(settings.mesh)
     cameras = settings.cameras
     view_dirs = [camera.view_dir for camera in cameras]
     stack = opened.subject
     rings = settings.rings or max(LEAST_RINGS, stack.size // 2)
     settings = replace(settings, rings=rings)
-    spheres = yield from lit_spheres(brdf, opened.environment.radiance, view_dirs, rings)
+    spheres = yield from lit_spheres(model, opened.environment.radiance, view_dirs, rings)
     yield Progress(0, 1, f"writing {output.name}")
     ensure_context()
     references = [

@@ -15,21 +15,20 @@ from ..core.brdf.gallery import gallery_name
 from ..core.brdf.model import Brdf
 from ..core.camera import Camera
 from ..core.conventions import Array
-from ..core.errors import DeviceError, InputFileError, OutputFileError, RsibrWarning
+from ..core.errors import DeviceError, OutputFileError, RsibrError, RsibrWarning
 from ..core.miniature import miniature
-from ..core.progress import Progress, Steps, drain
+from ..core.progress import Progress, Steps
 from ..device.preview import PreviewRenderer
 from ..files.atomic import check_target, written_aside
 from ..files.kinds.lobe_stack import PROFILES
 from ..files.map_set import read_map_set
 from ..host.meshes import load_mesh
 from ..host.pictures import save_png
-from .brdfs import load_brdf
+from .brdfs import load_brdf, told_brdf
 from .fit_plots import ELEVATIONS, lobe_plot
 from .kinds import KINDS, open_map_set
 from .map_set_facts import map_set_fit
 from .measured_error import measured_facts
-from .methods import MATERIAL
 
 TEMPLATE = Path(__file__).with_suffix(".html")
 
@@ -48,7 +47,7 @@ LOOKS = {"sphere": Camera((0.3, -1.0, 0.3)), "monkey": Camera((0.3, -1.0, 0.3))}
 """Mesh -> from where it is shown."""
 
 
-def map_set_page(map_set: Path, output: Path, force: bool = False) -> Steps[Path]:
+def map_set_page(map_set: Path, output: Path, force: bool = False, brdf: str | None = None) -> Steps[Path]:
     """Show all that a map set holds.
 
     Parameters
@@ -58,6 +57,9 @@ def map_set_page(map_set: Path, output: Path, force: bool = False) -> Steps[Path
         NAME.html, without scripts and links.
     force : bool
         Whether an existing file is replaced.
+    brdf : str, optional
+        The model to plot beside a lobe stack's lobes, as `tasks.brdfs.load_brdf` takes it; by default the
+        map set's own, unless that is in another file or takes to be measured.
 
     Yields
     ------
@@ -71,6 +73,8 @@ def map_set_page(map_set: Path, output: Path, force: bool = False) -> Steps[Path
     Raises
     ------
     MapSetError, OutputFileError
+    RsibrError
+        See `load_brdf`, of `brdf` alone: where the map set's own model is none, the page says so.
 
     Warns
     -----
@@ -84,6 +88,7 @@ def map_set_page(map_set: Path, output: Path, force: bool = False) -> Steps[Path
     held = read_map_set(map_set)
     yield Progress(1, 3, "drawing with it")
     looks = _looks(map_set)
+    truth = None if brdf is None else (yield from load_brdf(brdf))
     yield Progress(2, 3, "drawing its maps")
     header = held.header
     page = Template(TEMPLATE.read_text(encoding="utf-8")).substitute(
@@ -93,7 +98,7 @@ def map_set_page(map_set: Path, output: Path, force: bool = False) -> Steps[Path
         looks="\n".join(_image(picture, f"a {mesh}") for mesh, picture in looks.items()),
         bound=_definitions(header["error_bound"] or {"nothing": "its maker stated no error"}),
         measured=_definitions(measured_facts(map_set) or {"nothing": "it has not been compared yet"}),
-        lobes="\n".join(_lobes(map_set)),
+        lobes="\n".join(_lobes(map_set, truth)),
         facts=_definitions(_facts(header)),
         roles="\n".join(_roles(header["parts"], held.maps)),
     )
@@ -117,25 +122,20 @@ def _looks(map_set: Path) -> dict[str, Array]:
     return pictures
 
 
-def _lobes(map_set: Path) -> list[str]:
+def _lobes(map_set: Path, truth: Brdf | None) -> list[str]:
     """Plots of the lobes, where the map set tells them."""
     fit = map_set_fit(map_set)
     if fit is None:
         return []
-    brdf = _truth(fit.brdf)
-    plots = [lobe_plot(fit, brdf, mu) for mu in ELEVATIONS]
+    missing = ""
+    if truth is None:
+        try:
+            truth = told_brdf(fit.brdf)
+        except RsibrError as error:
+            missing = f'<p class="faint">The BRDF is not shown. {escape(str(error))}</p>'
+    plots = [lobe_plot(fit, truth, mu) for mu in ELEVATIONS]
     images = (_embedded("image/svg+xml", plot.encode("utf-8"), "lobes") for plot in plots)
-    return [LOBES, '<div class="plots">', *images, "</div>"]
-
-
-def _truth(spec: str) -> Brdf | None:
-    """What the lobes stand for; None where a render alone would tell, or its file is gone."""
-    if spec.startswith(MATERIAL):
-        return None
-    try:
-        return drain(load_brdf(spec))
-    except InputFileError:
-        return None
+    return [LOBES, missing, '<div class="plots">', *images, "</div>"]
 
 
 def _title(header: Mapping[str, Any]) -> str:

@@ -52,6 +52,9 @@ MODELS: dict[str, type[Brdf]] = {
 MEASURED = ("merl", "cornell", "rgl")
 """Names of the formats of measured models, whose only key is path: all that follows it."""
 
+DEEPEST = 8
+"""Models within each other."""
+
 A_MODEL = "a model in parentheses, as (lambert:kd=0.5)"
 _ALPHA = re.compile(r"(?<=[:,])\s*alpha\s*=[^,()]*")
 FRESNEL_KEYS = ("metal", "eta", "k", "f0", "f90")
@@ -262,6 +265,8 @@ def _split(text: str, separator: str) -> list[str]:
     depth, parts = 0, [""]
     for character in text:
         depth += (character == "(") - (character == ")")
+        if depth > DEEPEST:
+            raise RangeError(f"models are within each other more than {DEEPEST} times; name fewer layers.")
         if depth < 0:
             break
         if character == separator and depth == 0:

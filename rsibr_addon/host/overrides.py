@@ -9,7 +9,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 
-def complete_override(item: bpy.types.Object) -> None:
+def complete_override(item: bpy.types.ID) -> None:
     """Give an object and the linked one all groups of ours, if it is an override that has any."""
     if item.override_library and item.override_library.reference:
         for name in ("rsibr", "rsibr_baked"):

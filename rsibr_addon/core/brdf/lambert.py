@@ -42,4 +42,4 @@ class GlossyOverLambert(Brdf):
         """The glossy part and, where there is one, the diffuse part."""
         if not np.any(self.kd):
             return (self,)
-        return (replace(self, kd=0.0), Lambert(kd=self.kd))  # type: ignore[type-var]
+        return (replace(self, kd=0.0), Lambert(kd=self.kd))  # type: ignore[type-var]  # its subclasses are dataclasses

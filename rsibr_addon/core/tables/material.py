@@ -13,7 +13,7 @@ weights      ``fresnel:eta=1.5``, ``fresnel:metal=copper``, ``albedo:brdf=(ggx:a
 ===========  ================================================================================
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -36,7 +36,7 @@ from .models import (
     WeightModel,
 )
 
-MODELS: dict[str, tuple[type, ...]] = {
+MODELS: dict[str, tuple[type[Any], ...]] = {
     "diffuse": (LambertTable, LuminousTable),
     "specular": (MirrorTable, PhongTable),
     "coat": (ConstantReflectance, FresnelReflectance),
@@ -186,11 +186,11 @@ def _part(part: str, text: str, read_measured: ReadMeasured) -> Any:
     if part == "emission":
         return Emission(**arguments_from_text(Emission, f"radiance={text}", read_measured))
     name, _, rest = (piece.strip() for piece in text.partition(":"))
-    owners: dict[str, Callable[..., Any]] = {owner.model: owner for owner in MODELS[part]}  # type: ignore[attr-defined]
+    owners = {owner.model: owner for owner in MODELS[part]}
     if name not in owners:
         raise RangeError(f'there is no model "{name}" for it: choose one of {", ".join(owners)}.')
     owner = owners[name]
     try:
-        return owner(**arguments_from_text(owner, rest, read_measured))  # type: ignore[arg-type]
+        return owner(**arguments_from_text(owner, rest, read_measured))
     except RangeError as error:
         raise RangeError(f"{name}: {error}") from error

@@ -16,8 +16,8 @@ from .from_pictures import EnvironmentSize, FromSeveralPictures
 def _circle(name: str) -> Sequence[float]:
     return bpy.props.FloatVectorProperty(
         name=name,
-        description="Middle and radius of the ball's outline in pixels from the photograph's top left "
-        "corner; radius 0 to find it",
+        description="Middle and radius of the ball's outline in pixels from the top left corner of the "
+        "photograph as Blender shows it; radius 0 to find it",
         options={"SKIP_SAVE"},
     )
 

@@ -31,7 +31,7 @@ LAYERS: dict[str, set[str]] = {
 THIRD_PARTY: dict[str, set[str]] = {
     "core": {"numpy"},
     "job": set(),
-    "files": {"numpy", "OpenEXR"},
+    "files": {"numpy", "OpenEXR", "OpenImageIO"},
     "host": {"numpy", "bpy", "bmesh", "mathutils"},
     "device": {"numpy", "bpy", "gpu", "gpu_extras", "mathutils"},
     "tasks": {"numpy"},
@@ -114,13 +114,15 @@ def test_manifest_and_package_agree() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     assert manifest["version"] == project["version"]
     assert manifest["license"] == [f"SPDX:{project['license']}"]
-    # The tests run with the OpenEXR that the zip ships, on each platform and for both Pythons
+    # The tests run with the packages that the zip ships, on each platform and for both Pythons
     constraints = (ROOT / ".ci" / "constraints.txt").read_text().splitlines()
-    (openexr,) = (line.partition("==")[2] for line in constraints if line.startswith("OpenEXR=="))
+    pinned = dict(line.split("==") for line in constraints if "==" in line)
+    packages = {(name.lower(), pinned[name]) for name in ("OpenEXR", "OpenImageIO")}
     wheels = [Path(wheel).stem.split("-") for wheel in manifest["wheels"]]
-    assert {(name, version) for name, version, *_ in wheels} == {("openexr", openexr)}
+    assert {(name, version) for name, version, *_ in wheels} == packages
     systems = ("manylinux*_x86_64", "macosx*_x86_64", "macosx*_arm64", "win_amd64")
-    expected = [(python, system) for python in ("cp313", "cp314") for system in systems]
-    for python, system in expected:
-        assert sum(wheel[3] == python and fnmatch(wheel[4], system) for wheel in wheels) == 1
+    expected = [(*each, py, system) for each in packages for py in ("cp313", "cp314") for system in systems]
+    for *package, python, system in expected:
+        fits = [wheel[:2] == package and wheel[3] == python and fnmatch(wheel[4], system) for wheel in wheels]
+        assert sum(fits) == 1
     assert len(wheels) == len(expected)

@@ -18,7 +18,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--circle",
         metavar="X,Y,R",
         type=_circle,
-        help="the ball's outline in pixels from the photograph's top left corner (default: found)",
+        help="the ball's outline in pixels from the top left corner of the photograph as it is stored, "
+        "not turned by its Exif (default: found)",
     )
     distance = parser.add_mutually_exclusive_group()
     distance.add_argument(

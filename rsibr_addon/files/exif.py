@@ -1,17 +1,22 @@
-"""What a camera notes in its photographs: Exif, in JPEG and in TIFF."""
+"""What cameras note of how a photograph was exposed: Exif, in whatever kind of file."""
 
-import struct
+import math
+import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
-from ..core.errors import InputFileError
-from .reading import opened
+from ..core.errors import InputFileError, RsibrWarning
+from .photographs import read_notes
 
-EXIF_FOLDER, EXPOSURE_TIME, F_NUMBER, SENSITIVITY = 0x8769, 0x829A, 0x829D, 0x8827
-SHORT, LONG, RATIONAL = 3, 4, 5
-START_OF_SCAN = 0xDA
-LARGEST_HEAD = 1 << 20
-"""Bytes of a file that are looked through; an Exif segment has 64 KiB at most."""
+LONGEST, LARGEST_F, LARGEST_ISO = 1e6, 1e3, 1e8
+"""Beyond these a number says that nothing is known: infinity, or all bits set."""
+
+SEE_ANOTHER = 65535
+"""The PhotographicSensitivity that stands for all that its 16 bits cannot hold: other fields tell it."""
+
+SENSITIVITIES = ("Exif:RecommendedExposureIndex", "Exif:StandardOutputSensitivity", "Exif:ISOSpeed")
 
 
 @dataclass(frozen=True)
@@ -23,7 +28,7 @@ class Exposure:
     time : float
         [s], above 0.
     f_number : float or None
-        Focal length over aperture.
+        Focal length over aperture; None where it is not told, as by lenses without contacts.
     sensitivity : float or None
         ISO.
     """
@@ -39,94 +44,103 @@ def read_exposure(path: str | Path) -> Exposure:
     Parameters
     ----------
     path : str or Path
-        JPEG or TIFF.
+        See `read_notes`.
 
     Returns
     -------
     Exposure
+        By the plain fields; by the APEX values of shutter and aperture where those say nothing. The exposure
+        bias and the brightness that cameras note too are in these already.
 
     Raises
     ------
     InputFileError
         The file is missing or unreadable, or tells no exposure time.
     """
-    with opened(path) as stream:
-        head = stream.read(LARGEST_HEAD)
-    try:
-        fields = _fields(_tiff(head))
-    except (struct.error, IndexError):  # it is cut off, or nonsense
-        fields = {}
-    time = fields.get(EXPOSURE_TIME, 0.0)
-    if not time > 0.0:
+    notes = read_notes(path)
+    time = _told(notes, "ExposureTime", LONGEST)
+    if time is None and "Exif:ShutterSpeedValue" in notes:
+        time = _usable(_exponential(-_number(notes["Exif:ShutterSpeedValue"])), LONGEST)
+    if time is None:
         raise InputFileError(f"{path} does not tell its exposure time: give the times of all photographs.")
-    return Exposure(time, fields.get(F_NUMBER) or None, fields.get(SENSITIVITY) or None)
+    f_number = _told(notes, "FNumber", LARGEST_F)
+    if f_number is None and (aperture := _told(notes, "Exif:ApertureValue", LARGEST_F)):
+        f_number = _usable(_exponential(aperture / 2.0), LARGEST_F)
+    sensitivity = _told(notes, "Exif:PhotographicSensitivity", SEE_ANOTHER)
+    for name in SENSITIVITIES:
+        sensitivity = sensitivity or _told(notes, name, LARGEST_ISO)
+    return Exposure(time, f_number, sensitivity)
 
 
-def relative_exposures(exposures: list[Exposure]) -> list[float]:
+def relative_exposures(paths: Sequence[Path], exposures: Sequence[Exposure]) -> list[float]:
     """Exposures to be compared with each other.
 
     Parameters
     ----------
-    exposures : list of Exposure
+    paths : sequence of Path
+        Named in messages.
+    exposures : sequence of Exposure
+        One for each.
 
     Returns
     -------
     list of float
-        Times [s], where aperture or sensitivity differ from the first photograph's made longer or
-        shorter accordingly; what a photograph does not tell counts as unchanged.
+        Times [s], made longer or shorter where aperture or sensitivity differ.
+
+    Raises
+    ------
+    InputFileError
+        Some photographs do not tell their aperture or sensitivity, and it varies among those that do.
+
+    Warns
+    -----
+    RsibrWarning
+        It is the same in all that do, and is taken for the others.
     """
-    first = exposures[0]
-    relative = []
-    for exposure in exposures:
-        factor = 1.0
-        if exposure.sensitivity and first.sensitivity:
-            factor *= exposure.sensitivity / first.sensitivity
-        if exposure.f_number and first.f_number:
-            factor *= (first.f_number / exposure.f_number) ** 2
-        relative.append(exposure.time * factor)
-    return relative
+    f_numbers = _completed(paths, [each.f_number for each in exposures], "f-number")
+    sensitivities = _completed(paths, [each.sensitivity for each in exposures], "sensitivity (ISO)")
+    return [
+        each.time * (f_numbers[0] / f_number) ** 2 * sensitivity / sensitivities[0]
+        for each, f_number, sensitivity in zip(exposures, f_numbers, sensitivities, strict=True)
+    ]
 
 
-def _tiff(head: bytes) -> bytes:
-    """The TIFF structure in a file, which holds the fields; empty where there is none."""
-    if head.startswith((b"II*\0", b"MM\0*")):
-        return head
-    if not head.startswith(b"\xff\xd8"):
-        return b""
-    at = 2
-    while head[at] == 0xFF and head[at + 1] != START_OF_SCAN:
-        (length,) = struct.unpack_from(">H", head, at + 2)
-        segment = head[at + 4 : at + 2 + length]
-        if segment.startswith(b"Exif\0\0"):
-            return segment[6:]
-        at += 2 + length
-    return b""
+def _completed(paths: Sequence[Path], told: list[float | None], what: str) -> list[float]:
+    """Numbers of which some may not be told, which is harmless where those that are told are equal."""
+    known = [number for number in told if number is not None]
+    if not known:
+        return [1.0] * len(told)
+    lacking = ", ".join(path.name for path, number in zip(paths, told, strict=True) if number is None)
+    if lacking and max(known) > min(known) * (1.0 + 1e-6):
+        raise InputFileError(
+            f"The {what} varies from {min(known):g} to {max(known):g}, but {lacking} tells none: give the "
+            f"exposure times of all photographs, made longer or shorter by it."
+        )
+    if lacking:
+        warnings.warn(
+            f"{lacking} tells no {what}: that of the other photographs, {known[0]:g}, is taken.",
+            RsibrWarning,
+            stacklevel=3,
+        )
+    return [known[0] if number is None else number for number in told]
 
 
-def _fields(tiff: bytes) -> dict[int, float]:
-    """The first number of each field in the first folder and in that of Exif."""
-    if not tiff:
-        return {}
-    order = "<" if tiff.startswith(b"II") else ">"
-    (first,) = struct.unpack_from(order + "I", tiff, 4)
-    fields = _folder(tiff, order, first)
-    if EXIF_FOLDER in fields:
-        fields |= _folder(tiff, order, int(fields[EXIF_FOLDER]))
-    return fields
+def _told(notes: dict[str, Any], name: str, most: float) -> float | None:
+    return _usable(_number(notes[name]), most) if name in notes else None
 
 
-def _folder(tiff: bytes, order: str, at: int) -> dict[int, float]:
-    fields = {}
-    (count,) = struct.unpack_from(order + "H", tiff, at)
-    for entry in range(at + 2, at + 2 + 12 * count, 12):
-        tag, kind, _ = struct.unpack_from(order + "HHI", tiff, entry)
-        if kind == SHORT:
-            (fields[tag],) = struct.unpack_from(order + "H", tiff, entry + 8)
-        elif kind == LONG:
-            (fields[tag],) = struct.unpack_from(order + "I", tiff, entry + 8)
-        elif kind == RATIONAL:
-            (place,) = struct.unpack_from(order + "I", tiff, entry + 8)
-            numerator, denominator = struct.unpack_from(order + "II", tiff, place)
-            if denominator:
-                fields[tag] = numerator / denominator
-    return fields
+def _usable(number: float, most: float) -> float | None:
+    """A number, or None for those that say that nothing is known: 0, 0/0, infinity and all bits set."""
+    return number if 0.0 < number < most else None
+
+
+def _number(value: Any) -> float:
+    """A field's number, which may be written as a fraction; NaN if it is none."""
+    if isinstance(value, tuple):
+        numerator, denominator = value if len(value) == 2 else (0, 0)
+        return numerator / denominator if denominator else math.nan
+    return float(value) if isinstance(value, int | float) else math.nan
+
+
+def _exponential(stops: float) -> float:
+    return 2.0**stops if abs(stops) < 100.0 else math.nan

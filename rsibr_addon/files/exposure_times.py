@@ -1,10 +1,15 @@
 """Exposure times as people write them: 1/125, 0.5, 8."""
 
+import codecs
 import math
+import re
 from pathlib import Path
 
 from ..core.errors import InputFileError
 from .reading import opened
+
+LARGEST = 1 << 20
+"""Bytes of a list that are read."""
 
 
 def exposure_time(text: str) -> float:
@@ -38,7 +43,8 @@ def read_times(path: str | Path) -> tuple[float, ...]:
     Parameters
     ----------
     path : str or Path
-        Text: the times, one for each photograph in order, between them spaces or line breaks.
+        Text: the times, one for each photograph in order, between them spaces, commas, semicolons or line
+        breaks. They may be quoted and have an s for seconds; what follows # or // in a line is a comment.
 
     Returns
     -------
@@ -51,8 +57,11 @@ def read_times(path: str | Path) -> tuple[float, ...]:
         The file is missing or unreadable, or holds something else.
     """
     with opened(path) as stream:
-        words = stream.read().decode("utf-8", errors="replace").split()
+        data = stream.read(LARGEST)
+    encoding = "utf-16" if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) else "utf-8-sig"
+    lines = re.sub(r"(#|//).*", "", data.decode(encoding, errors="replace").replace("\r", "\n"))
+    words = re.split(r"[\s,;\"']+", re.sub(r"\s*/\s*", "/", re.sub(r"(?<=\d)\s*s\b", "", lines)))
     try:
-        return tuple(exposure_time(word) for word in words)
+        return tuple(exposure_time(word) for word in words if word)
     except ValueError as error:
         raise InputFileError(f"{path} is no list of exposure times ({error}): write 1/125 or 0.5.") from error

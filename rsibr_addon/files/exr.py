@@ -1,9 +1,7 @@
 """OpenEXR files, single-part or multi-part: the one module that knows the OpenEXR package."""
 
 import contextlib
-import io
 import os
-import threading
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -17,6 +15,7 @@ from ..core.errors import InputFileError
 from .exr_sampling import interpolated
 from .memory import check_memory
 from .reading import opened
+from .unheard import unheard
 
 MAGIC = b"\x76\x2f\x31\x01"
 """The first four bytes of every OpenEXR file."""
@@ -31,8 +30,6 @@ OpenEXR.set_global_thread_count(os.cpu_count() or 1)
 
 BYTES_OF_SAMPLE = 8
 """Of memory for each number of a channel: as float, and as much again for the picture made of them."""
-
-_reading = threading.Lock()
 
 
 @dataclass(frozen=True)
@@ -217,30 +214,13 @@ def write_parts(path: Path, parts: Sequence[Part]) -> None:
 
 
 @contextlib.contextmanager
-def _unheard() -> Iterator[None]:
-    """Within, what the library prints goes nowhere: a damaged file is told of in one sentence, ours.
-
-    It prints to Python's stdout, where a command's result belongs, and a line for every damaged chunk to
-    the process's stderr. One thread at a time may bend those.
-    """
-    with _reading, contextlib.redirect_stdout(io.StringIO()), open(os.devnull, "wb") as nowhere:
-        kept = os.dup(2)
-        os.dup2(nowhere.fileno(), 2)
-        try:
-            yield
-        finally:
-            os.dup2(kept, 2)
-            os.close(kept)
-
-
-@contextlib.contextmanager
 def _package_file(path: str | Path, stream: BinaryIO, **options: bool) -> Iterator[Any]:
     """The package's view of an open file; its complaints become one sentence."""
     if stream.read(len(MAGIC)) != MAGIC:
         raise InputFileError(f"{path} is not an OpenEXR file: convert it, or give another.")
     stream.seek(0)
     try:
-        with _unheard():
+        with unheard():
             file = OpenEXR.File(stream, **options)
     except (RuntimeError, ValueError) as error:
         raise InputFileError(f"{path} is truncated or damaged: fetch or make it again.") from error

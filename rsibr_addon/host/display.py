@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ..core.conventions import Array
-from .photographs import stored_numbers
+from ..files.photographs import read_photograph
 from .scenes import temporary_copy
 from .working_space import working_from_rec709
 
@@ -93,7 +93,7 @@ def displayed_colours(scene: bpy.types.Scene, radiance: Array) -> Array:
         image = bpy.data.images.new("displayed", WIDTH, height, float_buffer=True)
         image.pixels.foreach_set(pixels.ravel())
         image.save_render(str(path), scene=copy)
-        shown = stored_numbers(path)[..., :3]
+        shown = read_photograph(path).encoded()
     return shown.reshape(-1, 3)[: len(colours)].reshape(radiance.shape)
 
 

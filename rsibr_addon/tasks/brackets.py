@@ -1,7 +1,7 @@
 """The photographs of a bracket: reading them, and merging them into a picture of radiance."""
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from pathlib import Path
 
@@ -13,7 +13,9 @@ from ..core.errors import InputFileError, RangeError, RsibrWarning
 from ..core.exposure.merge import Merged, merge_bracket
 from ..core.exposure.response import Response, linear_response, srgb_response
 from ..core.progress import Progress, Steps
+from ..files.encoding import Encoding, named_encoding
 from ..files.exif import read_exposure, relative_exposures
+from ..files.photographs import Photograph, read_photograph
 from ..files.radiance_pictures import (
     check_radiance_target,
     holds_radiance,
@@ -37,11 +39,11 @@ class BracketSettings:
     Attributes
     ----------
     photographs : tuple of Path
-        In any order. Of 8 or 16 bits; or OpenEXR or Radiance HDR, which are linear and white at 1.
+        In any order. Of 8 or 16 bits; or linear and white at 1, as OpenEXR and Radiance HDR are.
     times : tuple of float or None
         Exposure times [s], one for each; None for what the files tell.
     curve : Curve
-        Of photographs that are not OpenEXR or Radiance HDR.
+        Of photographs that are not linear.
     align : bool
         Whether the camera may have moved.
 
@@ -69,17 +71,23 @@ class BracketSettings:
         Raises
         ------
         InputFileError
-            See `read_exposure`.
+            See `read_exposure` and `relative_exposures`.
+
+        Warns
+        -----
+        RsibrWarning
+            See `relative_exposures`.
         """
         times = self.times
         if times is None:
-            times = tuple(relative_exposures([read_exposure(path) for path in self.photographs]))
+            exposures = [read_exposure(path) for path in self.photographs]
+            times = tuple(relative_exposures(self.photographs, exposures))
         order = np.argsort(times, kind="stable")
         return [self.photographs[i] for i in order], [times[i] for i in order]
 
-    def response(self) -> Response | None:
+    def response(self, encoding: Encoding) -> Response | None:
         """The camera's curve where it is known."""
-        if self.curve is Curve.LINEAR or holds_radiance(self.photographs[0]):
+        if self.curve is Curve.LINEAR or encoding.curves is None:
             return linear_response()
         return srgb_response() if self.curve is Curve.SRGB else None
 
@@ -118,7 +126,7 @@ def illuminate_from_brackets(settings: BracketSettings, output: Path, force: boo
     """
     check_radiance_target(output, force)
     paths, times = settings.in_order()
-    pictures = yield from read_photographs(paths)
+    pictures, encoding = yield from read_photographs(paths)
     for path, picture in zip(paths, pictures, strict=True):
         if picture.shape != pictures[0].shape:
             raise InputFileError(
@@ -127,12 +135,12 @@ def illuminate_from_brackets(settings: BracketSettings, output: Path, force: boo
                 f"size; crop them alike."
             )
     yield Progress(len(paths), len(paths) + 1, "merging")
-    result = merged(settings, pictures, times)
+    result = merged(settings, pictures, times, encoding)
     write_radiance(output, result.radiance, force)
     return result
 
 
-def read_photographs(paths: list[Path]) -> Steps[list[Array]]:
+def read_photographs(paths: list[Path]) -> Steps[tuple[list[Array], Encoding]]:
     """Read photographs as they are encoded.
 
     Parameters
@@ -147,32 +155,51 @@ def read_photographs(paths: list[Path]) -> Steps[list[Array]]:
     -------
     list of ndarray, shape (height, width, 3), float32
         In [0, 1], row 0 at the bottom.
+    Encoding
+        Of all of them.
 
     Raises
     ------
     InputFileError
-        One is missing or unreadable, or some are linear and some are not.
+        One is missing or unreadable; some are linear and some are not, or they are of several colour spaces.
+
+    Warns
+    -----
+    RsibrWarning
+        See `read_photograph` and `usable_radiance`.
     """
-    linear = [holds_radiance(path) for path in paths]
+    pictures, encodings = [], []
+    for i, path in enumerate(paths):
+        yield Progress(i, len(paths) + 1, f"reading {path.name}")
+        photograph = _read(path)
+        pixels, encoding = photograph.encoded(), photograph.encoding
+        if encoding.curves is None:
+            pixels = np.clip(usable_radiance(pixels, path.name), 0.0, 1.0)
+        pictures.append(pixels)
+        encodings.append(encoding)
+    linear = [encoding.curves is None for encoding in encodings]
     if any(linear) and not all(linear):
         raise InputFileError(
             f"{paths[linear.index(False)]} is encoded, but {paths[linear.index(True)].name} is linear: give "
             f"photographs of one kind."
         )
-    pictures = []
-    for i, path in enumerate(paths):
-        yield Progress(i, len(paths) + 1, f"reading {path.name}")
-        if linear[i]:
-            pictures.append(np.clip(usable_radiance(read_radiance(path), path.name), 0.0, 1.0))
-        else:
-            # Only such pictures need Blender, which takes a second to start
-            from ..host.photographs import read_encoded
-
-            pictures.append(read_encoded(path))
-    return pictures
+    for path, encoding in zip(paths, encodings, strict=True):
+        if not np.allclose(encoding.to_rec709, encodings[0].to_rec709):
+            raise InputFileError(
+                f"{path} is of another colour space than {paths[0].name}: give photographs of one kind."
+            )
+    return pictures, encodings[0]
 
 
-def merged(settings: BracketSettings, pictures: list[Array], times: list[float]) -> Merged:
+def _read(path: Path) -> Photograph:
+    if holds_radiance(path):
+        return Photograph(read_radiance(path), named_encoding("lin_rec709"))
+    return read_photograph(path)
+
+
+def merged(
+    settings: BracketSettings, pictures: list[Array], times: list[float], encoding: Encoding
+) -> Merged:
     """Merge photographs of one size.
 
     Parameters
@@ -182,10 +209,13 @@ def merged(settings: BracketSettings, pictures: list[Array], times: list[float])
         Encoded; the shortest exposure first.
     times : list of float
         Their exposures.
+    encoding : Encoding
+        Of all of them.
 
     Returns
     -------
     Merged
+        In linear Rec. 709.
 
     Raises
     ------
@@ -199,7 +229,7 @@ def merged(settings: BracketSettings, pictures: list[Array], times: list[float])
     """
     name = settings.photographs[0]
     try:
-        result = merge_bracket(pictures, times, settings.response(), settings.align)
+        result = merge_bracket(pictures, times, settings.response(encoding), settings.align)
     except RangeError as error:
         raise InputFileError(f"{name} and those with it: {error}") from error
     for share, colour, other in (
@@ -213,4 +243,5 @@ def merged(settings: BracketSettings, pictures: list[Array], times: list[float])
                 RsibrWarning,
                 stacklevel=2,
             )
-    return result
+    radiance = np.maximum(result.radiance @ encoding.to_rec709.T.astype(np.float32), np.float32(0.0))
+    return replace(result, radiance=radiance)

@@ -12,7 +12,9 @@ from ..core.conventions import Array
 from ..core.errors import InputFileError, RangeError
 from ..core.maps.representation import representation
 from ..core.progress import Progress, Steps
-from ..files.radiance_pictures import check_radiance_target, write_radiance
+from ..files.orientation import Orientation
+from ..files.photographs import orientation_of
+from ..files.radiance_pictures import check_radiance_target, holds_radiance, write_radiance
 from .brackets import BracketSettings, merged, read_photographs
 from .light_pictures import read_light
 
@@ -26,8 +28,8 @@ class SideSettings:
     bracket : BracketSettings
         One photograph or several exposures; these need not be of one size.
     circle : tuple of 3 floats or None
-        x, y and radius of the ball's outline in pixels from the photographs' top left corner; None to
-        find it in each.
+        x, y and radius of the ball's outline in pixels from the top left corner of the photographs as
+        they are stored, however they are to be turned; None to find it in each.
     turn : float
         See `core.ball_photograph.BallSide` [rad].
     """
@@ -85,7 +87,7 @@ class BallReport:
     Attributes
     ----------
     circles : tuple of (Path, (float, float, float))
-        x, y and radius of the outline in each, in pixels from its top left corner.
+        x, y and radius of the outline in each, as in `SideSettings`.
     gains : tuple of float
         Of each side: see `environment_from_balls`.
     """
@@ -125,7 +127,7 @@ def illuminate_from_ball(settings: BallSettings, output: Path, force: bool = Fal
     Warns
     -----
     RsibrWarning
-        See `brackets.merged`.
+        See `brackets.merged`, `brackets.read_photographs` and `read_light`.
     """
     check_radiance_target(output, force)
     sides, circles = [], []
@@ -151,33 +153,39 @@ class _Outline:
     circle: Circle
     width: int
     height: int
+    orientation: Orientation
 
     def from_top_left(self) -> tuple[Path, tuple[float, float, float]]:
-        return self.path, (self.circle.x, self.height - self.circle.y, self.circle.radius)
+        point = self.circle.x, self.height - self.circle.y
+        x, y = self.orientation.stored_point(*point, self.width, self.height)
+        return self.path, (x, y, self.circle.radius)
 
 
 def _picture(side: SideSettings) -> Steps[tuple[Array, list[_Outline]]]:
     """Radiance in the square around the ball, and the outlines."""
-    alone = len(side.bracket.photographs) == 1
-    if alone:
+    if len(side.bracket.photographs) == 1:
         paths, times = list(side.bracket.photographs), [1.0]
         yield Progress(0, 2, f"reading {paths[0].name}")
-        pictures = [read_light(paths[0])]
+        pictures, encoding = [read_light(paths[0])], None
     else:
         paths, times = side.bracket.in_order()
-        pictures = yield from read_photographs(paths)
+        pictures, encoding = yield from read_photographs(paths)
     outlines = []
     for path, picture in zip(paths, pictures, strict=True):
         yield Progress(0, 2, f"looking for the ball in {path.name}")
         height, width = picture.shape[:2]
-        outlines.append(_Outline(path, _circle(path, picture, side), width, height))
+        orientation = Orientation() if holds_radiance(path) else orientation_of(path)
+        circle = _circle(path, picture, side, orientation)
+        outlines.append(_Outline(path, circle, width, height, orientation))
     circles = [outline.circle for outline in outlines]
     size = max(round(2.0 * circle.radius) for circle in circles)
     squares = [cut_ball(picture, circle, size) for picture, circle in zip(pictures, circles, strict=True)]
-    return squares[0] if alone else merged(side.bracket, squares, times).radiance, outlines
+    if encoding is None:
+        return squares[0], outlines
+    return merged(side.bracket, squares, times, encoding).radiance, outlines
 
 
-def _circle(path: Path, picture: Array, side: SideSettings) -> Circle:
+def _circle(path: Path, picture: Array, side: SideSettings, orientation: Orientation) -> Circle:
     """The outline: the one given, or found."""
     height, width = picture.shape[:2]
     try:
@@ -185,12 +193,15 @@ def _circle(path: Path, picture: Array, side: SideSettings) -> Circle:
             # Spread around the middle brightness, so that edges show in radiance as in dark exposures
             return find_circle(picture / (picture + max(float(np.median(picture)), 1e-3)))[0]
         x, y, radius = side.circle
+        x, y = orientation.upright_point(x, y, width, height)
         circle = Circle(x, height - y, radius)
     except RangeError as error:
         raise InputFileError(f"{path}: {error}") from error
     if not (0.0 <= x <= width and 0.0 <= y <= height and radius <= max(width, height)):
+        size = f"{height}x{width}" if orientation.transposed else f"{width}x{height}"
+        circle_text = ",".join(f"{number:g}" for number in side.circle)
         raise InputFileError(
-            f"{path} is {width}x{height}, but the circle {x:g},{y:g},{radius:g} is not in it: give "
+            f"{path} is stored as {size}, but the circle {circle_text} is not in it: give "
             f"its middle from the top left corner, and its radius, in pixels."
         )
     return circle

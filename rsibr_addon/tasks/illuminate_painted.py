@@ -11,6 +11,7 @@ from ..core.progress import Progress, Steps
 from ..core.resample import resample
 from ..files.map_pictures import layout, read_map
 from ..files.radiance_pictures import check_radiance_target, holds_radiance, write_radiance
+from .light_pictures import read_light
 
 
 @dataclass(frozen=True)
@@ -86,7 +87,4 @@ def _read_painting(path: Path) -> Array:
         raise InputFileError(
             f"{path} holds radiance already: use rsibr convert, or give a picture of 8 or 16 bits."
         )
-    # Only here, as it needs Blender, which takes a second to start
-    from ..host.photographs import read_photograph
-
-    return read_photograph(path)
+    return read_light(path)

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from ..core.conventions import Array
 from ..core.environment import usable_radiance
+from ..files.photographs import read_photograph
 from ..files.radiance_pictures import holds_radiance, read_radiance
 
 
@@ -28,11 +29,8 @@ def read_light(path: Path) -> Array:
     Warns
     -----
     RsibrWarning
-        Negative values were set to 0; says how many.
+        See `usable_radiance` and `read_photograph`.
     """
     if holds_radiance(path):
         return usable_radiance(read_radiance(path), path.name)
-    # Only such pictures need Blender, which takes a second to start
-    from ..host.photographs import read_photograph
-
-    return read_photograph(path)
+    return usable_radiance(read_photograph(path).radiance(), path.name)

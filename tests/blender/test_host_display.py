@@ -88,7 +88,7 @@ def _saved(scene: bpy.types.Scene, colours: np.ndarray) -> np.ndarray:
     import tempfile
     from pathlib import Path
 
-    from rsibr.rsibr_addon.host.photographs import stored_numbers
+    from rsibr.rsibr_addon.files.photographs import read_photograph
 
     scene.render.dither_intensity = 0.0
     image = bpy.data.images.new("colours", len(colours), 1, float_buffer=True)
@@ -96,4 +96,4 @@ def _saved(scene: bpy.types.Scene, colours: np.ndarray) -> np.ndarray:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "saved.png"
         image.save_render(str(path), scene=scene)
-        return stored_numbers(path)[0, :, :3]
+        return read_photograph(path).encoded()[0]

@@ -19,8 +19,7 @@ from rsibr.rsibr_addon.tasks.brackets import BracketSettings
 from rsibr.rsibr_addon.tasks.illuminate_ball import BallSettings, SideSettings, illuminate_from_ball
 from rsibr.tests.open_file import open_file_state
 from rsibr.tests.synthetic_ball import ball_photograph
-
-from .test_host_photographs import write_png
+from rsibr.tests.written_pictures import write_png
 
 RNG = np.random.default_rng(11)
 TIMES = (2.0, 0.1, 0.5)

@@ -9,8 +9,10 @@ from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.ball_circle import Circle
 from rsibr.rsibr_addon.core.ball_photograph import BallSide
 from rsibr.rsibr_addon.core.maps.representation import representation
+from rsibr.rsibr_addon.core.transfer_curve import srgb_from_linear
 from rsibr.rsibr_addon.files.radiance_pictures import read_radiance, write_radiance
 from rsibr.tests.synthetic_ball import ball_photograph, surroundings
+from rsibr.tests.written_pictures import ORIENTATION, add_exif, write_png
 
 EXPECTED = surroundings(representation("equirect").texel_directions(64)[0])
 CIRCLE = Circle(101.0, 92.0, 80.0)
@@ -41,6 +43,24 @@ def test_a_ball_is_found_and_unwrapped(tmp_path: Path, capfd: pytest.CaptureFixt
     assert median_error(out) < 0.08
     assert illuminate(ball, "--circle", "101,88,80", "-o", out, "--size", 64, "--force") == 0
     assert median_error(out) < 0.02
+
+
+def test_a_turned_photograph_stands_upright(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    # Of a camera held upright: what is stored lies on its side, 180x200, and Exif says how
+    side = BallSide(np.zeros((2, 2, 3)))
+    light = np.minimum(ball_photograph(side, CIRCLE, 200, 180) / 4.0, 1.0)
+    encoded = np.round(255 * srgb_from_linear(light)).astype(np.uint8)
+    ball, out = tmp_path / "ball.png", tmp_path / "room.exr"
+    write_png(ball, np.rot90(encoded[::-1])[::-1])
+    add_exif(ball, {ORIENTATION: 6})
+    arguments = ["--circle", "88,99,80", "-o", out, "--size", 64, "--json"]
+    assert illuminate(ball, *arguments) == 0
+    assert json.loads(capfd.readouterr().out)["circles"][0][1:] == [88.0, 99.0, 80.0]
+    # Rounded to 8 bits, and in units of what was white
+    room = read_radiance(out)
+    assert np.median(np.abs(5.0 * room / EXPECTED - 1.0)) < 0.03
+    assert illuminate(ball, "--circle", "101,300,80", "-o", out, "--force") == 1
+    assert "ball.png is stored as 180x200, but the circle 101,300,80 is not in it" in capfd.readouterr().err
 
 
 def test_two_sides_near_by(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
@@ -84,7 +104,9 @@ def test_bad_input_is_told_and_nothing_written(tmp_path: Path, capfd: pytest.Cap
     write_radiance(tmp_path / "noise.exr", np.random.default_rng(0).random((80, 100, 3)))
     nothing = told(tmp_path / "noise.exr")
     assert "noise.exr: There is no ball to be found: let it fill most of the photograph" in nothing
-    assert "ball.exr is 200x180, but the circle 500,88,80 is not in it" in told(ball, "--circle", "500,88,80")
+    assert "ball.exr is stored as 200x180, but the circle 500,88,80 is not in it" in told(
+        ball, "--circle", "500,88,80"
+    )
     assert "ball.exr: A circle is x, y and a radius above 0" in told(ball, "--circle", "100,88,0")
     assert "0.5 radii from a ball's centre is in the ball" in told(ball, "--distance", 0.5)
     assert "cannot be 63 texels wide" in told(ball, "--size", 63)

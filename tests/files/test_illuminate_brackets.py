@@ -6,7 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.command_line.main import run
+from rsibr.rsibr_addon.core.transfer_curve import srgb_from_linear
+from rsibr.rsibr_addon.files.chromaticities import rec709_from
+from rsibr.rsibr_addon.files.encoding import PRIMARIES
 from rsibr.rsibr_addon.files.radiance_pictures import read_radiance, write_radiance
+from rsibr.tests.written_pictures import P3, SRGB, profile, write_picture
 
 RADIANCE = np.geomspace(0.02, 8.0, 600).reshape(20, 30)[..., None] * np.array([1.0, 0.5, 0.8])
 
@@ -79,3 +83,48 @@ def test_wrong_times_are_wrong_usage(tmp_path: Path) -> None:
     paths = write_brackets(tmp_path)
     for times in ("1,2,0", "a", "1,,2"):
         assert illuminate(*paths, "--times", times, "-o", tmp_path / "out.exr") == 2
+
+
+def write_photographs(folder: Path, times: tuple[float, ...], **notes: object) -> list[Path]:
+    """Photographs as a camera with sRGB's curve takes them, of 16 bits."""
+    paths = [folder / f"{i}.tif" for i in range(len(times))]
+    for path, time in zip(paths, times, strict=True):
+        encoded = srgb_from_linear(np.minimum(RADIANCE * time, 1.0))
+        write_picture(path, np.round(65535 * encoded).astype(np.uint16), ExposureTime=time, **notes)
+    return paths
+
+
+def test_exposures_come_from_the_photographs(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    paths = write_photographs(tmp_path, (2.0, 0.1, 0.5), FNumber=8.0)
+    out = tmp_path / "out.exr"
+    arguments = ["--curve", "srgb", "--no-align", "-o", out, "--force"]
+    assert illuminate(*paths, *arguments) == 0
+    # The curve is linear between 256 levels, of which darkness has few
+    np.testing.assert_allclose(read_radiance(out)[4:], RADIANCE[4:], rtol=0.01)
+    assert capfd.readouterr().err == ""
+    # Twice as much light through the lens, as if it were a second longer
+    write_photographs(tmp_path, (2.0,), FNumber=8.0 / 2.0**0.5)
+    assert illuminate(*paths, *arguments) == 0
+    assert not np.allclose(read_radiance(out)[4:], RADIANCE[4:], rtol=0.1)
+    write_photographs(tmp_path, (2.0,))
+    assert illuminate(*paths, *arguments) == 0
+    assert "0.tif tells no f-number: that of the other photographs, 8, is taken" in capfd.readouterr().err
+
+
+def test_primaries_are_converted_after_merging(tmp_path: Path) -> None:
+    out = tmp_path / "out.exr"
+    paths = write_photographs(tmp_path, (2.0, 0.125, 0.5), ICCProfile=profile(P3, SRGB))
+    assert illuminate(*paths, "--curve", "srgb", "--no-align", "-o", out) == 0
+    expected = RADIANCE @ rec709_from(PRIMARIES["p3d65"]).T
+    np.testing.assert_allclose(read_radiance(out)[4:], expected[4:], rtol=0.02)
+
+
+def test_photographs_of_several_kinds_are_refused(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    paths = write_photographs(tmp_path, (2.0, 0.5))
+    arguments = ["--times", "2,0.5", "-o", tmp_path / "out.exr"]
+    write_picture(paths[1], RADIANCE.astype(np.float32))
+    assert illuminate(*paths, *arguments) == 1
+    assert "0.tif is encoded, but 1.tif is linear: give photographs of one kind" in capfd.readouterr().err
+    write_picture(paths[1], np.full((20, 30, 3), 99, np.uint8), ICCProfile=profile(P3, SRGB))
+    assert illuminate(*paths, *arguments) == 1
+    assert "0.tif is of another colour space than 1.tif" in capfd.readouterr().err

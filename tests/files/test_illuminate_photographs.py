@@ -8,8 +8,7 @@ import pytest
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.transfer_curve import linear_from_srgb
 from rsibr.rsibr_addon.files.radiance_pictures import read_radiance, write_radiance
-
-from .test_host_photographs import write_png
+from rsibr.tests.written_pictures import write_png
 
 BRACKETS = Path(__file__).parents[3] / "shared" / "data" / "brackets"
 

@@ -1,0 +1,156 @@
+"""What the numbers in a picture of 8 or 16 bits mean: a curve and primaries, by name or by ICC profile."""
+
+import struct
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core.conventions import Array, ArrayLike
+from ..core.transfer_curve import linear_from_srgb
+from .chromaticities import REC_709, rec709_from
+
+type Curve = Callable[[ArrayLike], Array]
+"""Light from a number in [0, 1]."""
+
+D50 = (0.9642, 1.0, 0.8249)
+"""XYZ of white in all ICC profiles."""
+
+PRIMARIES = {
+    "rec709": REC_709,
+    "p3d65": (0.680, 0.320, 0.265, 0.690, 0.150, 0.060, 0.3127, 0.3290),
+    "rec2020": (0.708, 0.292, 0.170, 0.797, 0.131, 0.046, 0.3127, 0.3290),
+    "adobergb": (0.64, 0.33, 0.21, 0.71, 0.15, 0.06, 0.3127, 0.3290),
+}
+
+STRAIGHT = 1e-4
+"""A curve this close to the diagonal is none."""
+
+
+@dataclass(frozen=True, eq=False)
+class Encoding:
+    """How numbers become light.
+
+    Attributes
+    ----------
+    curves : tuple of 3 functions, or None
+        Of red, green and blue; None where the numbers are linear.
+    to_rec709 : ndarray, shape (3, 3)
+        From linear light.
+    """
+
+    curves: tuple[Curve, Curve, Curve] | None
+    to_rec709: Array
+
+
+def power_curve(exponent: float) -> Curve:
+    """The curve that raises to a power."""
+    return lambda encoded: np.asarray(encoded, dtype=np.float64) ** exponent
+
+
+TRANSFERS: dict[str, Curve | None] = {
+    "lin": None,
+    "srgb": linear_from_srgb,
+    # 2.2 is how PNG states sRGB to programs that know powers alone
+    "g22": linear_from_srgb,
+    "g18": power_curve(1.8),
+    "g24": power_curve(2.4),
+    "g26": power_curve(2.6),
+}
+
+
+def named_encoding(name: str) -> Encoding:
+    """The encoding of a colour space by its name.
+
+    Parameters
+    ----------
+    name : str
+        TRANSFER_PRIMARIES and perhaps more, as in srgb_p3d65_scene: the Color Interop Forum's names.
+
+    Returns
+    -------
+    Encoding
+
+    Raises
+    ------
+    KeyError
+        It is unknown.
+    """
+    transfer, primaries = name.split("_")[:2] if "_" in name else (name, "")
+    curve = power_curve(2.2) if (transfer, primaries) == ("g22", "adobergb") else TRANSFERS[transfer]
+    return Encoding(curve and (curve, curve, curve), rec709_from(PRIMARIES[primaries]))
+
+
+def profile_encoding(profile: bytes) -> Encoding:
+    """The encoding that an ICC profile describes.
+
+    Parameters
+    ----------
+    profile : bytes
+
+    Returns
+    -------
+    Encoding
+
+    Raises
+    ------
+    ValueError
+        It is damaged, or neither of grey nor of primaries with curves.
+    """
+    try:
+        tags = _tags(profile)
+        if profile[16:20] == b"GRAY":
+            curves, chromaticities = [_curve(tags[b"kTRC"])] * 3, REC_709
+        else:
+            curves = [_curve(tags[name]) for name in (b"rTRC", b"gTRC", b"bTRC")]
+            xyz = [*(_xyz(tags[name]) for name in (b"rXYZ", b"gXYZ", b"bXYZ")), D50]
+            chromaticities = [part / sum(each) for each in xyz for part in each[:2]]
+        to_rec709 = rec709_from(chromaticities)
+    except (KeyError, IndexError, struct.error, ZeroDivisionError) as error:
+        raise ValueError("it has no primaries with curves") from error
+    levels = np.linspace(0.0, 1.0, 256)
+    straight = all(np.abs(curve(levels) - levels).max() < STRAIGHT for curve in curves)
+    return Encoding(None if straight else (curves[0], curves[1], curves[2]), to_rec709)
+
+
+def _tags(profile: bytes) -> dict[bytes, bytes]:
+    (count,) = struct.unpack_from(">I", profile, 128)
+    tags = {}
+    for i in range(min(count, 100)):
+        name, start, size = struct.unpack_from(">4sII", profile, 132 + 12 * i)
+        tags[name] = profile[start : start + size]
+    return tags
+
+
+def _xyz(tag: bytes) -> tuple[float, ...]:
+    return tuple(part / 65536.0 for part in struct.unpack_from(">3i", tag, 8))
+
+
+def _curve(tag: bytes) -> Curve:
+    """A tag of type curv or para (ICC.1:2022, 10.6 and 10.18)."""
+    if tag[:4] == b"curv":
+        (count,) = struct.unpack_from(">I", tag, 8)
+        values = np.array(struct.unpack_from(f">{count}H", tag, 12), dtype=np.float64)
+        if count == 0:
+            return power_curve(1.0)
+        if count == 1:
+            return power_curve(values[0] / 256.0)
+        return lambda encoded: np.interp(encoded, np.linspace(0.0, 1.0, count), values / 65535.0)
+    if tag[:4] != b"para":
+        raise KeyError("no curve")
+    (kind,) = struct.unpack_from(">H", tag, 8)
+    numbers = [each / 65536.0 for each in struct.unpack_from(f">{(1, 3, 4, 5, 7)[kind]}i", tag, 12)]
+    # All kinds are the last one, of which the shorter ones leave parts out
+    g, a, b = numbers[:3] if kind else (numbers[0], 1.0, 0.0)
+    c, d, e, f = 0.0, -b / a, 0.0, 0.0
+    if kind == 2:
+        e = f = numbers[3]
+    elif kind > 2:
+        c, d, e, f = (*numbers[3:], 0.0, 0.0)[:4]
+
+    def curve(encoded: ArrayLike) -> Array:
+        encoded = np.asarray(encoded, dtype=np.float64)
+        light: Array = np.where(encoded >= d, np.maximum(a * encoded + b, 0.0) ** g + e, c * encoded + f)
+        return light
+
+    return curve

@@ -100,7 +100,7 @@ def profile_encoding(profile: bytes) -> Encoding:
     try:
         tags = _tags(profile)
         if profile[16:20] == b"GRAY":
-            curves, chromaticities = [_curve(tags[b"kTRC"])] * 3, REC_709
+            curves, chromaticities = [_curve(tags[b"kTRC"])] * 3, [*REC_709]
         else:
             curves = [_curve(tags[name]) for name in (b"rTRC", b"gTRC", b"bTRC")]
             xyz = [*(_xyz(tags[name]) for name in (b"rXYZ", b"gXYZ", b"bXYZ")), D50]
@@ -135,7 +135,8 @@ def _curve(tag: bytes) -> Curve:
             return power_curve(1.0)
         if count == 1:
             return power_curve(values[0] / 256.0)
-        return lambda encoded: np.interp(encoded, np.linspace(0.0, 1.0, count), values / 65535.0)
+        levels = np.linspace(0.0, 1.0, count)
+        return lambda encoded: np.interp(np.asarray(encoded, np.float64), levels, values / 65535.0)
     if tag[:4] != b"para":
         raise KeyError("no curve")
     (kind,) = struct.unpack_from(">H", tag, 8)

@@ -8,12 +8,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import OpenImageIO
+import OpenImageIO  # type: ignore[import-not-found, unused-ignore]  # checked where it is installed
 
 from ..core.conventions import Array
 from ..core.errors import InputFileError, RsibrWarning
 from .chromaticities import rec709_from
 from .encoding import Encoding, named_encoding, profile_encoding
+from .memory import check_memory
 from .orientation import ORIENTATIONS, Orientation
 from .reading import opened
 from .unheard import unheard
@@ -41,6 +42,9 @@ FURTHER = {
 
 HEAD = 1 << 18
 """Bytes of a file that are looked through for what OpenImageIO does not tell."""
+
+BYTES_OF_LIGHT = 24
+"""Of memory for each pixel besides the stored one: three floats, and a copy."""
 
 SHARE = 1 << 20
 """Pixels that are converted at a time."""
@@ -120,6 +124,8 @@ def read_photograph(path: str | Path) -> Photograph:
     ------
     InputFileError
         The file is missing, no such picture, truncated or damaged, or encoded for HDR displays.
+    RangeError
+        See `check_memory`.
 
     Warns
     -----
@@ -130,6 +136,8 @@ def read_photograph(path: str | Path) -> Photograph:
         head = stream.read(HEAD)
         encoding = _encoding(path, spec, notes, head)
         _tell_of_the_unused(path, notes, head)
+        numbers = spec.nchannels * spec.channel_bytes() + BYTES_OF_LIGHT
+        check_memory(float(spec.width * spec.height * numbers), str(path), (spec.width, spec.height))
         kind = {OpenImageIO.UINT8: "uint8", OpenImageIO.UINT16: "uint16"}
         pixels = source.read_image(0, 0, 0, spec.nchannels, kind.get(spec.format.basetype, "float"))
         if pixels is None or source.has_error:
@@ -190,7 +198,7 @@ def _picture(
                     f"{path} cannot be read as a picture ({reason}): check the file, or save it as PNG."
                 )
             spec = source.spec()
-            notes = {field.name: field.value for field in spec.extra_attribs}
+            notes: dict[str, Any] = {field.name: field.value for field in spec.extra_attribs}
             if notes.get("tiff:subfiletype", 0) & REDUCED:
                 raise InputFileError(f"{path} begins with a small preview: {DEVELOP}")
             try:
@@ -206,7 +214,7 @@ def _reason(text: str) -> str:
 
 def _white(numbers: Array) -> float:
     """What stands for 1 in numbers of a type."""
-    return 1.0 if numbers.dtype.kind == "f" else float(np.iinfo(numbers.dtype).max)
+    return {"uint8": 255.0, "uint16": 65535.0}.get(numbers.dtype.name, 1.0)
 
 
 def _orientation(notes: dict[str, Any]) -> Orientation:

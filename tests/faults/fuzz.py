@@ -1,0 +1,208 @@
+"""Readers of JSON and of map sets, fed with damage: `python -m rsibr.tests.faults.fuzz --cases 1000`.
+
+Each case ends in a result or in an error of ours, of one sentence. All else is told, with what makes it
+again: the numbers of the seed and of the case.
+"""
+
+import argparse
+import contextlib
+import faulthandler
+import io
+import json
+import random
+import resource
+import sys
+import tempfile
+import traceback
+import warnings
+from collections import Counter
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+from unittest.mock import patch
+
+import bpy  # noqa: F401  (tasks need it)
+from rsibr.rsibr_addon.command_line import info, job
+from rsibr.rsibr_addon.command_line.report import Report
+from rsibr.rsibr_addon.core.errors import DeviceError, RsibrError, RsibrWarning
+from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.files.exr import Part, read_parts, write_parts
+from rsibr.rsibr_addon.files.fits import read_fit
+from rsibr.rsibr_addon.files.map_set import ATTRIBUTE, read_map_set, read_map_set_header, write_map_set
+from rsibr.rsibr_addon.files.work_folder import work_folder
+from rsibr.rsibr_addon.tasks import map_set_page
+from rsibr.rsibr_addon.tasks.background import Bake
+from rsibr.rsibr_addon.tasks.brdfs import check_told_brdf
+from rsibr.rsibr_addon.tasks.export import export
+from rsibr.rsibr_addon.tasks.fit_plots import lobe_picture
+from rsibr.rsibr_addon.tasks.kinds import open_map_set
+from rsibr.rsibr_addon.tasks.map_set_facts import map_set_content, map_set_facts, map_set_fit
+from rsibr.rsibr_addon.tasks.map_set_pictures import map_set_pictures
+from rsibr.rsibr_addon.tasks.measured_error import measured_facts
+from rsibr.tests.faults.mutations import damaged_bytes, damaged_json
+from rsibr.tests.faults.small_map_sets import json_files, map_sets
+
+SECONDS = 10
+"""That no case takes."""
+
+MEGABYTES = 200
+"""That no case takes beyond those before."""
+
+
+def _info(path: Path) -> None:
+    told = info.run(argparse.Namespace(map_set=str(path)), Report("none", io.StringIO()))
+    json.dumps(told).encode()
+
+
+def _facts(path: Path) -> None:
+    map_set_facts(path)
+    map_set_content(path)
+    fit = map_set_fit(path)
+    if fit is not None:
+        lobe_picture(fit, 0.5)
+
+
+def _page(path: Path) -> None:
+    drain(map_set_page.map_set_page(path, path.with_suffix(".html"), force=True))
+
+
+def _compare(path: Path) -> None:
+    opened = open_map_set(path)
+    if opened.kind == "lobe_stack":
+        check_told_brdf(opened.material["brdf"])
+
+
+def _export(path: Path) -> None:
+    drain(export(path, path.with_suffix(".ktx2"), force=True))
+
+
+def _work(path: Path) -> None:
+    folder = path.with_suffix("")
+    folder.mkdir(exist_ok=True)
+    (folder / "lock").touch()
+    (folder / "job.json").write_bytes(path.read_bytes())
+    with work_folder(folder, {"a": 1}):
+        pass
+
+
+def _background(path: Path) -> None:
+    text = path.read_text(encoding="utf-8", errors="replace")
+    line = text.replace("\n", " ")
+    bake = Bake("", path, ())
+    bake._read_progress(io.StringIO(f'{line}\n{{"progress": {line}}}\n'))
+    bake._read_result(io.StringIO(line))
+    bake._parsed_result()
+    assert bake.fraction >= 0.0
+
+
+def _comparison(path: Path) -> None:
+    folder = path.with_name("a-compared")
+    folder.mkdir(exist_ok=True)
+    (folder / "comparison.json").write_bytes(path.read_bytes())
+    measured_facts(path.with_name("a.rsibr.exr"))
+
+
+def _job(path: Path) -> None:
+    with patch("rsibr.rsibr_addon.command_line.bake.run", lambda arguments, report: {}):
+        job.run(argparse.Namespace(job=path), Report("none", io.StringIO()))
+
+
+type Reader = Callable[[Path], object]
+
+OF_MAP_SETS: list[Reader] = [
+    *(_info, _facts, _page, _compare, _export, read_map_set, map_set_pictures, read_map_set_header),
+]
+OF_JSON: dict[str, list[Reader]] = {
+    "fit.json": [read_fit],
+    "job.json": [_job, _work, _background],
+    "views.json": [_comparison, _work],
+    "stack.json": [_comparison],
+}
+
+
+def cases(folder: Path, rng: random.Random) -> Iterator[tuple[Path, Reader]]:
+    """Damaged files without end, and what is to read them."""
+    path = folder / "a.rsibr.exr"
+    written = []
+    for map_set in map_sets():
+        write_map_set(path, map_set, force=True)
+        cover, *parts = read_parts(path)
+        written.append((cover, parts, json.loads(cover.attributes[ATTRIBUTE]), path.read_bytes()))
+    whole = path.read_bytes()
+    texts = {name: json.loads(text) for name, text in json_files(folder).items()}
+    while True:
+        if rng.random() < 0.3:
+            name = rng.choice(list(texts))
+            path.write_bytes(whole)
+            damaged = folder / f"damaged-{name}"
+            damaged.write_bytes(damaged_json(texts[name], rng).encode(errors="surrogateescape"))
+            yield damaged, rng.choice(OF_JSON[name])
+            continue
+        cover, parts, header, data = rng.choice(written)
+        if rng.random() < 0.15:
+            path.write_bytes(damaged_bytes(data, rng))
+        else:
+            attributes = {ATTRIBUTE: damaged_json(header, rng).encode("ascii", "replace").decode()}
+            kept = [Part(part.name, part.channels, {}) for part in parts]
+            write_parts(path, [Part(cover.name, cover.channels, attributes), *kept])
+        yield path, rng.choice(OF_MAP_SETS)
+
+
+def main() -> int:
+    """Run cases; 1 where one has ended otherwise than it may."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--cases", type=int, default=1000)
+    parser.add_argument("--keep", type=Path, help="a folder for the inputs that failed")
+    parser.add_argument("--only", type=int, help="the one case to run")
+    arguments = parser.parse_args()
+    rng, ends, failures = random.Random(arguments.seed), Counter(), []
+    with tempfile.TemporaryDirectory() as name, _without_device():
+        for number, (path, read) in zip(range(arguments.cases), cases(Path(name), rng), strict=False):
+            if arguments.only not in (None, number):
+                continue
+            before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+            faulthandler.dump_traceback_later(SECONDS, exit=True)
+            end = _end(path, read)
+            faulthandler.cancel_dump_traceback_later()
+            grown = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024
+            if grown > MEGABYTES:
+                end = f"takes {grown:.0f} MB more"
+            ends[end if end in ("done", "refused") else "failed"] += 1
+            if end not in ("done", "refused"):
+                failures.append(f"seed {arguments.seed}, case {number}, {read.__name__}: {end}")
+                print(failures[-1], file=sys.stderr, flush=True)
+                if arguments.keep:
+                    kept = arguments.keep / f"{arguments.seed}-{number}-{read.__name__}{path.suffix}"
+                    kept.write_bytes(path.read_bytes())
+    print(json.dumps({"cases": arguments.cases, **ends}))
+    return 1 if failures else 0
+
+
+def _end(path: Path, read: Reader) -> str:
+    try:
+        with warnings.catch_warnings(), contextlib.redirect_stdout(io.StringIO()):
+            warnings.simplefilter("error")
+            warnings.simplefilter("ignore", RsibrWarning)
+            read(path)
+    except (RsibrError, OSError) as error:
+        sentence = str(error)
+        return "refused" if sentence and len(sentence) < 2000 and "\n" not in sentence else sentence
+    except Exception:
+        return traceback.format_exc()
+    return "done"
+
+
+@contextlib.contextmanager
+def _without_device() -> Iterator[None]:
+    """Within, nothing can draw: pictures of meshes would take most of the time."""
+
+    def refuse(*_: Any) -> None:
+        raise DeviceError("There is no driver: this is a test.")
+
+    with patch.object(map_set_page, "_looks", refuse):
+        yield
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,43 +1,89 @@
 """Files appear under their names whole or not at all."""
 
 import contextlib
-import errno
 import os
-import secrets
+import stat
 from collections.abc import Iterator
 from pathlib import Path
 
 from ..core.errors import OutputFileError
+from .outputs import Output, not_written, outputs_now
+from .staging import clear_strays, staging_name
 
 
 def check_target(path: str | Path, force: bool = False) -> None:
     """Refuse a name that cannot or must not be written, before long work begins.
+
+    What processes that were killed left in its folder is removed.
 
     Parameters
     ----------
     path : str or Path
         The file that will be written.
     force : bool
-        Whether a file of that name may be replaced.
+        Whether a file of that name may be replaced; not one that is read-only.
 
     Raises
     ------
     OutputFileError
-        `path` is a folder or a device, or exists and is not to be replaced; or its folder is
-        missing or cannot be written to.
+        No file can have that name; `path` is a folder or a device, or exists and is not to be
+        replaced; or its folder is missing or cannot be written to.
     """
     path = Path(path)
-    folder = path.resolve().parent
+    check_name(path)
     if path.is_dir():
         raise OutputFileError(f"{path} is a folder: give the name of a file in it.")
     if path.exists() and not path.is_file():
         raise OutputFileError(f"{path} is a device, not a file: give another name.")
     if path.exists() and not force:
         raise OutputFileError(f"{path} exists: give another name, or --force to replace it.")
-    if not folder.is_dir():
-        raise OutputFileError(f"{folder} is not there to write {path.name} into: make that folder first.")
+    if path.exists() and is_read_only(path):
+        raise OutputFileError(f"{path} is read-only: change its permissions, or give another name.")
+
+
+def check_name(path: Path) -> None:
+    """Refuse what no file or folder can be called, and a folder around it that cannot be written to.
+
+    What processes that were killed left in that folder is removed.
+
+    Raises
+    ------
+    OutputFileError
+    """
+    try:
+        str(path.resolve()).encode()
+        aside = path.resolve().with_name(staging_name()) / ("a" + path.suffix)
+        for name in (path, aside):
+            with contextlib.suppress(FileNotFoundError, NotADirectoryError, PermissionError):
+                name.stat()
+    except ValueError as error:
+        raise OutputFileError(
+            f"{str(path)!a} cannot be a file's name: give one of letters in UTF-8."
+        ) from error
+    except OSError as error:
+        raise OutputFileError(
+            f"{path} cannot be a file's name ({error.strerror}): give another name."
+        ) from error
+    folder = path.resolve().parent
+    try:
+        is_folder = stat.S_ISDIR(folder.stat().st_mode)
+    except PermissionError:
+        is_folder = True  # perhaps: it cannot be written to in any case
+    except (FileNotFoundError, NotADirectoryError) as error:
+        raise OutputFileError(
+            f"{folder} is not there to write {path.name} into: make that folder first."
+        ) from error
+    if not is_folder:
+        raise OutputFileError(f"{folder} is a file, so {path.name} cannot be in it: give another folder.")
     if not os.access(folder, os.W_OK | os.X_OK):
         raise OutputFileError(f"{folder} cannot be written to: change its permissions, or write elsewhere.")
+    clear_strays(folder)
+
+
+def is_read_only(path: Path) -> bool:
+    """Whether nobody may write what is there, or not this user."""
+    anyone = stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH
+    return not path.stat().st_mode & anyone or not os.access(path, os.W_OK)
 
 
 @contextlib.contextmanager
@@ -47,15 +93,17 @@ def written_aside(path: str | Path, force: bool = False) -> Iterator[Path]:
     Parameters
     ----------
     path : str or Path
-        The final name; a link is followed, so that what it points to is replaced.
+        The final name; a link is followed, so that it stays and what it points to is replaced.
     force : bool
-        Whether a file of that name may be replaced.
+        Whether a file of that name may be replaced. Its mode is kept, and its owner and group as far as
+        the system lets this user give files away.
 
     Yields
     ------
     Path
-        Where the body writes: a name of its own in the same folder, with the suffix of `path`. After
-        the body it is synced and renamed; when anything is raised, it is removed.
+        Where the body writes: a short name with the suffix of `path`, in a folder beside it. After the
+        body it is synced and renamed, within `together` when that ends; when anything is raised, it is
+        removed.
 
     Raises
     ------
@@ -63,45 +111,26 @@ def written_aside(path: str | Path, force: bool = False) -> Iterator[Path]:
         As `check_target`, before the body and again before renaming; the disk is full; the body
         wrote nothing, or the system refuses a step.
     """
+    path = Path(path)
     check_target(path, force)
-    target = Path(path).resolve()
-    aside = target.with_name(f".{target.stem}.{secrets.token_hex(4)}{target.suffix}")
-    try:
-        yield aside
-        _sync(aside)
-        check_target(path, force)
-        aside.replace(target)
-        _sync_folder(target.parent)
-    except OSError as error:
-        # What the body could not read is for the body's own errors to tell
-        if error.filename is not None and str(error.filename) not in (str(aside), str(target)):
-            raise
-        raise OutputFileError(_sentence(Path(path), error)) from error
-    finally:
-        with contextlib.suppress(OSError):
-            aside.unlink()
+    with outputs_now() as outputs:
+        aside = None
+        try:
+            aside = outputs.folder_beside(path) / f"a{path.suffix}"
+            yield aside
+            sync(aside)
+        except OSError as error:
+            # What the body could not read is for the body's own errors to tell
+            if aside is not None and error.filename is not None and str(error.filename) != str(aside):
+                raise
+            raise not_written(path, error) from error
+        outputs.add(Output(path, aside, lambda: check_target(path, force)))
 
 
-def _sentence(path: Path, error: OSError) -> str:
-    if error.errno in (errno.ENOSPC, errno.EDQUOT):
-        return f"{path} was not written because the disk is full: free some space, or write elsewhere."
-    return f"{path} was not written ({error.strerror}): check its folder, or write elsewhere."
-
-
-def _sync(path: Path) -> None:
+def sync(path: Path) -> None:
     """Have the disk hold the file before its name does: a crash then leaves the old file or the new."""
     descriptor = os.open(path, os.O_RDWR)
     try:
         os.fsync(descriptor)
     finally:
         os.close(descriptor)
-
-
-def _sync_folder(folder: Path) -> None:
-    """Have the disk hold the new name too, where the system can; the file is whole either way."""
-    with contextlib.suppress(OSError):
-        descriptor = os.open(folder, os.O_RDONLY)
-        try:
-            os.fsync(descriptor)
-        finally:
-            os.close(descriptor)

@@ -1,17 +1,18 @@
 """Folders of results appear under their names whole or not at all."""
 
 import contextlib
-import os
-import secrets
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
 from ..core.errors import OutputFileError
+from .atomic import check_name, is_read_only, sync
+from .outputs import Output, not_written, outputs_now
 
 
 def check_folder_target(path: str | Path, marker: str, force: bool = False) -> None:
     """Refuse a folder that cannot or must not be written, before long work begins.
+
+    What processes that were killed left in the folder around it is removed.
 
     Parameters
     ----------
@@ -25,11 +26,11 @@ def check_folder_target(path: str | Path, marker: str, force: bool = False) -> N
     Raises
     ------
     OutputFileError
-        `path` is a file, or exists and is not to be replaced; or the folder around it is missing or
-        cannot be written to.
+        No folder can have that name; `path` is a file, or exists and is not to be replaced, or is
+        read-only; or the folder around it is missing or cannot be written to.
     """
     path = Path(path)
-    around = path.resolve().parent
+    check_name(path)
     if path.exists() and not path.is_dir():
         raise OutputFileError(f"{path} is a file: give the name of a folder.")
     if path.is_dir() and any(path.iterdir()):
@@ -37,10 +38,8 @@ def check_folder_target(path: str | Path, marker: str, force: bool = False) -> N
             raise OutputFileError(f"{path} holds other things: give the name of a new folder.")
         if not force:
             raise OutputFileError(f"{path} exists: give another name, or --force to replace it.")
-    if not around.is_dir():
-        raise OutputFileError(f"{around} is not there to write {path.name} into: make that folder first.")
-    if not os.access(around, os.W_OK | os.X_OK):
-        raise OutputFileError(f"{around} cannot be written to: change its permissions, or write elsewhere.")
+    if path.is_dir() and is_read_only(path):
+        raise OutputFileError(f"{path} is read-only: change its permissions, or give another name.")
 
 
 @contextlib.contextmanager
@@ -50,53 +49,30 @@ def folder_written_aside(path: str | Path, marker: str, force: bool = False) -> 
     Parameters
     ----------
     path, marker, force
-        As in `check_folder_target`.
+        As in `check_folder_target`. A folder that is replaced leaves its mode and owner, as in
+        `written_aside`.
 
     Yields
     ------
     Path
-        An empty folder beside `path`. After the body its files are synced and it is renamed; when
-        anything is raised, it is removed.
+        An empty folder, in one beside `path`. After the body its files are synced and it is renamed,
+        within `together` when that ends; when anything is raised, it is removed.
 
     Raises
     ------
     OutputFileError
         As `check_folder_target`, or the system refuses a step.
     """
+    path = Path(path)
     check_folder_target(path, marker, force)
-    target = Path(path).resolve()
-    aside, replaced = (target.with_name(f".{target.name}.{secrets.token_hex(4)}") for _ in range(2))
-    try:
-        aside.mkdir()
-        yield aside
-        for file in aside.rglob("*"):
-            if file.is_file():
-                _sync(file)
-        check_folder_target(path, marker, force)
-        _swap(aside, target, replaced)
-    except OSError as error:
-        raise OutputFileError(
-            f"{path} was not written ({error.strerror}): free some space, or write elsewhere."
-        ) from error
-    finally:
-        for leftover in (aside, replaced):
-            shutil.rmtree(leftover, ignore_errors=True)
-
-
-def _swap(aside: Path, target: Path, replaced: Path) -> None:
-    """Give `aside` the name `target`, and what had that name, if anything, the name `replaced`."""
-    if not target.exists():
-        aside.rename(target)
-        return
-    target.rename(replaced)
-    try:
-        aside.rename(target)
-    except OSError:
-        replaced.rename(target)
-        raise
-
-
-def _sync(path: Path) -> None:
-    """Have the disk hold the file before its folder's name does."""
-    with path.open("rb+") as file:
-        os.fsync(file.fileno())
+    with outputs_now() as outputs:
+        try:
+            aside = outputs.folder_beside(path) / "a"
+            aside.mkdir()
+            yield aside
+            for file in aside.rglob("*"):
+                if file.is_file():
+                    sync(file)
+        except OSError as error:
+            raise not_written(path, error) from error
+        outputs.add(Output(path, aside, lambda: check_folder_target(path, marker, force)))

@@ -9,6 +9,7 @@ import numpy as np
 from ..core.conventions import Array
 from ..core.errors import InputFileError, RangeError
 from ..core.maps.representation import AHEAD, Representation, representation
+from .outputs import together
 from .radiance_pictures import check_radiance_target, write_radiance
 
 
@@ -199,8 +200,9 @@ def write_map(path: Path, layout: Layout, image: Array, force: bool = False) -> 
     else:
         pictures = [sheet[::-1] if layout.is_cube else sheet for sheet in image]
     paths = layout.paths(path)
-    for file, picture in zip(paths, pictures, strict=True):
-        write_radiance(file, picture, force)
+    with together():
+        for file, picture in zip(paths, pictures, strict=True):
+            write_radiance(file, picture, force)
     return paths
 
 

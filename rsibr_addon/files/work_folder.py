@@ -1,20 +1,31 @@
 """A folder for finished parts of long work, so that it can go on after an interruption."""
 
 import contextlib
+import hashlib
 import json
-import shutil
-import sys
+import os
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 from ..core.errors import OutputFileError, RsibrWarning, SchemaError
 from ..core.schema import loads
-from .atomic import written_aside
+from .atomic import check_name, written_aside
+from .locks import LOCK, held
+from .staging import clear_strays
 
 WORK = "job.json"
-LOCK = "lock"
+
+
+def work_folder_beside(output: Path) -> Path:
+    """The folder for parts of a file: NAME.partial, or something shorter where that is too long a name."""
+    path = output.resolve().with_name(f"{output.name}.partial")
+    try:
+        check_name(path)
+    except OutputFileError:
+        return path.with_name(f"{hashlib.sha256(os.fsencode(output.name)).hexdigest()[:16]}.partial")
+    return path
 
 
 @contextlib.contextmanager
@@ -48,23 +59,19 @@ def work_folder(path: Path, work: dict[str, Any]) -> Iterator[Path]:
         Parts of other work were removed.
     """
     _make(path)
-    keep = True
-    try:
-        with _locked(path):
-            _prepare(path, work)
-            try:
-                yield path
-                keep = False
-            except BaseException:
-                keep = bool(_parts(path))
-                raise
-    finally:
-        if not keep:
-            shutil.rmtree(path)
+    with _alone(path):
+        _prepare(path, work)
+        try:
+            yield path
+        except BaseException:
+            if not _parts(path):
+                (path / WORK).unlink(missing_ok=True)
+            raise
+        _empty(path)
 
 
 def _make(path: Path) -> None:
-    if path.is_dir() and any(path.iterdir()) and not (path / LOCK).exists():
+    if path.is_dir() and not (path / LOCK).exists() and any(path.iterdir()):
         raise OutputFileError(f"{path} holds something else than our work: move it, or write elsewhere.")
     try:
         path.mkdir(exist_ok=True)
@@ -72,22 +79,36 @@ def _make(path: Path) -> None:
         raise OutputFileError(f"{path} cannot be made ({error.strerror}): write elsewhere.") from error
 
 
+@contextlib.contextmanager
+def _alone(path: Path) -> Iterator[None]:
+    with contextlib.ExitStack() as stack:
+        try:
+            stack.enter_context(held(path))
+        except BlockingIOError as error:
+            raise OutputFileError(f"Another process is working in {path}: wait for it, or end it.") from error
+        yield
+
+
 def _prepare(path: Path, work: dict[str, Any]) -> None:
+    clear_strays(path)
     if _read_work(path / WORK) == work:
         return
-    parts = _parts(path)
-    if parts:
+    if _parts(path):
         warnings.warn(
             f"{path} held parts of another job (or of another version), so this one starts afresh.",
             RsibrWarning,
             stacklevel=2,
         )
-    # The description goes first: without it, whatever remains after a crash counts as other work.
-    (path / WORK).unlink(missing_ok=True)
-    for part in parts:
-        part.unlink()
+    _empty(path)
     with written_aside(path / WORK) as aside:
         aside.write_text(json.dumps(work))
+
+
+def _empty(path: Path) -> None:
+    """Remove all but the lock, the description first: without it what is left counts as other work."""
+    (path / WORK).unlink(missing_ok=True)
+    for part in _parts(path):
+        part.unlink()
 
 
 def _parts(path: Path) -> list[Path]:
@@ -99,26 +120,3 @@ def _read_work(path: Path) -> Any:
         return loads(path.read_bytes())
     except (OSError, SchemaError):
         return None
-
-
-@contextlib.contextmanager
-def _locked(path: Path) -> Iterator[None]:
-    """Hold the folder's lock, which the system gives free when this process ends, however it ends."""
-    with (path / LOCK).open("a") as file:
-        try:
-            _lock(file)
-        except OSError as error:
-            raise OutputFileError(f"Another process is working in {path}: wait for it, or end it.") from error
-        yield
-
-
-if sys.platform == "win32":
-    import msvcrt
-
-    def _lock(file: IO[str]) -> None:
-        msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
-else:
-    import fcntl
-
-    def _lock(file: IO[str]) -> None:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)

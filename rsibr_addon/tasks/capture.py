@@ -17,7 +17,7 @@ from ..files.atomic import check_target, written_aside
 from ..files.exr import Part, read_parts, write_parts
 from ..files.map_set import MapSet, write_map_set
 from ..files.map_set_header import ENVIRONMENT, make_header
-from ..files.work_folder import work_folder
+from ..files.work_folder import work_folder, work_folder_beside
 from ..host.cameras import add_camera
 from ..host.cycles import RenderedView, RenderSettings, render_view
 from ..host.furnace import directional_albedo
@@ -78,18 +78,15 @@ def capture(job: CaptureJob) -> Steps[Path]:
     check_target(job.output, job.force)
     yield Progress(0, job.views, "reading the environment")
     subject = _Subject(job)
-    output = Path(job.output).resolve()
-    with work_folder(output.with_name(f"{output.name}.partial"), subject.identity) as folder:
+    output = Path(job.output)
+    with work_folder(work_folder_beside(output), subject.identity) as folder:
         paths = [folder / f"view{view:03d}.exr" for view in range(job.views)]
         for view, path in enumerate(paths):
             yield Progress(view, job.views, f"rendering view {view + 1} of {job.views}")
             if not _is_finished(path):
                 _write_view(path, subject.render(view, settings[view]))
-        whole = folder / output.name
-        write_map_set(whole, _map_set(subject, paths), force=True)
-        check_target(output, job.force)
-        whole.replace(output)
-    return Path(job.output)
+        write_map_set(output, _map_set(subject, paths), job.force)
+    return output
 
 
 class _Subject:

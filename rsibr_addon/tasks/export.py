@@ -18,6 +18,7 @@ from ..files.kinds.sheets import sheets_from_strip
 from ..files.ktx2 import Texture, write_ktx2
 from ..files.map_set import MapSet, read_map_set
 from ..files.map_set_header import ENVIRONMENT
+from ..files.outputs import together
 
 NUMBERS = ("albedo", "weights", mip_chain.HARMONICS)
 """Roles of parts that are tables of a few numbers: a note holds them, row by row from v = 0."""
@@ -85,9 +86,10 @@ def export(map_set: Path, output: Path, up: Up = Up.Z, force: bool = False) -> S
     for path in textures:
         check_target(path, force)
     yield Progress(1, 2, f"writing {output.name}")
-    for path, (texture, note) in textures.items():
-        text = json.dumps({**note, **_common(held)}, allow_nan=False)
-        write_ktx2(path, texture, {"KTXwriter": held.header["software"], "rsibr": text}, force)
+    with together():
+        for path, (texture, note) in textures.items():
+            text = json.dumps({**note, **_common(held)}, allow_nan=False)
+            write_ktx2(path, texture, {"KTXwriter": held.header["software"], "rsibr": text}, force)
     return list(textures)
 
 

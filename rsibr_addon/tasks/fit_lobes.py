@@ -19,6 +19,7 @@ from ..core.lobes.target import elevation_slices
 from ..core.progress import Progress, Steps
 from ..files.atomic import check_target
 from ..files.fits import write_fit
+from ..files.outputs import together
 from .brdfs import load_brdf
 from .fit_plots import check_plots, write_plots
 
@@ -163,9 +164,10 @@ def fit_lobes(
             RsibrWarning,
             stacklevel=2,
         )
-    if plots is not None:
-        write_plots(plots, result.fit, brdf, result.errors, force)
-    write_fit(output, fit, result.report(), force)
+    with together():
+        if plots is not None:
+            write_plots(plots, result.fit, brdf, result.errors, force)
+        write_fit(output, fit, result.report(), force)
     return result
 
 

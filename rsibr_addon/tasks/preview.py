@@ -14,6 +14,7 @@ from ..core.errors import OutputFileError, RangeError
 from ..core.progress import Progress, Steps
 from ..device.preview import PreviewRenderer
 from ..files.atomic import check_target, written_aside
+from ..files.outputs import together
 from ..files.pictures import write_exr
 from ..host.meshes import TriangleMesh, load_mesh
 from ..host.movies import save_movie
@@ -145,9 +146,10 @@ def turntable(
             if number in shown:
                 sheet.append(picture)
         yield Progress(frame_count, frame_count + 1, f"writing {movie.name}")
-        with written_aside(movie, force) as aside:
-            save_movie(aside, frames)
-    _write_picture(output, contact_sheet(sheet, SHEET_COLUMNS), force)
+        with together():
+            with written_aside(movie, force) as aside:
+                save_movie(aside, frames)
+            _write_picture(output, contact_sheet(sheet, SHEET_COLUMNS), force)
     return output, movie
 
 

@@ -14,7 +14,7 @@ from rsibr.rsibr_addon.files.atomic import check_target, written_aside
 def test_the_file_appears_when_the_body_ends(tmp_path: Path) -> None:
     target = tmp_path / "a b.rsibr.exr"
     with written_aside(target) as aside:
-        assert aside.parent == tmp_path
+        assert aside.parent.parent == tmp_path
         assert aside.suffix == ".exr"
         aside.write_bytes(b"whole")
         assert not target.exists()
@@ -87,13 +87,23 @@ def test_a_link_stays_and_what_it_points_to_is_replaced(tmp_path: Path) -> None:
     ("name", "sentence"),
     [
         ("missing/a.exr", r"missing is not there to write a\.exr into"),
-        ("file/a.exr", r"file is not there to write a\.exr into"),
+        ("missing/deeper/a.exr", r"missing/deeper is not there to write a\.exr into"),
+        ("file/a.exr", r"file is a file, so a\.exr cannot be in it"),
+        ("file/deeper/a.exr", r"file/deeper is not there to write a\.exr into"),
         ("folder", r"folder is a folder"),
+        ("loop", r"loop cannot be a file's name \(Too many levels of symbolic links\)"),
+        ("loop/a.exr", r"loop/a\.exr cannot be a file's name \(Too many levels of symbolic links\)"),
+        (252 * "a" + ".exr", r"a\.exr cannot be a file's name \(File name too long\)"),
+        (126 * "ä" + ".exr", r"ä\.exr cannot be a file's name \(File name too long\)"),
+        (16 * (255 * "a" + "/") + "a.exr", r"a\.exr cannot be a file's name \(File name too long\)"),
+        ("a\0b.exr", r"a\\x00b\.exr' cannot be a file's name: give one of letters in UTF-8"),
+        ("a\udcff.exr", r"a\\udcff\.exr' cannot be a file's name: give one of letters in UTF-8"),
     ],
 )
 def test_impossible_targets_are_refused(tmp_path: Path, name: str, sentence: str) -> None:
     (tmp_path / "folder").mkdir()
     (tmp_path / "file").touch()
+    (tmp_path / "loop").symlink_to("loop")
     with pytest.raises(OutputFileError, match=sentence):
         check_target(tmp_path / name, force=True)
 

@@ -57,7 +57,7 @@ def test_nothing_is_left_of_a_failure(tmp_path: Path) -> None:
 
 def test_what_the_system_refuses_is_said(tmp_path: Path) -> None:
     with (
-        pytest.raises(OutputFileError, match=r"out was not written \(No space left"),
+        pytest.raises(OutputFileError, match=r"out was not written because the disk is full"),
         folder_written_aside(tmp_path / "out", MARKER),
     ):
         raise OSError(28, "No space left on device")

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 from rsibr.rsibr_addon.core.errors import OutputFileError, RsibrWarning
-from rsibr.rsibr_addon.files.work_folder import work_folder
+from rsibr.rsibr_addon.files.staging import staging_name
+from rsibr.rsibr_addon.files.work_folder import work_folder, work_folder_beside
 
 
 class Interruption(Exception):  # noqa: N818
@@ -22,7 +23,7 @@ def work_and_stop(path: Path, work: dict[str, object], *parts: str) -> None:
 
 
 def names(path: Path) -> set[str]:
-    return {item.name for item in path.iterdir()} - {"lock", "job.json"}
+    return {item.name for item in path.iterdir()} - {"rsibr.lock", "job.json"}
 
 
 def test_it_is_there_for_the_work_and_then_gone(tmp_path: Path) -> None:
@@ -91,8 +92,30 @@ def test_what_is_not_ours_stays(tmp_path: Path) -> None:
     file.write_text("precious")
     folder.mkdir()
     (folder / "thesis.txt").write_text("precious")
+    (folder / "lock").touch()
+    (folder / "job.json").touch()
     with pytest.raises(OutputFileError, match="cannot be made"), work_folder(file, {}):
         pass
     with pytest.raises(OutputFileError, match="holds something else"), work_folder(folder, {}):
         pass
     assert file.read_text() == (folder / "thesis.txt").read_text() == "precious"
+
+
+def test_what_a_killed_process_was_writing_in_it_goes(tmp_path: Path) -> None:
+    path = tmp_path / "work"
+    with pytest.raises(Interruption):
+        work_and_stop(path, {"n": 1}, "a")
+    stray = path / staging_name()
+    stray.mkdir()
+    (stray / "a.exr").touch()
+    with work_folder(path, {"n": 1}) as folder:
+        assert names(folder) == {"a"}
+
+
+def test_its_name_tells_the_files_where_that_is_short_enough(tmp_path: Path) -> None:
+    assert work_folder_beside(tmp_path / "a.exr") == tmp_path / "a.exr.partial"
+    longest = tmp_path / (251 * "a" + ".exr")
+    path = work_folder_beside(longest)
+    assert path != work_folder_beside(longest.with_stem(251 * "b"))
+    with work_folder(path, {}) as folder:
+        assert folder.parent == tmp_path

@@ -1,0 +1,104 @@
+"""Folders that one process holds at a time; one that ends, however it ends, lets go."""
+
+import contextlib
+import errno
+import os
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import IO
+
+LOCK = "rsibr.lock"
+"""Name of the file in a held folder by which it is known for one of ours."""
+
+
+@contextlib.contextmanager
+def held(folder: Path) -> Iterator[bool]:
+    """Hold a folder alone; it is removed afterwards when nothing is left in it.
+
+    Parameters
+    ----------
+    folder : Path
+        Made, for this user alone, if it is not there.
+
+    Yields
+    ------
+    bool
+        False where the file system knows no locks: then another process may have the folder too.
+
+    Raises
+    ------
+    BlockingIOError
+        Another process holds it.
+    OSError
+        It cannot be made.
+    """
+    file, alone = _held(folder)
+    try:
+        yield alone
+    finally:
+        with contextlib.suppress(OSError), file:
+            if alone and os.listdir(folder) == [LOCK]:
+                _close_and_remove(file, folder / LOCK)
+                folder.rmdir()
+
+
+def _held(folder: Path) -> tuple[IO[str], bool]:
+    """The open lock, and whether the system did lock it."""
+    while True:
+        file = _opened(folder)
+        try:
+            alone = _lock(file)
+        except BlockingIOError:
+            file.close()
+            raise
+        # The one that held it before may have removed it meanwhile
+        if not alone or _is_there(folder / LOCK, file):
+            return file, alone
+        file.close()
+
+
+def _opened(folder: Path) -> IO[str]:
+    while True:
+        folder.mkdir(mode=0o700, exist_ok=True)
+        with contextlib.suppress(FileNotFoundError):
+            return (folder / LOCK).open("a")
+
+
+def _is_there(path: Path, file: IO[str]) -> bool:
+    try:
+        return os.path.samestat(os.fstat(file.fileno()), path.stat())
+    except FileNotFoundError:
+        return False
+
+
+if sys.platform == "win32":
+    import msvcrt
+
+    def _lock(file: IO[str]) -> bool:
+        try:
+            msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
+        except PermissionError as error:
+            raise BlockingIOError(errno.EWOULDBLOCK, "held by another process") from error
+        return True
+
+    def _close_and_remove(file: IO[str], path: Path) -> None:
+        """Close it first: no file can be removed that someone has open, another process least of all."""
+        file.close()
+        path.unlink()
+else:
+    import fcntl
+
+    def _lock(file: IO[str]) -> bool:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise
+        except OSError:
+            return False
+        return True
+
+    def _close_and_remove(file: IO[str], path: Path) -> None:
+        """Remove it first: once it is closed, another process may hold it."""
+        path.unlink()
+        file.close()

@@ -1,0 +1,191 @@
+"""What is written appears under its names together, whole, or not at all."""
+
+import contextlib
+import errno
+import os
+import shutil
+import stat
+import sys
+from collections.abc import Callable, Iterator
+from contextvars import ContextVar
+from dataclasses import dataclass
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from ..core.errors import OutputFileError
+from .staging import REPLACED, staging_folder
+
+
+@dataclass(frozen=True)
+class Output:
+    """A file or a folder that has been written aside.
+
+    Attributes
+    ----------
+    path : Path
+        Its final name as the user gave it; a link is followed.
+    aside : Path
+        Where it is now, in a staging folder beside `target`.
+    check : callable
+        Raises OutputFileError where it must not be written.
+    """
+
+    path: Path
+    aside: Path
+    check: Callable[[], None]
+
+    @property
+    def target(self) -> Path:
+        """Where it goes: a link is followed."""
+        return self.path.resolve()
+
+    @property
+    def replaced(self) -> Path:
+        """Where what had its name before is kept until all is done."""
+        return self.aside.parent / REPLACED / self.target.name
+
+
+class Outputs:
+    """A context whose outputs get their names when it ends well; else they are removed."""
+
+    def __init__(self) -> None:
+        self._staging = contextlib.ExitStack()
+        self._written: list[Output] = []
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        with self._staging:
+            if kind is None:
+                _appear(self._written)
+
+    def folder_beside(self, path: Path) -> Path:
+        """An empty folder for what will be `path`, on the same disk.
+
+        Raises
+        ------
+        OSError
+        """
+        return self._staging.enter_context(staging_folder(path.resolve().parent))
+
+    def add(self, output: Output) -> None:
+        """Note what is written, and synced."""
+        self._written.append(output)
+
+
+_together: ContextVar[Outputs | None] = ContextVar("together", default=None)
+
+
+@contextlib.contextmanager
+def together() -> Iterator[None]:
+    """Have all that the body writes appear when it ends, or when anything is raised nothing.
+
+    The body writes by `written_aside` and `folder_written_aside`, and does not yield: what others write
+    between its steps would be taken for its own.
+
+    Raises
+    ------
+    OutputFileError
+        An output must not be written, or the system refuses a step; then all is as it was before.
+    """
+    with Outputs() as outputs:
+        token = _together.set(outputs)
+        try:
+            yield
+        finally:
+            _together.reset(token)
+
+
+def outputs_now() -> contextlib.AbstractContextManager[Outputs]:
+    """The outputs that one more belongs to: those of `together`, or its own."""
+    outer = _together.get()
+    return Outputs() if outer is None else contextlib.nullcontext(outer)
+
+
+def not_written(path: Path, error: OSError) -> OutputFileError:
+    """What to tell when the system refuses to write `path`."""
+    if error.errno in (errno.ENOSPC, errno.EDQUOT):
+        return OutputFileError(
+            f"{path} was not written because the disk is full: free some space, or write elsewhere."
+        )
+    return OutputFileError(
+        f"{path} was not written ({error.strerror}): check its folder, or write elsewhere."
+    )
+
+
+def _appear(outputs: list[Output]) -> None:
+    for output in outputs:
+        output.check()
+    done: list[Output] = []
+    for output in outputs:
+        try:
+            _exchange(output, alone=len(outputs) == 1)
+        except OSError as error:
+            for each in reversed(done):
+                _change_back(each)
+            raise not_written(output.path, error) from error
+        done.append(output)
+    for folder in {output.target.parent for output in outputs}:
+        _sync_folder(folder)
+
+
+def _exchange(output: Output, alone: bool) -> None:
+    """Give an output its name, with the mode and, as far as the system lets us, the owner of what has it."""
+    target, replaced = output.target, output.replaced
+    if not target.exists():
+        output.aside.rename(target)
+        return
+    _make_alike(output.aside, target.stat())
+    if target.is_dir():
+        replaced.parent.mkdir()
+        target.rename(replaced)
+        try:
+            output.aside.rename(target)
+        except OSError:
+            replaced.rename(target)
+            raise
+        return
+    if not alone:  # else there is nothing to be changed back
+        replaced.parent.mkdir()
+        _duplicate(target, replaced)
+    output.aside.replace(target)
+
+
+def _change_back(output: Output) -> None:
+    """Undo `_exchange`."""
+    target, replaced = output.target, output.replaced
+    if replaced.is_file():
+        replaced.replace(target)
+        return
+    target.rename(output.aside)
+    if replaced.exists():
+        replaced.rename(target)
+
+
+def _make_alike(path: Path, status: os.stat_result) -> None:
+    if sys.platform != "win32":
+        for user, group in ((-1, status.st_gid), (status.st_uid, -1)):
+            with contextlib.suppress(OSError):
+                os.chown(path, user, group)
+    path.chmod(stat.S_IMODE(status.st_mode))
+
+
+def _duplicate(path: Path, other: Path) -> None:
+    try:
+        other.hardlink_to(path)
+    except OSError:  # which not every file system knows
+        shutil.copy2(path, other)
+
+
+def _sync_folder(folder: Path) -> None:
+    """Have the disk hold the new names too, where the system can; the files are whole either way."""
+    with contextlib.suppress(OSError):
+        descriptor = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)

@@ -1,0 +1,107 @@
+"""Folders for what is being written, beside where it will be or among temporary files.
+
+Their names are short, whatever the file's. A process that is killed leaves its folder; the next one of ours
+that looks there removes what no living process holds.
+"""
+
+import contextlib
+import hashlib
+import os
+import platform
+import re
+import secrets
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+from .locks import held
+
+REPLACED = "replaced"
+"""Folder in a staging folder, for what had the final name before."""
+
+STRANGE_SECONDS = 24 * 60 * 60.0
+"""How long another machine's folder is left alone: on a shared disk it may not show us its locks."""
+
+_NAME = re.compile(r"\.rsibr-([0-9a-f]{8})-[0-9a-f]{8}")
+
+
+def staging_name() -> str:
+    """A name that no other staging folder has, and that tells which machine it belongs to."""
+    return f".rsibr-{_machine()}-{secrets.token_hex(4)}"
+
+
+@contextlib.contextmanager
+def staging_folder(around: Path) -> Iterator[Path]:
+    """A new folder that is held by this process, and gone afterwards.
+
+    Parameters
+    ----------
+    around : Path
+        The folder that it is made in.
+
+    Yields
+    ------
+    Path
+
+    Raises
+    ------
+    OSError
+        It cannot be made.
+    """
+    clear_strays(around)
+    with contextlib.ExitStack() as stack:
+        while True:
+            folder = around / staging_name()
+            # Another process may think that it is a stray before it is held
+            with contextlib.suppress(BlockingIOError):
+                stack.enter_context(held(folder))
+                break
+        try:
+            yield folder
+        finally:
+            shutil.rmtree(folder, ignore_errors=True)
+
+
+def clear_strays(around: Path) -> None:
+    """Remove staging folders that processes left which were killed.
+
+    Parameters
+    ----------
+    around : Path
+        The folder that they are in; one that cannot be read is left alone.
+
+    Notes
+    -----
+    What a killed process had put away to make place for a new folder gets its name back first.
+    """
+    with contextlib.suppress(OSError):
+        strays = [Path(entry) for entry in os.scandir(around) if _may_be_stray(entry)]
+        for folder in strays:
+            with contextlib.suppress(OSError), held(folder) as alone:
+                if alone:
+                    _put_back(folder / REPLACED, around)
+                    shutil.rmtree(folder, ignore_errors=True)
+
+
+def _may_be_stray(entry: os.DirEntry[str]) -> bool:
+    name = _NAME.fullmatch(entry.name)
+    if name is None or not entry.is_dir(follow_symlinks=False):
+        return False
+    return name[1] == _machine() or _age(entry) > STRANGE_SECONDS
+
+
+def _age(entry: os.DirEntry[str]) -> float:
+    """Seconds since something was last made in a folder, by the clock of the disk that it is on."""
+    around = Path(entry).parent
+    return around.stat().st_mtime - entry.stat().st_mtime
+
+
+def _put_back(replaced: Path, around: Path) -> None:
+    if replaced.is_dir():
+        for item in replaced.iterdir():
+            if item.is_dir() and not os.path.lexists(around / item.name):
+                item.rename(around / item.name)
+
+
+def _machine() -> str:
+    return hashlib.sha256(platform.node().encode()).hexdigest()[:8]

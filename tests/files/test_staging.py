@@ -1,0 +1,115 @@
+"""What killed processes left goes, and nothing else does."""
+
+import os
+import platform
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from rsibr.rsibr_addon.files.atomic import check_target, written_aside
+from rsibr.rsibr_addon.files.folders import check_folder_target, folder_written_aside
+from rsibr.rsibr_addon.files.staging import clear_strays, staging_folder, staging_name
+
+HOLDER = """
+import sys, time
+from pathlib import Path
+from rsibr.rsibr_addon.files.atomic import written_aside
+with written_aside(sys.argv[1]) as aside:
+    aside.write_text("half")
+    print("written", flush=True)
+    time.sleep(100)
+"""
+
+
+def start_writing(target: Path) -> subprocess.Popen[str]:
+    writer = subprocess.Popen([sys.executable, "-c", HOLDER, target], stdout=subprocess.PIPE, text=True)
+    assert writer.stdout is not None
+    assert writer.stdout.readline() == "written\n"
+    return writer
+
+
+def test_what_a_killed_process_left_goes_and_what_a_living_one_writes_stays(tmp_path: Path) -> None:
+    with start_writing(tmp_path / "a.exr") as living:
+        with start_writing(tmp_path / "b.exr") as killed:
+            killed.kill()
+        assert len(os.listdir(tmp_path)) == 2
+        with written_aside(tmp_path / "c.exr") as aside:
+            aside.touch()
+        (left,) = set(os.listdir(tmp_path)) - {"c.exr"}
+        assert (tmp_path / left / "a.exr").read_text() == "half"
+        living.kill()
+    check_target(tmp_path / "a.exr")
+    assert os.listdir(tmp_path) == ["c.exr"]
+
+
+def test_a_folder_whose_process_died_before_it_could_hold_it_goes(tmp_path: Path) -> None:
+    (tmp_path / staging_name()).mkdir()
+    check_folder_target(tmp_path / "out", "result.json")
+    assert os.listdir(tmp_path) == []
+
+
+def test_another_machines_goes_after_a_day(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with monkeypatch.context() as patch:
+        patch.setattr(platform, "node", lambda: "another machine")
+        stray = tmp_path / staging_name()
+    stray.mkdir()
+    clear_strays(tmp_path)
+    assert stray.is_dir()
+    yesterday = time.time() - 25 * 3600
+    os.utime(stray, (yesterday, yesterday))
+    clear_strays(tmp_path)
+    assert os.listdir(tmp_path) == []
+
+
+def test_what_is_not_ours_stays(tmp_path: Path) -> None:
+    precious, name = tmp_path / "precious", staging_name()
+    for folder in (precious, tmp_path / ".rsibr-notes", tmp_path / f"{name}.old"):
+        folder.mkdir()
+        (folder / "thesis.txt").touch()
+    (tmp_path / staging_name()).symlink_to(precious)
+    (tmp_path / staging_name()).touch()
+    before = sorted(tmp_path.rglob("*"))
+    clear_strays(tmp_path)
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_a_kill_while_a_folder_takes_anothers_place_loses_neither(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    script = """
+import os, sys
+from pathlib import Path
+from rsibr.rsibr_addon.files.folders import folder_written_aside
+rename, path = Path.rename, Path(sys.argv[1])
+def killed_after(self, target):
+    rename(self, target)
+    if not path.exists():
+        os.kill(os.getpid(), 9)
+Path.rename = killed_after
+with folder_written_aside(path, "result.json", force=True) as aside:
+    (aside / "result.json").write_text("new")
+"""
+    with folder_written_aside(out, "result.json") as aside:
+        (aside / "result.json").write_text("old")
+    assert subprocess.run([sys.executable, "-c", script, out], check=False).returncode == -9
+    assert not out.exists()
+    check_folder_target(out, "result.json", force=True)
+    assert [(path.name, path.read_text()) for path in tmp_path.rglob("*.*")] == [("result.json", "old")]
+
+
+def test_a_folder_is_made_anew_when_it_is_taken_for_a_stray(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    mkdir = Path.mkdir
+
+    def made_and_taken(path: Path, mode: int = 0o777, exist_ok: bool = False) -> None:
+        mkdir(path, mode, exist_ok=exist_ok)
+        monkeypatch.setattr(Path, "mkdir", mkdir)
+        clear_strays(tmp_path)
+        assert not path.exists()
+
+    monkeypatch.setattr(Path, "mkdir", made_and_taken)
+    with staging_folder(tmp_path) as folder:
+        assert folder.is_dir()
+    assert os.listdir(tmp_path) == []

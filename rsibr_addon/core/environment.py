@@ -30,7 +30,7 @@ class Environment:
 
     def __post_init__(self) -> None:
         pixels = np.ascontiguousarray(self.radiance, dtype="<f4")
-        object.__setattr__(self, "sha256", hashlib.sha256(pixels.tobytes()).hexdigest())
+        object.__setattr__(self, "sha256", hashlib.sha256(pixels.data).hexdigest())
 
 
 def environment_from_pixels(pixels: Array, name: str) -> Environment:
@@ -46,17 +46,17 @@ def environment_from_pixels(pixels: Array, name: str) -> Environment:
     Returns
     -------
     Environment
-        With negative radiance, which no light has, set to 0.
+        Of `usable_radiance`.
 
     Raises
     ------
     InputFileError
-        The map is not twice as wide as high, or holds NaN or infinite values.
+        The map is not twice as wide as high, or holds no finite value.
 
     Warns
     -----
     RsibrWarning
-        Negative values were set to 0; says how many.
+        See `usable_radiance`.
     """
     height, width = pixels.shape[:2]
     if width != 2 * height or height < 1:
@@ -68,7 +68,7 @@ def environment_from_pixels(pixels: Array, name: str) -> Environment:
 
 
 def usable_radiance(pixels: Array, name: str) -> Array:
-    """Check that `pixels` can be radiance.
+    """Make radiance of what a picture holds.
 
     Parameters
     ----------
@@ -79,30 +79,39 @@ def usable_radiance(pixels: Array, name: str) -> Array:
     Returns
     -------
     ndarray, shape of `pixels`, float32
-        With negative radiance, which no light has, set to 0.
+        At least 0 and finite: `pixels` itself, where it is such; what is infinite, as a sun that half
+        floats cannot hold, is the greatest finite value; NaN and what is negative, which no light is, is 0.
 
     Raises
     ------
     InputFileError
-        It holds NaN or infinite values.
+        It holds no finite value.
 
     Warns
     -----
     RsibrWarning
-        Negative values were set to 0; says how many.
+        Values were changed; says how many, and to what.
     """
-    unusable = int(np.count_nonzero(~np.isfinite(pixels)))
-    if unusable:
-        raise InputFileError(
-            f"{name} holds {unusable} values that are NaN or infinite: repair it in an image editor."
-        )
-    radiance = pixels.astype(np.float32)
-    negative = int(np.count_nonzero(radiance < 0.0))
-    if negative:
-        warnings.warn(
-            f"{name} holds {negative} negative values; they are taken as 0.",
-            RsibrWarning,
-            stacklevel=2,
-        )
-        radiance = np.maximum(radiance, np.float32(0.0))
+    with np.errstate(over="ignore"):
+        radiance = pixels.astype(np.float32, copy=False)
+    if np.min(radiance) >= 0.0 and np.max(radiance) < np.inf:
+        return radiance
+    finite = np.isfinite(radiance)
+    if not finite.any():
+        raise InputFileError(f"{name} holds no finite value: make it again.")
+    greatest = np.max(radiance, where=finite, initial=0.0)
+    changes = (
+        ("infinite", radiance == np.inf, greatest),
+        ("undefined (NaN)", np.isnan(radiance), np.float32(0.0)),
+        ("negative", radiance < 0.0, np.float32(0.0)),
+    )
+    radiance = radiance.copy()
+    for kind, where, instead in changes:
+        if count := np.count_nonzero(where):
+            radiance[where] = instead
+            warnings.warn(
+                f"{name} holds {count} {kind} values; they are taken as {instead:g}.",
+                RsibrWarning,
+                stacklevel=2,
+            )
     return radiance

@@ -23,11 +23,11 @@ def read_environment(path: str | Path) -> Environment:
     ------
     InputFileError
         The file is missing, unreadable, of another format, truncated or damaged, has no colour, is not
-        twice as wide as high, or holds NaN or infinite values.
+        twice as wide as high, or holds no finite value.
 
     Warns
     -----
     RsibrWarning
-        Negative values were set to 0; says how many.
+        See `core.environment.usable_radiance`.
     """
     return environment_from_pixels(read_radiance(path), Path(path).name)

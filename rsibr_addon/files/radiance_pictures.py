@@ -8,8 +8,11 @@ from ..core.conventions import Array
 from ..core.errors import InputFileError, OutputFileError
 from . import exr, radiance_hdr
 from .atomic import check_target, written_aside
-from .pictures import read_exr
+from .picture_facts import PictureFacts
+from .pictures import describe_exr, read_exr, split_layer
 from .reading import opened
+
+NEITHER = "is neither OpenEXR nor Radiance HDR: convert it to one of them."
 
 
 def holds_radiance(path: str | Path) -> bool:
@@ -37,7 +40,7 @@ def read_radiance(path: str | Path) -> Array:
     Parameters
     ----------
     path : str or Path
-        OpenEXR or Radiance HDR, told by its first bytes, not by its name.
+        OpenEXR or Radiance HDR, told by its first bytes, not by its name; FILE.exr:LAYER for a layer.
 
     Returns
     -------
@@ -48,6 +51,13 @@ def read_radiance(path: str | Path) -> Array:
     ------
     InputFileError
         The file is missing, unreadable, of another format, truncated or damaged, or has no colour.
+    RangeError
+        It is too large for this machine's memory.
+
+    Warns
+    -----
+    RsibrWarning
+        Something that the header says is not used; says what.
     """
     start = _start(path)
     if start.startswith(exr.MAGIC):
@@ -55,9 +65,45 @@ def read_radiance(path: str | Path) -> Array:
     elif start.startswith(radiance_hdr.MAGIC):
         pixels = radiance_hdr.read_hdr(path)
     else:
-        raise InputFileError(f"{path} is neither OpenEXR nor Radiance HDR: convert it to one of them.")
+        raise InputFileError(f"{path} {NEITHER}")
     height, width = pixels.shape[:2]
     return np.broadcast_to(pixels, (height, width, 3))
+
+
+def describe_radiance(path: str | Path) -> PictureFacts:
+    """Tell what of a picture of radiance is used, by its header alone.
+
+    Parameters
+    ----------
+    path : str or Path
+        As `read_radiance` takes it.
+
+    Returns
+    -------
+    PictureFacts
+
+    Raises
+    ------
+    InputFileError
+        As `read_radiance`, but for the pixels.
+    """
+    start = _start(path)
+    if start.startswith(exr.MAGIC):
+        return describe_exr(path)
+    if not start.startswith(radiance_hdr.MAGIC):
+        raise InputFileError(f"{path} {NEITHER}")
+    header = radiance_hdr.read_hdr_header(path)
+    factors = " ".join(f"{factor:.6g}" for factor in header.scale)
+    return PictureFacts(
+        format="Radiance HDR",
+        size=header.size,
+        window="all",
+        channels="RGBE",
+        layers=(),
+        colours=header.colours,
+        exposure="none stated" if np.all(header.scale == 1.0) else f"{factors}, divided out",
+        remarks=header.remarks,
+    )
 
 
 def check_radiance_target(path: str | Path, force: bool = False) -> None:
@@ -108,5 +154,5 @@ def write_radiance(path: str | Path, radiance: Array, force: bool = False) -> No
 
 
 def _start(path: str | Path) -> bytes:
-    with opened(path) as stream:
+    with opened(split_layer(path)[0]) as stream:
         return stream.read(max(len(exr.MAGIC), len(radiance_hdr.MAGIC)))

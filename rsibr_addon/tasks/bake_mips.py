@@ -108,7 +108,7 @@ def bake_mips(
     Warns
     -----
     RsibrWarning
-        Negative values were set to 0; says how many.
+        See `core.environment.usable_radiance`.
     """
     check_target(output, force)
     total = settings.size.bit_length() + 2

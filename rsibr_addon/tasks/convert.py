@@ -86,8 +86,8 @@ def convert(source: Path, settings: ConvertSettings, output: Path, force: bool =
     Raises
     ------
     InputFileError
-        A file is missing or unreadable, its size does not fit the layout, or it holds NaN or infinite
-        values.
+        A file is missing or unreadable, its size does not fit the layout, or it holds no finite
+        value.
     OutputFileError
         A file cannot be written, or exists and is not to be replaced.
     RangeError
@@ -96,7 +96,7 @@ def convert(source: Path, settings: ConvertSettings, output: Path, force: bool =
     Warns
     -----
     RsibrWarning
-        Negative values were set to 0; says how many.
+        See `core.environment.usable_radiance`.
     """
     before, after = settings.layout(settings.source), settings.layout(settings.target)
     check_map_target(output, after, force)

@@ -5,6 +5,7 @@ from pathlib import Path
 from ..core.environment import Environment
 from ..core.errors import InputFileError
 from ..files.environments import read_environment
+from ..files.pictures import split_layer
 from ..host.scenes import find_scene
 from ..host.worlds import sample_world, studio_environments, world_of
 
@@ -35,13 +36,14 @@ def load_environment(spec: str | None) -> Environment:
     Warns
     -----
     RsibrWarning
-        Negative values were set to 0; says how many.
+        See `files.environments.read_environment`.
     """
     if spec is None:
         return sample_world(world_of(find_scene(None)), WORLD_HEIGHT)
     own = studio_environments()
-    if Path(spec).exists():
-        return read_environment(spec)
-    if spec not in own:
+    # A folder may well be called as one of Blender's own
+    if spec in own and not Path(spec).is_file():
+        return read_environment(own[spec])
+    if not split_layer(spec)[0].exists():
         raise InputFileError(f"There is no environment {spec}: give a file, or one of {', '.join(own)}.")
-    return read_environment(own[spec])
+    return read_environment(spec)

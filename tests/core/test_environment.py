@@ -51,12 +51,28 @@ def test_a_map_that_is_not_twice_as_wide_as_high_is_refused(height: int, width: 
     assert "resize or convert" in str(raised.value)
 
 
-def test_values_that_are_no_numbers_are_refused_with_their_count() -> None:
+def test_values_that_are_no_numbers_are_replaced_and_counted() -> None:
     pixels = PIXELS.copy()
     pixels[0, 0] = np.nan, np.inf, -np.inf
-    pixels[1, 3, 2] = np.nan
-    with pytest.raises(InputFileError, match=r"^room\.exr holds 4 values that are NaN or infinite: repair"):
-        environment_from_pixels(pixels, "room.exr")
+    pixels[1, 3, 2] = np.inf
+    before = pixels.copy()
+    expected = pixels.copy()
+    expected[0, 0] = expected[1, 3, 2] = np.nanmax(pixels, where=np.isfinite(pixels), initial=0.0)
+    expected[0, 0, ::2] = 0.0
+    with pytest.warns(RsibrWarning) as caught:
+        environment = environment_from_pixels(pixels, "room.exr")
+    sentences = [str(warning.message) for warning in caught]
+    assert sentences[0] == f"room.exr holds 2 infinite values; they are taken as {expected.max():g}."
+    assert sentences[1] == "room.exr holds 1 undefined (NaN) values; they are taken as 0."
+    assert sentences[2] == "room.exr holds 1 negative values; they are taken as 0."
+    np.testing.assert_array_equal(environment.radiance, expected)
+    np.testing.assert_array_equal(pixels, before)
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_a_map_without_any_finite_value_is_refused(value: float) -> None:
+    with pytest.raises(InputFileError, match=r"^room\.exr holds no finite value"):
+        environment_from_pixels(np.full((2, 4, 3), value), "room.exr")
 
 
 def test_negative_values_become_black_with_their_count() -> None:

@@ -73,14 +73,6 @@ def test_other_shapes_than_two_to_one_are_refused(tmp_path: Path, shape: tuple[i
         read_environment(write_rgb(tmp_path / "a.exr", np.ones(shape)))
 
 
-@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
-def test_values_that_are_not_finite_are_counted_and_refused(tmp_path: Path, value: float) -> None:
-    rgb = np.ones((4, 8, 3))
-    rgb[1, 2] = rgb[3, 4, 0] = value
-    with pytest.raises(InputFileError, match=r"a\.exr holds 4 values that are NaN or infinite"):
-        read_environment(write_rgb(tmp_path / "a.exr", rgb))
-
-
 def test_negative_values_are_counted_and_taken_as_nothing(tmp_path: Path) -> None:
     rgb = np.ones((4, 8, 3))
     rgb[0, 2] = rgb[3, 4, 0] = -0.5

@@ -197,3 +197,31 @@ def test_values_that_are_no_radiance(tmp_path: Path, capfd: pytest.CaptureFixtur
     assert "a.exr holds 1 negative values; they are taken as 0." in told
     made = read_radiance(tmp_path / "b.exr")
     assert (made[0, 0, 0], made[0, 0, 1], made[1, 1, 1]) == (0.0, greatest, 0.0)
+
+
+def test_outputs_are_kept_and_none_is_written_when_one_is_there(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    write_radiance(tmp_path / "a.exr", direction_picture(8))
+    (tmp_path / "b-back.exr").write_bytes(b"kept")
+    arguments = [
+        tmp_path / "a.exr",
+        tmp_path / "b.exr",
+        "--from",
+        "equirect",
+        "--to",
+        "orthographic",
+        "--size",
+        8,
+    ]
+    assert convert(*arguments) == 1
+    assert "b-back.exr exists" in capfd.readouterr().err
+    assert not (tmp_path / "b-front.exr").exists()
+    assert convert(*arguments, "--force", "--json") == 0
+    assert "b-front.exr" in capfd.readouterr().out
+
+
+def test_wrong_layouts_are_usage_errors(tmp_path: Path) -> None:
+    assert convert("a.exr", "b.exr", "--from", "equirect", "--to", "hexagon", "--size", 8) == 2
+    with pytest.raises(RangeError, match="no maps of kind hexagon"):
+        layout("hexagon")

@@ -1,5 +1,6 @@
 """Mips filtered with GGX lobes, the more so the smaller they are: what engines shade glossy surfaces from."""
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -11,10 +12,10 @@ from ..errors import RangeError
 from ..harmonics.analysis import analyse_environment
 from ..maps.representation import representation
 from ..mip_chain import check_roughness, check_size
-from ..prefilter import analysis_degree, prefilter
+from ..prefilter import analysis_degree, prefilter, resolved_width
 from ..radial_lobes import ggx_n_dot_l_lobe
 from ..resample import lookup, resample
-from ..zonal import expand
+from ..zonal import ZonalSeries, expand
 
 TOLERANCE = 1e-4
 """Relative root-mean-square error of a mip; the n.l lobe's kink makes less of it dear."""
@@ -99,12 +100,13 @@ def ggx_mips(radiance: Array, size: int, roughness: Sequence[float]) -> Iterator
     Raises
     ------
     RangeError
-        Size or roughnesses are out of range, or a lobe is narrower than the environment resolves.
+        Size or roughnesses are out of range, or a lobe is too narrow: see `core.zonal.expand`.
 
     Notes
     -----
     Radiance times `ggx_n_dot_l_lobe` of alpha = roughness^2, to a relative root-mean-square error of
-    `TOLERANCE`: [Karis2013], whose samples this replaces by the whole sum.
+    `TOLERANCE`: [Karis2013], whose samples this replaces by the whole sum. A map whose texels are too large
+    for a lobe is interpolated first, as a mip of roughness 0 shows it.
     """
     check_size(size, len(roughness))
     check_roughness(tuple(roughness))
@@ -114,7 +116,7 @@ def ggx_mips(radiance: Array, size: int, roughness: Sequence[float]) -> Iterator
             with _naming(mip, r):
                 lobes[mip] = expand(ggx_n_dot_l_lobe(r**2), TOLERANCE)
     degree = analysis_degree([*lobes.values()]) if lobes else 0
-    harmonics = analyse_environment(radiance, degree)
+    harmonics = analyse_environment(_fine_enough(radiance, [*lobes.values()]), degree)
     for mip, r in enumerate(roughness):
         if mip not in lobes:
             yield GgxMip(environment_faces(radiance, size >> mip), 0.0)
@@ -122,6 +124,16 @@ def ggx_mips(radiance: Array, size: int, roughness: Sequence[float]) -> Iterator
         with _naming(mip, r):
             filtered = prefilter(harmonics, [lobes[mip]], CUBE.texel_directions(size >> mip))
         yield GgxMip(filtered.radiance[0], float(filtered.bound.max()))
+
+
+def _fine_enough(radiance: Array, lobes: list[ZonalSeries]) -> Array:
+    """The map; or, where it does not resolve a lobe, one interpolated from it that well does."""
+    rows = len(radiance)
+    narrowest = min((lobe.width for lobe in lobes), default=np.pi)
+    if narrowest >= resolved_width(rows):
+        return radiance
+    finer = 2 * math.ceil(rows * resolved_width(rows) / narrowest)
+    return resample(radiance[None], EQUIRECT, EQUIRECT, 2 * finer)[0]
 
 
 @contextmanager

@@ -24,7 +24,7 @@ def read_light(path: Path) -> Array:
     Raises
     ------
     InputFileError
-        The file is missing or unreadable, or holds NaN or infinite values.
+        The file is missing or unreadable, or holds no finite value.
 
     Warns
     -----

@@ -133,7 +133,8 @@ def _fine_enough(radiance: Array, lobes: list[ZonalSeries]) -> Array:
     if narrowest >= resolved_width(rows):
         return radiance
     finer = 2 * math.ceil(rows * resolved_width(rows) / narrowest)
-    return resample(radiance[None], EQUIRECT, EQUIRECT, 2 * finer)[0]
+    interpolated: Array = resample(radiance[None], EQUIRECT, EQUIRECT, 2 * finer)[0]
+    return interpolated
 
 
 @contextmanager

@@ -10,7 +10,7 @@ help:
 	@echo "make test        all tests but those in a window (make test-quick: without shaders and renders)"
 	@echo "make lint        ruff and mypy"
 	@echo "make extension   dist/rsibr-*.zip, to be installed in Blender"
-	@echo "make test-gui    the built extension in a Blender of its own"
+	@echo "make test-gui    the built extension in a Blender of its own, which .ci/window/blender installs (root on Debian)"
 	@echo "make bench       how long captures, previews and filtering take here; tables for docs"
 	@echo "make clean       remove everything that these targets made"
 
@@ -25,12 +25,12 @@ demo: $(READY)
 	PATH="$(CURDIR)/$(VENV)/bin:$$PATH" docs/demo.sh demo
 
 test: $(READY)
-	$(PYTHON) -m pytest
+	$(PYTHON) -m pytest -n 2
 
 test-quick: $(READY)
 	$(PYTHON) -m pytest -n 2 -m "not slow" --ignore tests/cycles --ignore tests/glsl --ignore tests/gui
 
-test-gui: extension
+test-gui: $(READY)
 	RSIBR_REQUIRE=gui $(PYTHON) -m pytest tests/gui
 
 lint: $(READY)

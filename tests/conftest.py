@@ -14,7 +14,8 @@ from pathlib import Path
 import pytest
 
 TESTS = Path(__file__).parent
-BLENDER_WINDOW = TESTS.parents[1] / "shared" / "blender-window"
+BLENDER_WINDOW = TESTS.parent / ".ci" / "window" / "blender"
+"""A Blender of the tests' own: the file says how to call it."""
 
 NEEDS = {"glsl": ("gl",), "blender": ("bpy",), "cycles": ("bpy", "cycles"), "gui": ("gui",)}
 """Folder of tests -> what its tests need; the other folders need numpy and OpenEXR only."""
@@ -37,17 +38,16 @@ def _start_cycles() -> None:
 
 
 def _start_gui() -> None:
-    if not BLENDER_WINDOW.exists():
-        raise FileNotFoundError("../shared/blender-window, which runs a Blender in a window, is not there")
-
-    def run(*command: str | Path) -> None:
-        subprocess.run(command, check=True, capture_output=True)
+    def run(*arguments: str) -> None:
+        process = subprocess.run([BLENDER_WINDOW, *arguments], capture_output=True, text=True, check=False)
+        if process.returncode:
+            raise OSError(process.stderr.strip())
 
     if "gui" not in required() and not os.environ.get("BLENDER"):
         raise LookupError("no Blender is given: say `make test-gui`, or set BLENDER to any text")
     with tempfile.TemporaryDirectory() as folder:
-        run(BLENDER_WINDOW / "setup.sh")  # installs on demand, and starts the virtual screen
-        run(BLENDER_WINDOW / "run.sh", folder, "--window", "--python-expr", "import os; os._exit(0)")
+        run("install")
+        run("run", folder, "--window", "--python-expr", "import os; os._exit(0)")
 
 
 START: dict[str, Callable[[], None]] = {
@@ -113,9 +113,3 @@ def _factory_file(request: pytest.FixtureRequest) -> None:
         import bpy
 
         bpy.ops.wm.read_factory_settings()
-
-
-@pytest.fixture(scope="session")
-def blender_window() -> Path:
-    """The command `run.sh FOLDER [ARGUMENTS]`: a Blender that sees FOLDER as /job."""
-    return BLENDER_WINDOW / "run.sh"

@@ -1,14 +1,14 @@
 """A Blender of its own with the built extension."""
 
 import json
-import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from rsibr.tests.conftest import BLENDER_WINDOW
 
 ROOT = Path(__file__).parents[2]
 
@@ -24,28 +24,19 @@ def extension() -> Path:
 
 
 @pytest.fixture(scope="session")
-def job(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+def job(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder that Blender sees as /job."""
-    folder = tmp_path_factory.mktemp("blender")
-    yield folder
-    # Mounted there, it could not be removed.
-    root = Path(os.environ.get("WINDOW_ROOT", Path.home() / ".cache" / "blender-window"))
-    subprocess.run(["umount", root / "sid" / "job"], check=True)
+    return tmp_path_factory.mktemp("blender")
 
 
 @pytest.fixture(scope="session")
-def blender(extension: Path, blender_window: Path, job: Path) -> Blender:
+def blender(extension: Path, job: Path) -> Blender:
     """Blender with the extension installed and enabled."""
-    folder = job
-    shutil.copy(extension, folder / "extension.zip")
+    shutil.copy(extension, job / "extension.zip")
 
     def run(*arguments: str) -> subprocess.CompletedProcess[str]:
-        # The bpy module has set OCIO to its own files, which are not this Blender's.
-        environment = {name: value for name, value in os.environ.items() if name != "OCIO"}
-        command = [blender_window, folder, *arguments]
-        return subprocess.run(
-            command, env=environment, capture_output=True, text=True, check=False, timeout=600
-        )
+        command = [BLENDER_WINDOW, "run", job, *arguments]
+        return subprocess.run(command, capture_output=True, text=True, check=False, timeout=600)
 
     install = run("--command", "extension", "install-file", "-r", "user_default", "-e", "/job/extension.zip")
     assert install.returncode == 0, install.stderr
@@ -53,10 +44,14 @@ def blender(extension: Path, blender_window: Path, job: Path) -> Blender:
 
 
 @pytest.fixture
-def told(blender: Blender, blender_window: Path, job: Path) -> Callable[[str], dict]:
+def told(blender: Blender, job: Path) -> Callable[[str], dict]:
     """Run a scenario of `in_window` in Blender's window, and say what it told."""
-    shutil.copy(Path(__file__).with_name("in_window.py"), job)
-    shutil.copy(blender_window.with_name("xshot.py"), job)
+    scripts = job / "user" / "scripts" / "startup"
+    scripts.mkdir(parents=True, exist_ok=True)
+    here = Path(__file__).parent
+    for source, folder in (("in_window.py", job), ("xshot.py", job), ("held.py", scripts)):
+        shutil.copy(here / source, folder)
+    (job / "hold").unlink(missing_ok=True)
 
     def run(scenario: str) -> dict:
         script = (

@@ -6,9 +6,11 @@ import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from rsibr.rsibr_addon.core.progress import Progress
+from rsibr.rsibr_addon.tasks import background
 from rsibr.rsibr_addon.tasks.background import Bake, BakeQueue, State, blender_command
 
 
@@ -36,16 +38,22 @@ def wait(queue: BakeQueue, until: Callable[[], bool]) -> list[Bake]:
     return ended
 
 
-def test_one_after_another() -> None:
+def held(path: Path) -> str:
+    """Lines of Python that wait for a file."""
+    return f"import os, time\nwhile not os.path.exists({str(path)!r}): time.sleep(0.01)\n"
+
+
+def test_one_after_another(tmp_path: Path) -> None:
     queue = BakeQueue()
     script = (
         told(done=1, total=4, what="view 2") + result(ok=True, warnings=["dark"]) + "print('Blender quit')"
     )
-    first, second = bake(script, "first"), bake(script, "second")
+    first, second = bake(held(tmp_path / "go") + script, "first"), bake(script, "second")
     queue.add(first)
     queue.add(second)
     assert (first.state, second.state) == (State.RUNNING, State.WAITING)
     assert queue.unfinished(first.output) is first
+    (tmp_path / "go").touch()
     assert wait(queue, lambda: not queue.busy) == [first, second]
     assert first.state is second.state is State.DONE
     assert first.fraction == 0.25
@@ -98,18 +106,20 @@ def test_a_waiting_bake_can_be_cancelled_and_a_closed_queue_leaves_nothing() -> 
     assert queue.bakes == []
 
 
-def test_time_left_is_judged_by_the_steps_so_far() -> None:
+def test_time_left_is_judged_by_the_steps_so_far(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    now = 100.0
+    monkeypatch.setattr(background, "time", SimpleNamespace(monotonic=lambda: now))
     queue = BakeQueue()
-    steps = (
-        told(done=2, total=6, what="a") + "import time; time.sleep(0.5)\n" + told(done=4, total=6, what="b")
-    )
+    steps = told(done=2, total=6, what="a") + held(tmp_path / "go") + told(done=4, total=6, what="b")
     steady = bake(steps + "time.sleep(600)")
     queue.add(steady)
+    wait(queue, lambda: steady._first_step is not None)
+    assert steady.seconds_left is None
+    now += 5.0
+    (tmp_path / "go").touch()
     wait(queue, lambda: steady.progress is not None and steady.progress.done == 4)
-    left = steady.seconds_left
-    # Two steps took half a second or more, however slow the machine; two more are to come.
-    assert left is not None
-    assert 0.45 < left < 30.0
+    # Two steps took five seconds; two more are to come
+    assert steady.seconds_left == 5.0
     queue.close()
 
 

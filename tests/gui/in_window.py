@@ -5,11 +5,14 @@ Copied beside them into the folder that Blender sees as /job; not imported by th
 
 import importlib
 import json
+import math
 import os
 import time
 import traceback
 from collections import Counter
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
 
 import bmesh  # noqa: F401
 import bpy
@@ -18,6 +21,7 @@ import xshot
 from mathutils import Vector  # noqa: F401
 
 ROOT = "bl_ext.user_default.rsibr"
+HOLD = Path("/job/hold")
 SECONDS = 280.0
 """After these a scenario has failed."""
 
@@ -103,6 +107,38 @@ def pixels(number: int = 0) -> np.ndarray:
 def like(picture: np.ndarray, colour: tuple[int, int, int]) -> np.ndarray:
     """Which pixels have a colour, as nearly as drivers encode it: Mesa's errs by 3 from 60 up, by 9 below."""
     return np.all(np.abs(picture - np.array(colour)) <= 3, axis=-1)
+
+
+def hold(views: int) -> None:
+    """Have the captures of every Blender wait once they have so many views: see `held`."""
+    HOLD.write_text(str(views))
+
+
+def let_go() -> None:
+    """End a hold."""
+    HOLD.unlink()
+
+
+@contextmanager
+def steps_held(most: float = math.inf) -> Iterator[list[str]]:
+    """Have what an operator does step by step in the window wait after so many steps.
+
+    Gives the list of those that are taken, as names of operators.
+    """
+    stepwise = importlib.import_module(ROOT + ".operators.stepwise").Stepwise
+    step, taken = stepwise._step, []
+
+    def held(operator: bpy.types.Operator, context: bpy.types.Context) -> set[str]:
+        if len(taken) >= most:
+            return {"RUNNING_MODAL"}
+        taken.append(operator.bl_idname)
+        return step(operator, context)
+
+    stepwise._step = held
+    try:
+        yield taken
+    finally:
+        stepwise._step = step
 
 
 def run(scenario: Callable[[dict], Iterator[None]]) -> None:

@@ -13,12 +13,14 @@ def invoke():
 
 def scenario(told):
     datablocks = len(bpy.data.all_ids)
-    told["invoked"] = invoke()
-    yield
-    told["more datablocks between steps"] = len(bpy.data.all_ids) - datablocks
-    window().event_simulate(type="ESC", value="PRESS")
-    while window().modal_operators:
-        yield
+    with steps_held(1) as steps:
+        told["invoked"] = invoke()
+        while not steps:
+            yield
+        told["more datablocks between steps"] = len(bpy.data.all_ids) - datablocks
+        window().event_simulate(type="ESC", value="PRESS")
+        while window().modal_operators:
+            yield
     told["written"] = os.path.exists(OUTPUT)
     invoke()
     while window().modal_operators:

@@ -101,11 +101,9 @@ def scenario(told):
     material.brdf, material.use_roughness, material.lobe_count = "ggx:alpha=0.3,metal=gold", True, 2
     yield from drawn()
     seen = [pixels()]
-    value = 0.3
-    while len(seen) < 4 and value < 0.9:
-        # A new value at each step: what is shown follows, if it is always a little late
-        value += 0.002
-        material.roughness = value
+    while len(seen) < 4:
+        # A new value at each step, up and up again: what is shown follows, if it is always a little late
+        material.roughness = 0.3 + (material.roughness - 0.298) % 0.6
         yield
         now = pixels()
         if not np.array_equal(now, seen[-1]):

@@ -34,10 +34,12 @@ LOCKED = """
 def scenario(told):
     settings()
     cube = bpy.data.objects["Cube"]
+    hold(1)
     others = another_blender(cube)
-    yield from done(lambda: finished_views(others.bakes[0]) >= 1)
+    yield from done(lambda: finished_views(others.bakes[0]) == 1)
     bake()
     yield from done()
+    let_go()
     told["folder"] = f"{background.queue.bakes[0].output}.partial"
     told["ours"], told["assigned"] = told_of(background.queue.bakes[0]), cube.rsibr.map_set
     told["other's"] = told_of((yield from ended(others)))

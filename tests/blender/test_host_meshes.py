@@ -15,8 +15,7 @@ from rsibr.rsibr_addon.host.meshes import (
     mesh_from_object,
 )
 from rsibr.rsibr_addon.host.scenes import temporary_scene
-
-TEAPOT = Path(__file__).parents[3] / "shared" / "data" / "meshes" / "teapot_wdas.obj"
+from rsibr.tests.measurements import measurement
 
 CORNER = """
 v 0 0 0
@@ -183,9 +182,8 @@ def test_a_mesh_goes_into_a_scene_and_comes_back_exactly() -> None:
     np.testing.assert_allclose(back.normals, bent.normals, atol=2e-7)
 
 
-@pytest.mark.skipif(not TEAPOT.exists(), reason="../shared/data/meshes is not there")
 def test_the_teapot_stands_upright() -> None:
-    mesh = load_mesh(str(TEAPOT))
+    mesh = load_mesh(str(measurement("meshes/teapot_wdas.obj")))
     assert len(mesh.triangles) == 6320
     extent = np.ptp(mesh.positions, axis=0)
     # Its height, along Y in the file, is its smallest extent.

@@ -1,6 +1,6 @@
 """Fresnel reflectance, spectra as colours, and metals between the two."""
 
-from pathlib import Path
+import csv
 
 import numpy as np
 import pytest
@@ -9,16 +9,8 @@ from rsibr.rsibr_addon.core.brdf.metals import METALS
 from rsibr.rsibr_addon.core.brdf.spectrum import REC709_FROM_XYZ, color_matching, rec709_from_spectrum
 from rsibr.rsibr_addon.core.errors import RangeError
 from rsibr.rsibr_addon.files.chromaticities import XYZ, rec709_from
+from rsibr.tests.measurements import DATA
 
-TABLES = Path(__file__).parents[3] / "shared" / "data" / "brdf" / "ior"
-FILES = {
-    "aluminium": "Al",
-    "chromium": "Cr",
-    "copper": "Cu",
-    "gold": "Au",
-    "nickel": "Ni_palik",
-    "silver": "Ag",
-}
 VISIBLE = np.arange(380.0, 781.0)
 
 
@@ -110,16 +102,15 @@ def test_a_spectrum_needs_increasing_wavelengths(wavelength: list[float]) -> Non
         rec709_from_spectrum(wavelength, np.ones(len(wavelength)))
 
 
-@pytest.fixture(params=FILES)
+@pytest.fixture(params=METALS)
 def metal(request: pytest.FixtureRequest) -> tuple[str, np.ndarray, np.ndarray]:
     """A metal's name, and its optical constants at every visible nanometre."""
-    if not TABLES.is_dir():
-        pytest.skip("../shared/data/brdf/ior, which holds published optical constants, is not there")
-    spectra = []
-    for kind in ("eta", "k"):
-        table = np.loadtxt(TABLES / f"{FILES[request.param]}.{kind}.spd")
-        spectra.append(np.interp(VISIBLE, *table.T))
-    return request.param, spectra[0], spectra[1]
+    with (DATA / "metals.csv").open() as stream:
+        rows = [row for row in csv.DictReader(stream) if row["metal"] == request.param]
+    wavelength, eta, k = (
+        np.array([float(row[name]) for row in rows]) for name in ("wavelength_nm", "eta", "k")
+    )
+    return request.param, np.interp(VISIBLE, wavelength, eta), np.interp(VISIBLE, wavelength, k)
 
 
 def test_metals_are_their_optical_constants_as_colours(metal: tuple[str, np.ndarray, np.ndarray]) -> None:

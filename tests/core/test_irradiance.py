@@ -1,7 +1,6 @@
 """Irradiance against brute force, band by band, and the published tables of the light probes."""
 
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,11 +17,12 @@ from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.core.maps.representation import representation
 from rsibr.rsibr_addon.core.resample import resample
 from rsibr.rsibr_addon.files.radiance_hdr import read_hdr
+from rsibr.tests.measurements import measurement
+from rsibr.tests.synthetic_ball import surroundings
 
 RNG = np.random.default_rng(3)
 NORMALS = np.concatenate([RNG.normal(size=(100, 3)), np.eye(3), -np.eye(3), [[-1.0, 1e-13, 0.0]]])
 NORMALS /= np.linalg.norm(NORMALS, axis=1, keepdims=True)
-PROBES = Path(__file__).parents[3] / "shared" / "data" / "probes"
 
 
 def brute_force(radiance: Array, normals: Array) -> Array:
@@ -129,12 +129,13 @@ def test_a_wrong_number_of_coefficients_is_refused() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("probe", ["grace", "galileo", "beach", "kitchen"])
+@pytest.mark.parametrize("probe", ["made", "grace", "galileo", "beach", "kitchen"])
 def test_under_the_light_probes_more_harmonics_come_closer(probe: str) -> None:
-    if not PROBES.exists():
-        pytest.skip("../shared/data/probes, the light probes, is not there")
-    picture = read_hdr(PROBES / "angular" / f"{probe}_probe.hdr")[None]
-    radiance = resample(picture, representation("angular_map"), representation("equirect"), 256)[0]
+    if probe == "made":
+        radiance = surroundings(equirect.direction_from_uv(texel_centres(256, 128)))
+    else:
+        picture = read_hdr(measurement(f"probes/angular/{probe}_probe.hdr"))[None]
+        radiance = resample(picture, representation("angular_map"), representation("equirect"), 256)[0]
     exact = irradiance_exact(radiance, NORMALS)
     light = np.einsum("ji,jic->c", equirect.texel_solid_angle(256, 128), radiance)
     error = {
@@ -162,12 +163,10 @@ def test_under_the_light_probes_more_harmonics_come_closer(probe: str) -> None:
     ],
 )
 def test_the_published_tables_of_the_light_probes(probe: str, table: str, scale: float) -> None:
-    if not PROBES.exists():
-        pytest.skip("../shared/data/probes, the light probes, is not there")
-    published = json.loads((PROBES / "sh_coefficients.json").read_text())["probes"][table]
+    published = json.loads(measurement("probes/sh_coefficients.json").read_text())["probes"][table]
     names = ["L00", "L1m1", "L10", "L11", "L2m2", "L2m1", "L20", "L21", "L22"]
     expected = np.array([published[name] for name in names])
-    radiance = read_hdr(PROBES / "angular" / f"{probe}_probe.hdr").astype(np.float64)
+    radiance = read_hdr(measurement(f"probes/angular/{probe}_probe.hdr")).astype(np.float64)
     # The tables' authors took texel (row, column) of an angular map, rows from the top, at its corner
     # (column / (size / 2) - 1, 1 - row / (size / 2)); taken at its centre, the tables come .4 to .8 % off.
     size = len(radiance)

@@ -9,16 +9,6 @@ import pytest
 from rsibr.rsibr_addon.core.conventions import WORLD_AXES
 from rsibr.rsibr_addon.files.map_set import MapSet
 
-PROBES = Path(__file__).parents[3] / "shared" / "data" / "probes"
-
-
-@pytest.fixture
-def probes() -> Path:
-    """Light probes captured by others."""
-    if not PROBES.is_dir():
-        pytest.skip("../shared/data/probes, which holds captured light probes, is not there")
-    return PROBES
-
 
 @pytest.fixture
 def blender_worlds() -> Path:

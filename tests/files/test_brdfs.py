@@ -12,8 +12,7 @@ from rsibr.rsibr_addon.core.brdf.fresnel import Schlick
 from rsibr.rsibr_addon.core.brdf.ward import Ward
 from rsibr.rsibr_addon.core.errors import InputFileError, RangeError, RsibrWarning
 from rsibr.rsibr_addon.files.brdfs import brdf_from_spec
-
-FITS = Path(__file__).parents[3] / "shared" / "data" / "brdf" / "fits"
+from rsibr.tests.measurements import DATA
 
 
 def test_models_without_files_need_none() -> None:
@@ -42,10 +41,11 @@ def test_gain_is_warned_of() -> None:
 
 def published_fits(name: str) -> dict[str, list[list[float]]]:
     """Material -> diffuse colour, glossy colour, and the scalars that follow."""
-    path = FITS / name
-    if not path.exists():
-        pytest.skip("../shared/data/brdf/fits, which holds published fits, is not there")
-    lines = [line for line in path.read_text().splitlines() if "=" in line and not line.startswith("#")]
+    lines = [
+        line
+        for line in (DATA / "fits" / name).read_text().splitlines()
+        if "=" in line and not line.startswith("#")
+    ]
     fits = {}
     for line in lines:
         material, _, text = line.partition(" = ")

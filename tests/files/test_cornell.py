@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.brdf.albedo import directional_albedo
 from rsibr.rsibr_addon.core.brdf.spectrum import rec709_from_spectrum
+from rsibr.rsibr_addon.core.brdf.ward import Ward
 from rsibr.rsibr_addon.core.errors import InputFileError, RsibrWarning
 from rsibr.rsibr_addon.files.cornell import read_cornell
+from rsibr.tests.measurements import measurement
 
-MEASURED = Path(__file__).parents[3] / "shared" / "data" / "brdf" / "cornell"
 HEADER = "# Cornell University, Program of Computer Graphics\n\n# num wls\n{count}\n\n# wls\n{wls}\n\n"
 WAVELENGTHS = "400 500\n600 700"
 
@@ -97,11 +98,25 @@ def test_a_file_of_another_size_altogether_is_refused(tmp_path: Path) -> None:
         read_cornell(path)
 
 
+def test_a_paint_measured_so_is_itself(tmp_path: Path) -> None:
+    paint = Ward(alpha=0.3, ks=0.2, kd=0.15)
+    degrees = np.meshgrid([10, 30, 50, 70, 80], range(0, 81, 10), range(0, 181, 15), indexing="ij")
+    theta_i, theta_s, phi = np.radians(degrees).reshape(3, -1)
+    light_dir, view_dir = directions(theta_i, np.zeros_like(phi)), directions(theta_s, phi)
+    expected = paint(light_dir, view_dir)
+    # A spectrum that is flat, so that its colour is known
+    angles = np.stack([theta_i, np.zeros_like(phi), theta_s, phi], axis=1)
+    samples = np.concatenate([angles, np.repeat(expected[:, :1], 4, axis=1)], axis=1)
+    brdf = read_cornell(write(tmp_path / "paint.brdf", samples))
+    error = np.abs(brdf(light_dir, view_dir) / expected - 1.0)
+    assert np.median(error) < 0.01
+    # At the border of the samples planes are drawn out, beside the peak at grazing angles above all
+    assert np.percentile(error, 95) < 0.2
+
+
 def measured(name: str) -> tuple[Path, np.ndarray]:
     """A real file, and its samples read the plain way."""
-    path = MEASURED / f"{name}.brdf"
-    if not path.exists():
-        pytest.skip("../shared/data/brdf/cornell, which holds two measurements, is not there")
+    path = measurement(f"brdf/cornell/{name}.brdf")
     numbers = [line for line in path.read_text().splitlines() if not line.startswith("#")]
     return path, np.array(" ".join(numbers).split()[32:], dtype=float).reshape(-1, 35)
 

@@ -98,9 +98,3 @@ def test_blenders_own_environments(blender_worlds: Path) -> None:
         np.testing.assert_array_equal(environment.radiance, np.maximum(stored, 0)[::-1])
         clamped += negative > 0
     assert clamped == 7
-
-
-def test_a_captured_environment(probes: Path) -> None:
-    environment = read_environment(probes / "latlong" / "grace_latlong_pbrt2.exr")
-    assert environment.radiance.shape == (512, 1024, 3)
-    assert environment.radiance.max() > 100 * environment.radiance.mean()

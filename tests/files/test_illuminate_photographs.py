@@ -8,17 +8,8 @@ import pytest
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.transfer_curve import linear_from_srgb
 from rsibr.rsibr_addon.files.radiance_pictures import read_radiance, write_radiance
+from rsibr.tests.measurements import measurement
 from rsibr.tests.written_pictures import write_png
-
-BRACKETS = Path(__file__).parents[3] / "shared" / "data" / "brackets"
-
-
-@pytest.fixture
-def brackets() -> Path:
-    """Photographs by others."""
-    if not BRACKETS.is_dir():
-        pytest.skip("../shared/data/brackets, which holds photographs at several exposures, is not there")
-    return BRACKETS
 
 
 def illuminate(*arguments: object) -> int:
@@ -58,9 +49,9 @@ def test_bad_paintings_are_told(tmp_path: Path, capfd: pytest.CaptureFixture[str
 
 @pytest.mark.slow
 def test_the_memorial_church_is_merged_as_others_have(
-    brackets: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    folder, out = brackets / "memorial", tmp_path / "church.exr"
+    folder, out = measurement("brackets/memorial"), tmp_path / "church.exr"
     photographs = sorted(folder.glob("*.png"))
     times = folder / "shutter_times.txt"
     assert illuminate("brackets", *photographs, "--times-file", times, "-o", out, "--json") == 0
@@ -84,10 +75,8 @@ def test_the_memorial_church_is_merged_as_others_have(
 
 
 @pytest.mark.slow
-def test_a_mirror_ball_by_hand_is_unwrapped(
-    brackets: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
-    photographs = sorted((brackets / "mirror_ball").glob("*.jpg"))
+def test_a_mirror_ball_by_hand_is_unwrapped(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    photographs = sorted(measurement("brackets/mirror_ball").glob("*.jpg"))
     out = tmp_path / "room.exr"
     assert illuminate("ball", *photographs, "--elevation", 20, "-o", out, "--size", 256, "--json") == 0
     result = json.loads(capfd.readouterr().out)

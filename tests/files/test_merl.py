@@ -6,12 +6,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.brdf.albedo import directional_albedo
+from rsibr.rsibr_addon.core.brdf.ggx import Ggx
 from rsibr.rsibr_addon.core.brdf.measured_merl import SCALE, SHAPE, below_horizon
+from rsibr.rsibr_addon.core.brdf.metals import METALS
 from rsibr.rsibr_addon.core.brdf.tabulated import cell_directions
 from rsibr.rsibr_addon.core.errors import InputFileError, RsibrWarning
 from rsibr.rsibr_addon.files.merl import SIZE, read_merl
-
-GOLD = Path(__file__).parents[3] / "shared" / "data" / "brdf" / "merl" / "gold-metallic-paint.binary"
+from rsibr.tests.measurements import measurement
 
 
 def write(path: Path, samples: np.ndarray) -> Path:
@@ -81,15 +82,32 @@ def test_a_missing_file_is_said_to_be_missing(tmp_path: Path) -> None:
         read_merl(tmp_path / "gold.binary")
 
 
+@pytest.mark.slow
+def test_a_model_that_is_stored_so_is_itself_and_reciprocal(tmp_path: Path) -> None:
+    gold = Ggx(alpha=0.3, fresnel=METALS["gold"])
+    light_dir, view_dir = (directions.reshape(-1, 3) for directions in cell_directions(SHAPE))
+    samples = np.full((3, *SHAPE), -1.0)
+    above = ~below_horizon()
+    values = gold(light_dir, view_dir).reshape(*SHAPE, 3) / SCALE
+    samples[:, above] = np.moveaxis(values, -1, 0)[:, above]
+    brdf = read_merl(write(tmp_path / "gold.binary", samples))
+    cells = np.flatnonzero(above)[::997]
+    np.testing.assert_allclose(
+        brdf(light_dir[cells], view_dir[cells]), gold(light_dir[cells], view_dir[cells]), rtol=1e-9
+    )
+    np.testing.assert_allclose(
+        brdf(light_dir[cells], view_dir[cells]), brdf(view_dir[cells], light_dir[cells]), rtol=1e-6
+    )
+
+
 def test_gold_paint_is_gold_and_reciprocal() -> None:
-    if not GOLD.exists():
-        pytest.skip("../shared/data/brdf/merl, which holds a measurement of gold paint, is not there")
+    path = measurement("brdf/merl/gold-metallic-paint.binary")
     with pytest.warns(RsibrWarning, match="lacks 12070 measurements above the horizon"):
-        brdf = read_merl(GOLD)
+        brdf = read_merl(path)
     albedo = directional_albedo(brdf, [1.0, 0.5, 0.1])
     assert albedo.max() < 0.5
     assert (np.diff(albedo, axis=1) < 0.0).all()  # more red than green than blue
-    stored = np.fromfile(GOLD, "<f8", offset=12).reshape(3, *SHAPE)
+    stored = np.fromfile(path, "<f8", offset=12).reshape(3, *SHAPE)
     cells = (slice(0, 60, 7), slice(3, 50, 9), slice(5, 175, 11))
     light_dir, view_dir = (directions[cells] for directions in cell_directions(SHAPE))
     expected = np.moveaxis(stored[(slice(None), *cells)], 0, -1) * SCALE

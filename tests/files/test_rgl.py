@@ -8,8 +8,8 @@ import pytest
 from rsibr.rsibr_addon.core.brdf.albedo import directional_albedo
 from rsibr.rsibr_addon.core.errors import InputFileError, RsibrWarning
 from rsibr.rsibr_addon.files.rgl import TYPES, read_rgl, read_tensors
+from rsibr.tests.measurements import measurement
 
-MEASURED = Path(__file__).parents[3] / "shared" / "data" / "brdf" / "rgl"
 NAMES = ["satin_rosaline", "vch_golden_yellow", "cg_sunflower"]
 
 
@@ -138,10 +138,7 @@ def test_damaged_headers_are_refused_in_words(tmp_path: Path, content: bytes, se
 @pytest.fixture(params=NAMES)
 def measured(request: pytest.FixtureRequest) -> Path:
     """A real file."""
-    path = MEASURED / f"{request.param}_rgb.bsdf"
-    if not path.exists():
-        pytest.skip("../shared/data/brdf/rgl, which holds three measurements, is not there")
-    return path
+    return measurement(f"brdf/rgl/{request.param}_rgb.bsdf")
 
 
 @pytest.mark.filterwarnings("ignore::rsibr.rsibr_addon.core.errors.RsibrWarning")

@@ -4,16 +4,17 @@ Whatever holds the working process (Blender that starts, a shader that is compil
 it in time, removes its temporary files and tells what happened.
 """
 
+import contextlib
 import ctypes
 import os
-import shutil
 import signal
 import sys
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from pathlib import Path
 from typing import NoReturn
 
+from ..files.staging import staging_folder
 from . import endings
 
 PATIENCE_SECONDS = 0.6
@@ -59,19 +60,15 @@ def guarded(work: Callable[[], int], argv: Sequence[str]) -> int:
     return code
 
 
-@contextmanager
+@contextlib.contextmanager
 def _temporary_folder() -> Iterator[None]:
-    """Have all temporary files, Blender's too, in a folder that goes with the guard."""
-    try:
-        folder = tempfile.mkdtemp(prefix="rsibr-")
-    except OSError:  # what needs a temporary file will say so
+    """Have all temporary files, Blender's too, in a folder that goes with the guard, or with the next one."""
+    with contextlib.ExitStack() as stack:
+        # Without one, what needs a temporary file will say so
+        with contextlib.suppress(OSError):
+            folder = stack.enter_context(staging_folder(Path(tempfile.gettempdir())))
+            os.environ["TMPDIR"] = tempfile.tempdir = str(folder)
         yield
-        return
-    os.environ["TMPDIR"] = tempfile.tempdir = folder
-    try:
-        yield
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
 
 
 def _work(work: Callable[[], int]) -> NoReturn:

@@ -5,12 +5,11 @@ that looks there removes what no living process holds.
 """
 
 import contextlib
-import hashlib
 import os
-import platform
 import re
-import secrets
 import shutil
+import socket
+import zlib
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -27,7 +26,7 @@ _NAME = re.compile(r"\.rsibr-([0-9a-f]{8})-[0-9a-f]{8}")
 
 def staging_name() -> str:
     """A name that no other staging folder has, and that tells which machine it belongs to."""
-    return f".rsibr-{_machine()}-{secrets.token_hex(4)}"
+    return f".rsibr-{_machine()}-{os.urandom(4).hex()}"
 
 
 @contextlib.contextmanager
@@ -104,4 +103,4 @@ def _put_back(replaced: Path, around: Path) -> None:
 
 
 def _machine() -> str:
-    return hashlib.sha256(platform.node().encode()).hexdigest()[:8]
+    return f"{zlib.crc32(socket.gethostname().encode()):08x}"

@@ -1,13 +1,11 @@
 """Open Image Denoise, by way of Blender's compositor."""
 
-import tempfile
-from pathlib import Path
-
 import bpy
 import numpy as np
 
 from ..core.conventions import Array
 from ..files.pictures import read_exr
+from ..files.temporary import temporary_folder
 from .rendering import render_to
 from .scenes import temporary_scene
 
@@ -44,7 +42,7 @@ def denoise(radiance: Array, albedo: Array, normal: Array) -> Array:
     if not np.any(radiance):  # which the denoiser would not leave black
         return radiance.astype(np.float32)
     height, width = radiance.shape[:2]
-    with tempfile.TemporaryDirectory() as folder, temporary_scene() as scene:
+    with temporary_folder() as folder, temporary_scene() as scene:
         tree = bpy.data.node_groups.new("RSIBR denoise", "CompositorNodeTree")
         scene.compositing_node_group = tree
         node = tree.nodes.new("CompositorNodeDenoise")
@@ -60,7 +58,7 @@ def denoise(radiance: Array, albedo: Array, normal: Array) -> Array:
         render.resolution_x, render.resolution_y, render.resolution_percentage = width, height, 100
         render.compositor_device, render.compositor_precision = "CPU", "FULL"
         render.image_settings.file_format, render.image_settings.color_depth = "OPEN_EXR", "32"
-        path = Path(folder) / "denoised.exr"
+        path = folder / "denoised.exr"
         render_to(scene, path)
         return read_exr(path)[..., :3]
 

@@ -1,13 +1,11 @@
 """How a scene's radiance is shown: its view transform, look, exposure, gamma and curves."""
 
-import tempfile
-from pathlib import Path
-
 import bpy
 import numpy as np
 
 from ..core.conventions import Array
 from ..files.photographs import read_photograph
+from ..files.temporary import temporary_folder
 from .scenes import temporary_copy
 from .working_space import working_from_rec709
 
@@ -81,8 +79,8 @@ def displayed_colours(scene: bpy.types.Scene, radiance: Array) -> Array:
     height = -(-len(colours) // WIDTH)
     pixels: Array = np.ones((height * WIDTH, 4), dtype=np.float32)
     pixels[: len(colours), :3] = working_from_rec709(colours)
-    with tempfile.TemporaryDirectory() as folder, temporary_copy(scene) as copy:
-        path = Path(folder) / "displayed.png"
+    with temporary_folder() as folder, temporary_copy(scene) as copy:
+        path = folder / "displayed.png"
         copy.view_settings.exposure = baked_exposure(scene)
         copy.render.dither_intensity = 0.0
         settings = copy.render.image_settings

@@ -1,13 +1,13 @@
 """Movies of pictures, encoded by Blender."""
 
 import shutil
-import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
 import bpy
 
 from ..core.errors import InputFileError, RangeError, RenderError
+from ..files.temporary import temporary_folder
 from .scenes import temporary_scene
 
 
@@ -41,7 +41,7 @@ def save_movie(path: Path, frames: Sequence[Path], frames_per_second: int = 24) 
     for frame in frames:
         if not frame.is_file():  # at which Blender's sequencer may crash
             raise InputFileError(f"The movie's picture {frame} is missing: draw it again.")
-    with tempfile.TemporaryDirectory() as folder, temporary_scene() as scene:
+    with temporary_folder() as folder, temporary_scene() as scene:
         strip = scene.sequence_editor_create().strips.new_image(
             "frames", str(frames[0].resolve()), channel=1, frame_start=1, fit_method="ORIGINAL"
         )
@@ -52,7 +52,7 @@ def save_movie(path: Path, frames: Sequence[Path], frames_per_second: int = 24) 
         if width % 2 or height % 2:
             raise RangeError(f"A movie of {width}x{height} pixels cannot be encoded: choose an even size.")
         scene.frame_start, scene.frame_end = 1, len(frames)
-        movie = Path(folder) / "movie.mp4"
+        movie = folder / "movie.mp4"
         scene.view_settings.view_transform = "Standard"
         _encode_h264(scene.render, width, height, frames_per_second)
         scene.render.filepath = str(movie)
@@ -61,7 +61,7 @@ def save_movie(path: Path, frames: Sequence[Path], frames_per_second: int = 24) 
         except RuntimeError as error:
             raise RenderError(f"Blender cannot encode the movie {path.name}: {error}") from error
         if not _is_whole(movie.read_bytes()):  # of which Blender says nothing
-            raise RenderError(f"The movie {path.name} was cut short: free space in {tempfile.gettempdir()}.")
+            raise RenderError(f"The movie {path.name} was cut short by Blender: draw it again.")
         shutil.move(movie, path)
 
 

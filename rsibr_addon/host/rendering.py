@@ -1,6 +1,5 @@
 """What all our renders have in common."""
 
-import tempfile
 from pathlib import Path
 
 import bpy
@@ -9,6 +8,7 @@ import numpy as np
 from ..core.conventions import Array
 from ..core.errors import RenderError
 from ..files.exr import read_parts
+from ..files.temporary import temporary_folder
 
 AXES = "RGBAXYZ"
 """Order of the channels of a pass."""
@@ -84,8 +84,8 @@ def render_passes(scene: bpy.types.Scene) -> dict[str, Array]:
     image = scene.render.image_settings
     image.media_type, image.file_format, image.color_depth = "MULTI_LAYER_IMAGE", "OPEN_EXR_MULTILAYER", "32"
     channels: dict[str, dict[str, Array]] = {}
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "passes.exr"
+    with temporary_folder() as folder:
+        path = folder / "passes.exr"
         render_to(scene, path)
         for part in read_parts(path):
             for name, pixels in part.channels.items():

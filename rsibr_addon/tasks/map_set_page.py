@@ -1,7 +1,6 @@
 """A map set as one HTML page that needs nothing beside it."""
 
 import base64
-import tempfile
 import warnings
 from collections.abc import Mapping
 from html import escape
@@ -22,6 +21,7 @@ from ..device.preview import PreviewRenderer
 from ..files.atomic import check_target, written_aside
 from ..files.kinds.lobe_stack import PROFILES
 from ..files.map_set import read_map_set
+from ..files.temporary import temporary_folder
 from ..host.meshes import load_mesh
 from ..host.pictures import save_png
 from .brdfs import load_brdf, told_brdf
@@ -201,8 +201,8 @@ def _opaque(radiance: Array) -> Array:
 
 
 def _image(rgba: Array, description: str) -> str:
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "picture.png"
+    with temporary_folder() as folder:
+        path = folder / "picture.png"
         save_png(path, rgba)
         return _embedded("image/png", path.read_bytes(), description)
 

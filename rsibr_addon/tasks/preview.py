@@ -1,6 +1,5 @@
 """Pictures of a mesh shaded from a map set: one, or a turn around it."""
 
-import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -16,6 +15,7 @@ from ..device.preview import PreviewRenderer
 from ..files.atomic import check_target, written_aside
 from ..files.outputs import together
 from ..files.pictures import write_exr
+from ..files.temporary import temporary_folder
 from ..host.meshes import TriangleMesh, load_mesh
 from ..host.movies import save_movie
 from ..host.pictures import save_png
@@ -137,8 +137,8 @@ def turntable(
     draw = _Studio(map_set, settings)
     shown = _spaced(frame_count)
     sheet = []
-    with tempfile.TemporaryDirectory() as folder:
-        frames = [Path(folder) / f"{number:06d}.png" for number in range(frame_count)]
+    with temporary_folder() as folder:
+        frames = [folder / f"{number:06d}.png" for number in range(frame_count)]
         for number, (camera, frame) in enumerate(zip(cameras, frames, strict=True)):
             yield Progress(number, frame_count + 1, f"drawing frame {number + 1} of {frame_count}")
             picture = draw(camera)

@@ -6,7 +6,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.errors import InputFileError, RangeError, RenderError
+from rsibr.rsibr_addon.core.errors import InputFileError, OutputFileError, RangeError
 from rsibr.rsibr_addon.host.movies import save_movie
 from rsibr.rsibr_addon.host.pictures import save_png
 
@@ -91,6 +91,6 @@ def test_a_missing_picture_is_reported(tmp_path: Path) -> None:
 
 def test_a_full_disk_is_reported(tmp_path: Path, files_end_at: Callable) -> None:
     frames = frames_of(tmp_path)
-    with files_end_at(1500), pytest.raises(RenderError, match=r"turn\.mp4 was cut short: free space"):
+    with files_end_at(1500), pytest.raises(OutputFileError, match="disk with the temporary files is full"):
         save_movie(tmp_path / "turn.mp4", frames)
     assert not (tmp_path / "turn.mp4").exists()

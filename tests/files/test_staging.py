@@ -1,7 +1,7 @@
 """What killed processes left goes, and nothing else does."""
 
 import os
-import platform
+import socket
 import subprocess
 import sys
 import time
@@ -52,7 +52,7 @@ def test_a_folder_whose_process_died_before_it_could_hold_it_goes(tmp_path: Path
 
 def test_another_machines_goes_after_a_day(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with monkeypatch.context() as patch:
-        patch.setattr(platform, "node", lambda: "another machine")
+        patch.setattr(socket, "gethostname", lambda: "another machine")
         stray = tmp_path / staging_name()
     stray.mkdir()
     clear_strays(tmp_path)

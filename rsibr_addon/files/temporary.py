@@ -1,0 +1,56 @@
+"""Folders for temporary files, which go also when their process is killed, and tell of a full disk."""
+
+import contextlib
+import os
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+from ..core.errors import InputFileError, OutputFileError, RenderError
+from .staging import staging_folder
+
+_PROBE_BYTES = 65536
+
+
+@contextlib.contextmanager
+def temporary_folder() -> Iterator[Path]:
+    """A new folder for temporary files, removed after the body.
+
+    Yields
+    ------
+    Path
+
+    Raises
+    ------
+    OutputFileError
+        The disk with temporary files is full, or takes none.
+    """
+    with contextlib.ExitStack() as stack:
+        try:
+            around = Path(tempfile.gettempdir())
+            folder = stack.enter_context(staging_folder(around))
+        except OSError as error:
+            raise OutputFileError(
+                f"No temporary files can be written ({error.strerror}): free some space, or set TMPDIR to "
+                f"another folder."
+            ) from error
+        try:
+            yield folder
+        except (InputFileError, RenderError, OSError) as error:
+            # Blender does not tell when it writes half a file; who reads it then takes it for damaged
+            if _is_full(folder):
+                raise OutputFileError(
+                    f"The disk with the temporary files is full ({around}): free some space there, or set "
+                    f"TMPDIR to another folder."
+                ) from error
+            raise
+
+
+def _is_full(folder: Path) -> bool:
+    try:
+        with (folder / "probe").open("wb") as file:
+            file.write(bytes(_PROBE_BYTES))
+            os.fsync(file.fileno())
+    except OSError:
+        return True
+    return False

@@ -70,6 +70,9 @@ def _encode_h264(render: bpy.types.RenderSettings, width: int, height: int, fram
     render.fps, render.fps_base = frames_per_second, 1.0
     render.use_file_extension = False
     render.dither_intensity = 0.0
+    # The same pictures make the same bytes
+    for stamp in ("date", "time", "render_time", "filename", "memory", "hostname"):
+        setattr(render, f"use_stamp_{stamp}", False)
     render.image_settings.media_type = "VIDEO"
     render.image_settings.color_mode = "RGB"
     render.ffmpeg.format, render.ffmpeg.codec = "MPEG4", "H264"

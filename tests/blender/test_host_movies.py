@@ -1,5 +1,6 @@
 """Movies: an MP4 that plays, of as many frames, in the colours of the pictures it is made of."""
 
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -94,3 +95,14 @@ def test_a_full_disk_is_reported(tmp_path: Path, files_end_at: Callable) -> None
     with files_end_at(1500), pytest.raises(OutputFileError, match="disk with the temporary files is full"):
         save_movie(tmp_path / "turn.mp4", frames)
     assert not (tmp_path / "turn.mp4").exists()
+
+
+def test_the_same_pictures_make_the_same_bytes(tmp_path: Path) -> None:
+    frames = frames_of(tmp_path)
+    first, second = tmp_path / "first.mp4", tmp_path / "second.mp4"
+    save_movie(first, frames)
+    made = first.stat().st_mtime
+    while time.time() < made + 1.5:  # a date has whole seconds
+        time.sleep(0.1)
+    save_movie(second, frames)
+    assert first.read_bytes() == second.read_bytes()

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
 from .conventions import Array, ArrayLike, Indices
 from .deposit import BLOCK, Deposit
@@ -76,7 +76,9 @@ def lookup(image: Array, direction: ArrayLike, representation: Representation) -
     return _weighted_sum(np.where(missing, 0.0, weights + shared), image[sheets, rows, columns])
 
 
-def resample(image: Array, source: Representation, target: Representation, size: int) -> Array:
+def resample(
+    image: Array, source: Representation, target: Representation, size: int, dtype: DTypeLike = np.float64
+) -> Array:
     """The same light in another representation or size.
 
     A map of fewer texels gets the mean radiance over each, taking the old texels as constant over
@@ -89,10 +91,12 @@ def resample(image: Array, source: Representation, target: Representation, size:
     source, target : Representation
     size : int
         Width of the new map's sheets in texels.
+    dtype : dtype
+        Of the new map: single precision halves the memory that the largest take.
 
     Returns
     -------
-    ndarray, shape (sheets, height, width, channels), float64
+    ndarray, shape (sheets, height, width, channels), `dtype`
         Laid out as `target`. Every texel can be looked up, those outside a disk too; in a blind spot of
         the old map is what its edge shows.
 
@@ -114,8 +118,8 @@ def resample(image: Array, source: Representation, target: Representation, size:
         raise ShapeError(f"A {source.name} map cannot have the shape {image.shape}: check its layout.")
     before, after = source.texel_solid_angle(image.shape[2]), target.texel_solid_angle(size)
     if np.count_nonzero(after) >= np.count_nonzero(before):
-        made = np.empty((*shape, image.shape[-1]))
-        _fill(made, np.ones(shape, dtype=bool), image, source, target)
+        made = np.empty((*shape, image.shape[-1]), dtype)
+        _fill(made, None, image, source, target)
         return made
     deposit = Deposit(target, size, image.shape[-1])
     deposit.lay_down(image, source)
@@ -128,7 +132,7 @@ def resample(image: Array, source: Representation, target: Representation, size:
         _fill(made, after == 0.0, made, target, target)
     else:
         _repeat_rim(made, after == 0.0)
-    return made
+    return made.astype(dtype, copy=False)
 
 
 def _restore_power(made: Array, solid_angle: Array, power: Array) -> None:
@@ -139,15 +143,18 @@ def _restore_power(made: Array, solid_angle: Array, power: Array) -> None:
 
 
 def _fill(
-    made: Array, where: NDArray[np.bool], image: Array, source: Representation, target: Representation
+    made: Array, where: NDArray[np.bool] | None, image: Array, source: Representation, target: Representation
 ) -> None:
-    """Fill chosen texels of a map with what another map shows at their centres."""
-    _, height, width = where.shape
-    chosen = np.flatnonzero(where)
+    """Fill chosen texels of a map, or all, with what another map shows at their centres."""
+    shape = made.shape[:-1]
+    _, height, width = shape
+    chosen = None if where is None else np.flatnonzero(where)
+    count = made[..., 0].size if chosen is None else len(chosen)
     flat = made.reshape(-1, made.shape[-1])
-    for first in range(0, len(chosen), BLOCK):
-        texel = chosen[first : first + BLOCK]
-        sheet, row, column = np.unravel_index(texel, where.shape)
+    for first in range(0, count, BLOCK):
+        last = min(first + BLOCK, count)
+        texel = np.arange(first, last) if chosen is None else chosen[first:last]
+        sheet, row, column = np.unravel_index(texel, shape)
         uv = np.stack([(column + 0.5) / width, (row + 0.5) / height], axis=-1)
         flat[texel] = lookup(image, target.direction_from_uv(uv, sheet), source)
 

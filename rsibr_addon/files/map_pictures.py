@@ -169,6 +169,8 @@ def read_map(path: Path, layout: Layout, read_picture: Callable[[Path], Array]) 
     if layout.grids:
         return _faces(path, layout, pictures[0])
     _check_shape(paths[0], layout, sizes[0])
+    if len(pictures) == 1:  # not copied, as it may be large
+        return pictures[0][None]
     return np.stack([picture[::-1] if layout.is_cube else picture for picture in pictures])
 
 

@@ -148,7 +148,7 @@ def write_radiance(path: str | Path, radiance: Array, force: bool = False) -> No
     if Path(path).suffix.lower() == ".hdr":
         radiance_hdr.write_hdr(path, radiance, force)
         return
-    pixels = radiance.astype(np.float32)
+    pixels = radiance.astype(np.float32, copy=False)
     with written_aside(path, force) as aside:
         exr.write_parts(aside, [exr.Part("", {name: pixels[..., i] for i, name in enumerate("RGB")})])
 

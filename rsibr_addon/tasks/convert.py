@@ -3,14 +3,20 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from ..core.errors import RangeError
 from ..core.progress import Progress, Steps
 from ..core.resample import resample
 from ..files.map_pictures import Layout, check_map_target, layout, read_map, write_map
+from ..files.memory import check_memory
 from .light_pictures import read_light
 
 LARGEST = 16384
 """Width of the largest map."""
+
+BYTES_OF_TEXEL = 80
+"""Of memory for each texel of a new map: means over the old map's texels are summed in double precision."""
 
 
 @dataclass(frozen=True)
@@ -91,7 +97,7 @@ def convert(source: Path, settings: ConvertSettings, output: Path, force: bool =
     OutputFileError
         A file cannot be written, or exists and is not to be replaced.
     RangeError
-        The values do not fit into Radiance HDR.
+        The values do not fit into Radiance HDR, or the map into this machine's memory.
 
     Warns
     -----
@@ -100,9 +106,15 @@ def convert(source: Path, settings: ConvertSettings, output: Path, force: bool =
     """
     before, after = settings.layout(settings.source), settings.layout(settings.target)
     check_map_target(output, after, force)
+    sheets, height, width = after.representation.shape(settings.size)
+    check_memory(BYTES_OF_TEXEL * sheets * height * width, str(output), (width, height))
     yield Progress(0, 3, f"reading {source.name}")
     image = read_map(source, before, read_light)
     yield Progress(1, 3, f"making {output.name}")
-    made = resample(image, before.representation, after.representation, settings.size)
+    if settings.source == settings.target == "equirect" and image.shape[2] == settings.size:
+        made = image
+    else:
+        made = resample(image, before.representation, after.representation, settings.size, np.float32)
+    del image
     yield Progress(2, 3, f"writing {output.name}")
     return write_map(output, after, made, force)

@@ -57,12 +57,12 @@ def texel_solid_angle(width: int, height: int) -> Array:
     Returns
     -------
     ndarray, shape (height, width), float64
-        [sr], exact; sums to 4 pi.
+        [sr], exact; sums to 4 pi. A view of one column, not to be written to.
     """
     # The difference of the edges' cosines, as a product, which keeps its digits at the poles.
     middle = np.pi * (np.arange(height) + 0.5) / height
     bands = 2.0 * np.sin(middle) * np.sin(0.5 * np.pi / height)
-    return np.repeat((bands * 2.0 * np.pi / width)[:, None], width, axis=1)
+    return np.broadcast_to((bands * 2.0 * np.pi / width)[:, None], (height, width))
 
 
 def wrap(columns: Indices, rows: Indices, width: int, height: int) -> tuple[Indices, Indices]:

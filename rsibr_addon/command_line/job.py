@@ -10,6 +10,9 @@ from typing import Any
 from ..core.errors import InputFileError
 from .report import Report
 
+REASON_LETTERS = 500
+"""Of argparse's words at most, which repeat what is wrong."""
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what `run` reads."""
@@ -58,7 +61,9 @@ def _parsed(argv: Sequence[str], path: Path) -> argparse.Namespace:
             asked = parsed(argv)
     except SystemExit as end:
         reason = (said.getvalue().strip().splitlines() or [""])[-1].partition("error: ")[2]
-        raise InputFileError(f"{path} cannot be done ({reason or 'it asks for help'}): correct it.") from end
+        raise InputFileError(
+            f"{path} cannot be done ({reason[:REASON_LETTERS] or 'it asks for help'}): correct it."
+        ) from end
     if asked.run is run:
         raise InputFileError(f"{path} is a job whose work is another job: give that one.")
     return asked

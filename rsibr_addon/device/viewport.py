@@ -6,7 +6,7 @@ set is shaded by the programs it has, and only what is seen is brought to the di
 """
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 
 import gpu
@@ -137,24 +137,24 @@ class Stage:
         """Grow where a viewport is larger than those before."""
         if width <= self._size[0] and height <= self._size[1]:
             return
-        self._size = (max(width, self._size[0]), max(height, self._size[1]))
-        self._radiance = gpu.types.GPUTexture(self._size, format="RGBA16F")
-        self._depth = gpu.types.GPUTexture(self._size, format="DEPTH_COMPONENT32F")
+        size = (max(width, self._size[0]), max(height, self._size[1]))
+        self._radiance = gpu.types.GPUTexture(size, format="RGBA16F")
+        self._depth = gpu.types.GPUTexture(size, format="DEPTH_COMPONENT32F")
         self._target = gpu.types.GPUFrameBuffer(depth_slot=self._depth, color_slots=(self._radiance,))
         self._screen = buffers.triangles(
             composite_shader(), {"position": _SCREEN_TRIANGLE}, np.array([[0, 1, 2]])
         )
+        self._size = size  # at last: what fails above is tried again
 
 
 @contextmanager
 def _depth_test(test: str) -> Iterator[None]:
-    before, mask, blend = gpu.state.depth_test_get(), gpu.state.depth_mask_get(), gpu.state.blend_get()
-    gpu.state.depth_test_set(test)
-    gpu.state.depth_mask_set(True)
-    gpu.state.blend_set("NONE")
-    try:
+    with ExitStack() as restored:
+        for change, before, value in (
+            (gpu.state.depth_test_set, gpu.state.depth_test_get(), test),
+            (gpu.state.depth_mask_set, gpu.state.depth_mask_get(), True),
+            (gpu.state.blend_set, gpu.state.blend_get(), "NONE"),
+        ):
+            restored.callback(change, before)
+            change(value)
         yield
-    finally:
-        gpu.state.depth_test_set(before)
-        gpu.state.depth_mask_set(mask)
-        gpu.state.blend_set(blend)

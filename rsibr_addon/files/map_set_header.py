@@ -47,14 +47,18 @@ type Word = Annotated[
 
 
 type Model = Annotated[str, length(0, 4096)]
-"""Of reflectance, as a text."""
+"""Of reflectance, or a material, as a text."""
+
+
+type Name = Annotated[str, length(1, 255)]
+"""Of a part: what OpenEXR allows."""
 
 
 class _Environment(TypedDict):
     name: str
     sha256: Hash
     size: Size
-    part: str | None
+    part: Name | None
 
 
 class _Material(TypedDict):
@@ -63,14 +67,14 @@ class _Material(TypedDict):
 
 
 class _Part(TypedDict):
-    name: str
+    name: Name
     role: Word
     size: Size
     sha256: Hash
 
 
 class _Header(TypedDict):
-    layout: str
+    layout: Word
     size: Size
     axes: str
     environment: _Environment
@@ -82,7 +86,7 @@ class _Header(TypedDict):
 
 
 class _ViewsMaterial(TypedDict):
-    spec: str
+    spec: Model
     name: str
     fingerprint: str
 

@@ -124,13 +124,9 @@ class Previews:
         bool
             False where there is something to draw, and `add_display` has to be called for it.
         """
-        if self.trouble or not view.shaded:
-            return True
-        try:
-            return self._draw(view)
-        except Exception as error:
-            self.trouble = _told(error)
-            return True
+        with self.guarded():
+            return bool(self.trouble) or not view.shaded or self._draw(view)
+        return True
 
     def render_surroundings(self, view: View) -> bool:
         """Render the light around objects that are in live light, as far as the scene has changed.
@@ -145,15 +141,13 @@ class Previews:
         bool
             Whether any light has changed, and what shows it has to be drawn again.
         """
-        if self.trouble or not (self._live and shows_surroundings(view.space, view.layer)):
-            return False
         changed = False
-        try:
+        with self.guarded():
+            if self.trouble or not (self._live and shows_surroundings(view.space, view.layer)):
+                return False
             for name, surface in self._in_live_light(view).items():
                 with self._faults_noted(surface.item):
                     changed |= self._live[name].render(view, surface)
-        except Exception as error:
-            self.trouble = _told(error)
         return changed
 
     def add_display(self, scene: Any) -> None:
@@ -163,10 +157,16 @@ class Previews:
         ----------
         scene : bpy.types.Scene
         """
-        try:
+        with self.guarded():
             self._learnt[display_of(scene)] = displayed_colours(scene, table_radiance())
+
+    @contextmanager
+    def guarded(self) -> Iterator[None]:
+        """Within, whatever goes wrong ends all previews until `reload`, and is told once: Blender goes on."""
+        try:
+            yield
         except Exception as error:
-            self.trouble = _told(error)
+            self.trouble = self.trouble or _told(error)
 
     def _draw(self, view: View) -> bool:
         contents = self._contents_of(view)

@@ -38,12 +38,13 @@ class UploadedMeshes:
         """
         if surface.mesh not in self._contents:
             with evaluated_mesh(evaluated, depsgraph) as mesh:
-                content = self._contents[surface.mesh] = content_of(mesh)
+                content = content_of(mesh)
                 if content not in self._uploaded and mesh.polygons:
                     triangles = triangle_mesh(mesh, evaluated.name)
                     self._uploaded[content] = MeshOnDevice(
                         triangles.positions, triangles.normals, triangles.triangles
                     )
+                self._contents[surface.mesh] = content  # at last: what fails above is tried again
         uploaded = self._uploaded.get(self._contents[surface.mesh])
         if uploaded is not None:
             self._standing[surface] = uploaded.again()

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from contextlib import ExitStack
+from functools import wraps
 
 import bpy
 from bpy.app.handlers import persistent
@@ -42,6 +43,19 @@ def start(undo: ExitStack) -> None:
         undo.callback(handlers.remove, function)
 
 
+def _guarded[**Given, Result](function: Callable[Given, Result]) -> Callable[Given, Result | None]:
+    """Have what goes wrong in a function that Blender calls told once, by `previews`."""
+
+    @wraps(function)
+    def run(*given: Given.args, **named: Given.kwargs) -> Result | None:
+        with previews.guarded():
+            return function(*given, **named)
+        return None
+
+    return run
+
+
+@_guarded
 def _draw() -> None:
     if not previews.draw(current_view()) and not bpy.app.timers.is_registered(_add_displays):
         bpy.app.timers.register(_add_displays, first_interval=0.0)
@@ -49,12 +63,14 @@ def _draw() -> None:
         bpy.app.timers.register(_show_news, first_interval=NEWS_SECONDS)
 
 
+@_guarded
 def _render_surroundings() -> None:
     """Blender renders no view while it draws another, but when it comes to what lies over it."""
     if previews.render_surroundings(current_view()) and not bpy.app.timers.is_registered(_draw_again):
         bpy.app.timers.register(_draw_again, first_interval=0.0)
 
 
+@_guarded
 def _show_news() -> float | None:
     """While materials are made, show what there is of them."""
     goes_on = workshop.is_busy
@@ -63,6 +79,7 @@ def _show_news() -> float | None:
     return NEWS_SECONDS if goes_on else None
 
 
+@_guarded
 def _draw_again() -> None:
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
@@ -70,6 +87,7 @@ def _draw_again() -> None:
                 area.tag_redraw()
 
 
+@_guarded
 def _add_displays() -> float | None:
     """Learn how the scenes in the windows show radiance, and have them drawn again."""
     if bpy.app.is_job_running("RENDER"):
@@ -86,17 +104,20 @@ def _stop_timers() -> None:
 
 
 @persistent
+@_guarded
 def _scene_changed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     if depsgraph.mode == "VIEWPORT":  # A render evaluates scenes too, in a thread of its own.
         previews.scene_changed()
 
 
 @persistent
+@_guarded
 def _data_replaced(*_: object) -> None:
     previews.data_replaced()
 
 
 @persistent
+@_guarded
 def _file_closed(*_: object) -> None:
     previews.release()
 

@@ -29,6 +29,11 @@ def staging_name() -> str:
     return f".rsibr-{_machine()}-{os.urandom(4).hex()}"
 
 
+def is_staging_folder(path: Path) -> bool:
+    """Whether a folder has a name of ours."""
+    return _NAME.fullmatch(path.name) is not None
+
+
 @contextlib.contextmanager
 def staging_folder(around: Path) -> Iterator[Path]:
     """A new folder that is held by this process, and gone afterwards.

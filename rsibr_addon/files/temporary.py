@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ..core.errors import InputFileError, OutputFileError, RenderError
-from .staging import staging_folder
+from .staging import is_staging_folder, staging_folder
 
 _PROBE_BYTES = 65536
 
@@ -27,8 +27,7 @@ def temporary_folder() -> Iterator[Path]:
     """
     with contextlib.ExitStack() as stack:
         try:
-            around = Path(tempfile.gettempdir())
-            folder = stack.enter_context(staging_folder(around))
+            folder = stack.enter_context(staging_folder(Path(tempfile.gettempdir())))
         except OSError as error:
             raise OutputFileError(
                 f"No temporary files can be written ({error.strerror}): free some space, or set TMPDIR to "
@@ -39,8 +38,10 @@ def temporary_folder() -> Iterator[Path]:
         except (InputFileError, RenderError, OSError) as error:
             # Blender does not tell when it writes half a file; who reads it then takes it for damaged
             if _is_full(folder):
+                # A command has its own folder in the user's
+                place = next(each for each in folder.parents if not is_staging_folder(each))
                 raise OutputFileError(
-                    f"The disk with the temporary files is full ({around}): free some space there, or set "
+                    f"The disk with the temporary files is full ({place}): free some space there, or set "
                     f"TMPDIR to another folder."
                 ) from error
             raise

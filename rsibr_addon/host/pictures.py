@@ -1,12 +1,14 @@
 """Radiance as pictures for people: PNG through Blender's own view transform."""
 
 import errno
+import shutil
 from pathlib import Path
 
 import bpy
 import numpy as np
 
 from ..core.conventions import Array
+from ..files.temporary import temporary_folder
 from .scenes import temporary_scene
 from .working_space import working_from_rec709
 
@@ -25,16 +27,18 @@ def save_png(path: Path, rgba: Array) -> None:
     Raises
     ------
     OSError
-        Blender cannot write there: the folder is missing, the disk full.
+        It cannot be written there: the folder is missing, the disk full.
+    OutputFileError
+        The disk with temporary files is full.
 
     Notes
     -----
     Through the view transform "Standard" without exposure or dither: the sRGB curve of radiance
     clipped to [0, 1] and nothing else, so 0.18 becomes 118 of 255. Alpha is straight, as PNG has
-    it.
+    it. Blender writes into a temporary folder, because it cuts paths off after 1023 bytes.
     """
     height, width = rgba.shape[:2]
-    with temporary_scene() as scene:
+    with temporary_folder() as folder, temporary_scene() as scene:
         scene.display_settings.display_device = "sRGB"
         scene.view_settings.view_transform = "Standard"
         scene.render.dither_intensity = 0.0
@@ -46,10 +50,12 @@ def save_png(path: Path, rgba: Array) -> None:
         working = np.array(rgba, dtype=np.float32)
         working[..., :3] = working_from_rec709(working[..., :3])
         image.pixels.foreach_set(working.ravel())
+        picture = folder / "picture.png"
         try:
-            image.save_render(str(path.resolve()), scene=scene)
+            image.save_render(str(picture), scene=scene)
         except RuntimeError as error:
             raise OSError(errno.EIO, "Blender cannot write the picture", str(path)) from error
-    # Blender says nothing when the disk is full; a PNG that lacks its last chunk does.
-    if path.read_bytes()[-8:-4] != b"IEND":
-        raise OSError(errno.ENOSPC, "the picture is not whole", str(path))
+        # Blender says nothing when the disk is full; a PNG that lacks its last chunk does.
+        if picture.read_bytes()[-8:-4] != b"IEND":
+            raise OSError(errno.ENOSPC, "the picture is not whole", str(path))
+        shutil.move(picture, path)

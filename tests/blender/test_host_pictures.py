@@ -6,6 +6,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
+from rsibr.rsibr_addon.core.errors import OutputFileError
 from rsibr.rsibr_addon.host.pictures import save_png
 
 
@@ -71,12 +72,19 @@ def test_any_name_is_taken_as_it_is(tmp_path: Path) -> None:
 
 def test_a_place_that_cannot_be_written_is_an_os_error(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
-    with pytest.raises(OSError, match="Blender cannot write the picture") as caught:
+    with pytest.raises(NotADirectoryError):
         save_png(tmp_path / "file" / "x.png", np.ones((2, 2, 4), dtype=np.float32))
-    assert caught.value.filename == str(tmp_path / "file" / "x.png")
 
 
-def test_a_full_disk_is_an_os_error(tmp_path: Path, files_end_at: Callable) -> None:
+def test_a_path_longer_than_blenders_is_taken(tmp_path: Path) -> None:
+    folder = tmp_path.joinpath(*5 * [250 * "d"])
+    folder.mkdir(parents=True)
+    save_png(folder / "x.png", np.ones((2, 2, 4), dtype=np.float32))
+    assert [each.name for each in folder.iterdir()] == ["x.png"]
+    assert [each.name for each in folder.parent.iterdir()] == [folder.name]
+
+
+def test_a_full_disk_is_told(tmp_path: Path, files_end_at: Callable) -> None:
     noise = np.random.default_rng(1).random((64, 64, 4), dtype=np.float32)
-    with files_end_at(1000), pytest.raises(OSError, match="not whole"):
+    with files_end_at(1000), pytest.raises(OutputFileError, match="disk with the temporary files is full"):
         save_png(tmp_path / "x.png", noise)

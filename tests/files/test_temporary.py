@@ -7,9 +7,10 @@ from pathlib import Path
 
 import pytest
 from rsibr.rsibr_addon.core.errors import InputFileError, OutputFileError
+from rsibr.rsibr_addon.files.staging import staging_folder
 from rsibr.rsibr_addon.files.temporary import temporary_folder
 
-FULL = r"The disk with the temporary files is full \(.*\): free some space there, or set TMPDIR"
+FULL = r"The disk with the temporary files is full \({}\): free some space there, or set TMPDIR"
 
 
 @pytest.fixture(autouse=True)
@@ -39,8 +40,10 @@ def test_what_a_full_disk_truncates_is_called_that(tmp_path: Path, monkeypatch: 
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
     monkeypatch.setattr(os, "fsync", refuse)
-    with pytest.raises(OutputFileError, match=FULL):
-        read_half()
+    with staging_folder(tmp_path) as of_a_command:
+        monkeypatch.setattr(tempfile, "tempdir", str(of_a_command))
+        with pytest.raises(OutputFileError, match=FULL.format(tmp_path)):
+            read_half()
     assert list(tmp_path.iterdir()) == []
 
 

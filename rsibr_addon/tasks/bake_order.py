@@ -3,13 +3,14 @@
 import hashlib
 import json
 import re
-import tempfile
+from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from ..core.errors import MapSetError, SceneError
 from ..files.map_set import read_map_set
+from ..files.temporary import temporary_folder
 from ..host.bake_settings import (
     EXTENSION,
     baked_folder,
@@ -92,18 +93,17 @@ class ObjectBake(Bake):
         The objects' `session_uid`.
     settings : dict
         Of the order; empty where what it makes shades nothing.
-    folder : TemporaryDirectory
-        Holds what the bake reads.
+    reads : ExitStack
+        Removes what the bake reads.
     """
 
     settings: dict[str, Any] = field(default_factory=dict)
     items: list[int] = field(default_factory=list)
-    folder: tempfile.TemporaryDirectory[str] | None = field(default=None, repr=False)
+    reads: ExitStack = field(default_factory=ExitStack, repr=False)
 
     def tidy(self) -> None:
         """Remove what it has read, once it has ended."""
-        if self.folder is not None:
-            self.folder.cleanup()
+        self.reads.close()
 
 
 def order_for(scene: Any, item: Any) -> Order:
@@ -263,23 +263,21 @@ def _in_background(title: str, job: BakeJob, item: Any, output: Path, needs_file
     program = blender_program()
     if not program:
         raise SceneError("There is no Blender to bake in: bake with the command rsibr instead.")
-    folder = tempfile.TemporaryDirectory(prefix="rsibr-", ignore_cleanup_errors=True)
-    try:
-        path = Path(folder.name) / "job.json"
+    with ExitStack() as stack:
+        folder = stack.enter_context(temporary_folder())
+        path = folder / "job.json"
         path.write_text(job.to_json(), encoding="utf-8")
-        blend = Path(folder.name) / "open.blend" if needs_file else None
+        blend = folder / "open.blend" if needs_file else None
         if blend is not None:
             save_copy(blend)
-    except BaseException:
-        folder.cleanup()
-        raise
+        reads = stack.pop_all()
     return ObjectBake(
         title=title,
         output=output,
         command=blender_command(program, EXTENSION, blend, path),
         variables={ORIGINAL: open_file()},
         items=[item.session_uid],
-        folder=folder,
+        reads=reads,
     )
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from ..core.brdf.model import Brdf
 from ..core.brdf.spec import spec_from_brdf
-from ..core.errors import RangeError, RsibrWarning
+from ..core.errors import OutputFileError, RangeError, RsibrWarning
 from ..core.lobes.accuracy import FitErrors, fit_errors
 from ..core.lobes.fit import Fit
 from ..core.lobes.kautz_mccool import greedy_fit, single_2d_fit, single_fit
@@ -151,6 +151,10 @@ def fit_lobes(
     check_target(output, force)
     if plots is not None:
         check_plots(plots, force)
+        if output.resolve().is_relative_to(plots.resolve()):
+            raise OutputFileError(
+                f"{output} would be in {plots}, which holds nothing but plots: write it elsewhere."
+            )
     brdf = yield from load_brdf(spec)
     started = time.process_time()
     fit = yield from METHODS[settings.method](brdf, settings)

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 import rsibr
 from rsibr.rsibr_addon.command_line.main import run
-from rsibr.rsibr_addon.core.errors import RangeError
+from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError
 from rsibr.rsibr_addon.files.fits import read_fit
-from rsibr.rsibr_addon.tasks.fit_lobes import FitSettings
+from rsibr.rsibr_addon.tasks.fit_lobes import FitSettings, fit_lobes
 
 COMMAND = ["fit", "--brdf", "phong:n=40,ks=0.5", "--slices", "3", "--lobes", "2"]
 
@@ -99,6 +99,14 @@ def _registered() -> Iterator[None]:
     rsibr.register()
     yield
     rsibr.unregister()
+
+
+def test_a_fit_among_its_plots_is_refused_at_once(tmp_path: Path) -> None:
+    plots = tmp_path / "plots"
+    plots.mkdir()
+    with pytest.raises(OutputFileError, match="which holds nothing but plots: write it elsewhere"):
+        next(fit_lobes("phong:ks=0.5,n=8", FitSettings(), plots / "fit.json", plots=plots))
+    assert list(plots.iterdir()) == []
 
 
 @pytest.mark.usefixtures("_registered")

@@ -1,5 +1,7 @@
 """`rsibr convert` on pictures of radiance, without Blender: layouts on disk, and bad input."""
 
+import errno
+import os
 from pathlib import Path
 
 import numpy as np
@@ -219,6 +221,27 @@ def test_outputs_are_kept_and_none_is_written_when_one_is_there(
     assert not (tmp_path / "b-front.exr").exists()
     assert convert(*arguments, "--force", "--json") == 0
     assert "b-front.exr" in capfd.readouterr().out
+
+
+def test_a_disk_that_fills_up_after_two_faces_gets_none(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    write_radiance(tmp_path / "room.exr", direction_picture())
+    sync, synced = os.fsync, []
+
+    def fill_up(descriptor: int) -> None:
+        synced.append(descriptor)
+        if len(synced) == 3:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        sync(descriptor)
+
+    command = [tmp_path / "room.exr", tmp_path / "a.exr", *("--from", "equirect", "--to", "cube_faces")]
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "fsync", fill_up)
+        assert convert(*command, "--size", 8) == 1
+    assert "a-py.exr was not written because the disk is full" in capfd.readouterr().err
+    assert [path.name for path in tmp_path.iterdir()] == ["room.exr"]
+    assert convert(*command, "--size", 8) == 0
 
 
 def test_wrong_layouts_are_usage_errors(tmp_path: Path) -> None:

@@ -93,7 +93,8 @@ def scenario(told):
     told["state"] = [str(each.state) for each in background.queue.bakes]
     told["message"] = [each.message for each in background.queue.bakes]
     told["map set"] = os.path.basename(monkey.rsibr.map_set)
-    folders = [each.folder.name for each in background.queue.bakes]
+    # Of each its job, in a folder of its own
+    folders = [each.command[-4] for each in background.queue.bakes]
     told["left behind"] = [each for each in folders if os.path.exists(each)]
     for _ in range(3):
         yield from drawn()
@@ -176,7 +177,7 @@ def scenario(told):
     yield from done(lambda: finished_views(running) == 1)
     addon_utils.disable(ROOT)
     told["ended"], told["state"] = running._process.poll() is not None, str(running.state)
-    told["folder"] = os.path.exists(running.folder.name)
+    told["folder"] = os.path.exists(running.command[-4])
     told["timer"] = bpy.app.timers.is_registered(background._look)
     told["queue"] = len(background.queue.bakes)
     yield

@@ -36,8 +36,8 @@ from .methods import METHODS, Lobes, Method, Views, measured_spec
 HASH_LETTERS = 10
 """Of a file's name: enough to tell a million bakes apart."""
 
-NAME_LETTERS = 60
-"""Of a file's name at most, for people."""
+NAME_LETTERS = 50
+"""Of a file's name at most, for people: a letter may take 4 bytes of 255."""
 
 COMPARED, COMPARED_VIEWS = (Views.kind, Lobes.kind), 6
 """Kinds that can be compared with the truth; and from how many sides."""

@@ -8,6 +8,7 @@ What is imported here is light: a signal is heeded before Python reads the rest.
 """
 
 import argparse
+import contextlib
 import json
 import os
 import shutil
@@ -15,9 +16,11 @@ import signal
 import sys
 import tempfile
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any, NoReturn
 
 from ..core.errors import RsibrError
+from ..files.locks import held
 from . import endings
 from .streams import Outlet, open_closed_streams, others_hushed, own_streams
 
@@ -60,7 +63,12 @@ def run_alone(argv: Sequence[str], temporary: str | None = None) -> int:
     if hasattr(signal, "SIGPIPE"):
         signal.signal(signal.SIGPIPE, signal.SIG_IGN)  # Python's own way, which Blender undoes
     tempfile.tempdir = temporary
-    return run(argv)
+    with contextlib.ExitStack() as stack:
+        if temporary:
+            # So that the next of us knows it for one of ours, and removes it if this process is killed
+            with contextlib.suppress(OSError):
+                stack.enter_context(held(Path(temporary)))
+        return run(argv)
 
 
 def run(argv: Sequence[str]) -> int:

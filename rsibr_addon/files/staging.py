@@ -13,7 +13,7 @@ import zlib
 from collections.abc import Iterator
 from pathlib import Path
 
-from .locks import held
+from .locks import LOCK, held
 
 REPLACED = "replaced"
 """Folder in a staging folder, for what had the final name before."""
@@ -22,6 +22,7 @@ STRANGE_SECONDS = 24 * 60 * 60.0
 """How long another machine's folder is left alone: on a shared disk it may not show us its locks."""
 
 _NAME = re.compile(r"\.rsibr-([0-9a-f]{8})-[0-9a-f]{8}")
+_BLENDERS_NAME = re.compile(r"blender_\w{6}")
 
 
 def staging_name() -> str:
@@ -67,7 +68,7 @@ def staging_folder(around: Path) -> Iterator[Path]:
 
 
 def clear_strays(around: Path) -> None:
-    """Remove staging folders that processes left which were killed.
+    """Remove staging folders, and Blender's temporary ones that we held, of processes that were killed.
 
     Parameters
     ----------
@@ -88,10 +89,12 @@ def clear_strays(around: Path) -> None:
 
 
 def _may_be_stray(entry: os.DirEntry[str]) -> bool:
-    name = _NAME.fullmatch(entry.name)
-    if name is None or not entry.is_dir(follow_symlinks=False):
+    if not entry.is_dir(follow_symlinks=False):
         return False
-    return name[1] == _machine() or _age(entry) > STRANGE_SECONDS
+    if _BLENDERS_NAME.fullmatch(entry.name):
+        return (Path(entry) / LOCK).is_file()
+    name = _NAME.fullmatch(entry.name)
+    return name is not None and (name[1] == _machine() or _age(entry) > STRANGE_SECONDS)
 
 
 def _age(entry: os.DirEntry[str]) -> float:

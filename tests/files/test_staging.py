@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from rsibr.rsibr_addon.files.atomic import check_target, written_aside
 from rsibr.rsibr_addon.files.folders import check_folder_target, folder_written_aside
+from rsibr.rsibr_addon.files.locks import LOCK, held
 from rsibr.rsibr_addon.files.staging import clear_strays, staging_folder, staging_name
 
 HOLDER = """
@@ -113,3 +114,14 @@ def test_a_folder_is_made_anew_when_it_is_taken_for_a_stray(
     with staging_folder(tmp_path) as folder:
         assert folder.is_dir()
     assert os.listdir(tmp_path) == []
+
+
+def test_blenders_folder_goes_where_a_killed_command_held_it(tmp_path: Path) -> None:
+    ours, others, living = (tmp_path / f"blender_{name}" for name in ("aB3x_1", "others", "living"))
+    for folder in (ours, others):
+        folder.mkdir()
+        (folder / "picture.png").touch()
+    (ours / LOCK).touch()
+    with held(living):
+        clear_strays(tmp_path)
+        assert sorted(tmp_path.iterdir()) == [living, others]

@@ -1,11 +1,15 @@
 """An environment and a reflectance model, or its fit, to a lobe stack, in a map set."""
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import count
 from pathlib import Path
 
+from ..core.brdf.model import Brdf
+from ..core.environment import Environment
 from ..core.errors import RsibrWarning
-from ..core.lobes.bake import BakedStack, bake_stack
+from ..core.lobes.accuracy import fit_errors
+from ..core.lobes.bake import BakedStack, bake_stack, sharpest_resolved
 from ..core.lobes.fit import Fit
 from ..core.lobes.stack import LAYOUTS, stack_representation
 from ..core.progress import Progress, Steps
@@ -86,18 +90,21 @@ def bake_brdf(
     ------
     InputFileError, OutputFileError, SceneError, RenderError
     RangeError
-        The text describes no model; a lobe is narrower than the environment resolves, or light too bright
-        for half floats.
+        The text describes no model; the environment resolves no kernel at all, or light is too bright for
+        half floats.
 
     Warns
     -----
     RsibrWarning
-        See `load_brdf` and `load_environment`; or the maps are small for their lobes.
+        See `load_brdf` and `load_environment`; the maps are small for their lobes; or the environment is too
+        coarse for the sharpest kernels, which are left out.
     """
     check_target(output, force)
+    yield Progress(0, 1, "reading the environment")
+    light = load_environment(environment)
     brdf = yield from load_brdf(spec)
-    fit = yield from METHODS[fitting.method](brdf, fitting)
-    return (yield from _baked(environment, fit, settings, output, force))
+    fit = yield from _resolved_fit(brdf, fitting, light)
+    return (yield from _baked(light, fit, settings, output, force))
 
 
 def bake_fit(
@@ -124,22 +131,44 @@ def bake_fit(
 
     Raises
     ------
-    InputFileError, OutputFileError, SceneError, RenderError, RangeError
+    InputFileError, OutputFileError, SceneError, RenderError
+    RangeError
+        A lobe is narrower than the environment resolves, or light too bright for half floats.
 
     Warns
     -----
     RsibrWarning
-        As `bake_brdf`.
+        See `load_environment`; or the maps are small for their lobes.
     """
     check_target(output, force)
-    return (yield from _baked(environment, read_fit(fit), settings, output, force))
+    yield Progress(0, 1, "reading the environment")
+    return (yield from _baked(load_environment(environment), read_fit(fit), settings, output, force))
+
+
+def _resolved_fit(brdf: Brdf, fitting: FitSettings, light: Environment) -> Steps[Fit]:
+    """A fit with the kernels that the environment resolves, and a warning where sharper ones would serve."""
+    fit = yield from METHODS[fitting.method](brdf, fitting)
+    height, width = light.radiance.shape[:2]
+    resolved, sharpest = sharpest_resolved(height), fit.bank.kappa[fit.used].max(initial=0.0)
+    if sharpest <= resolved:
+        return fit
+    coarser = yield from METHODS[fitting.method](brdf, replace(fitting, sharpest=resolved))
+    yield Progress(0, 1, "measuring the fits")
+    without, with_sharper = (fit_errors(each, brdf).error for each in (coarser, fit))
+    enough = next(2**n for n in count(1) if sharpest_resolved(height * 2**n) >= sharpest)
+    warnings.warn(
+        f"{light.name} is too coarse, at {width}x{height}, for the sharpest kernels of these lobes: without "
+        f"them E is {without:.3g}, with them {with_sharper:.3g}; one of {enough * width}x{enough * height} "
+        f"takes them.",
+        RsibrWarning,
+        stacklevel=2,
+    )
+    return coarser
 
 
 def _baked(
-    environment: str | None, fit: Fit, settings: StackSettings, output: Path, force: bool
+    light: Environment, fit: Fit, settings: StackSettings, output: Path, force: bool
 ) -> Steps[BakedStack]:
-    yield Progress(0, 1, "reading the environment")
-    light = load_environment(environment)
     baked = yield from bake_stack(light.radiance, fit, settings.layout, settings.size)
     stack = baked.stack
     if baked.interpolation > TOLD_INTERPOLATION:

@@ -11,6 +11,7 @@ from ..core.brdf.model import Brdf
 from ..core.brdf.spec import spec_from_brdf
 from ..core.errors import OutputFileError, RangeError, RsibrWarning
 from ..core.lobes.accuracy import FitErrors, fit_errors
+from ..core.lobes.bank import SHARPEST
 from ..core.lobes.fit import Fit
 from ..core.lobes.kautz_mccool import greedy_fit, single_2d_fit, single_fit
 from ..core.lobes.layers import layered_fit
@@ -47,6 +48,8 @@ class FitSettings:
         Whether no kernel may have a negative weight; of the method joint.
     seek : str
         One of `core.lobes.seeking.SEEKING`: where the method greedy places its lobes.
+    sharpest : float
+        Concentration that no kernel exceeds, one of `core.lobes.bank.octaves`.
 
     Raises
     ------
@@ -61,6 +64,7 @@ class FitSettings:
     error: float | None = None
     non_negative: bool = False
     seek: str = "peaks"
+    sharpest: float = SHARPEST
 
     def __post_init__(self) -> None:
         if self.method not in METHODS:
@@ -183,23 +187,28 @@ def _joint(brdf: Brdf, settings: FitSettings) -> Steps[Fit]:
         settings.error,
         settings.taps,
         settings.non_negative,
+        settings.sharpest,
     )
 
 
 def _greedy(brdf: Brdf, settings: FitSettings) -> Steps[Fit]:
     yield Progress(0, 1, "fitting minimum profiles")
     mu = elevation_slices(settings.slices)
-    return greedy_fit(brdf, spec_from_brdf(brdf), mu, settings.lobes, SEEKING[settings.seek])
+    return greedy_fit(
+        brdf, spec_from_brdf(brdf), mu, settings.lobes, SEEKING[settings.seek], settings.sharpest
+    )
 
 
 def _single(brdf: Brdf, settings: FitSettings) -> Steps[Fit]:
     yield Progress(0, 1, "fitting mean profiles")
-    return single_fit(brdf, spec_from_brdf(brdf), elevation_slices(settings.slices))
+    mu = elevation_slices(settings.slices)
+    return single_fit(brdf, spec_from_brdf(brdf), mu, settings.sharpest)
 
 
 def _single_2d(brdf: Brdf, settings: FitSettings) -> Steps[Fit]:
     yield Progress(0, 1, "fitting mean profiles")
-    return single_2d_fit(brdf, spec_from_brdf(brdf), elevation_slices(settings.slices))
+    mu = elevation_slices(settings.slices)
+    return single_2d_fit(brdf, spec_from_brdf(brdf), mu, settings.sharpest)
 
 
 METHODS: dict[str, Callable[[Brdf, FitSettings], Steps[Fit]]] = {

@@ -1,6 +1,7 @@
 """`rsibr bake` and its operator: right files, and one sentence for everything else."""
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -38,6 +39,23 @@ def in_white_light(stack: LobeStack) -> np.ndarray:
     """What a surface shows at the stack's elevations."""
     view_dir = np.stack([np.sqrt(1.0 - stack.mu**2), 0.0 * stack.mu, stack.mu], axis=-1)
     return stack_radiance(stack, NORMAL, view_dir, StackLook())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("method", ["joint", "greedy", "single", "single-2d"])
+def test_a_coarse_environment_takes_broader_kernels(method: str, capfd: pytest.CaptureFixture[str]) -> None:
+    write_radiance(Path("light.exr"), np.ones((32, 64, 3)), force=True)
+    stack = bake("--brdf", "ggx:alpha=0.2,metal=copper", "--slices", "4", "--method", method)
+    told = capfd.readouterr().err
+    found = re.search(
+        r"light\.exr is too coarse, at 64x32, .* E is (\S+), with them (\S+); one of 256x128", told
+    )
+    assert found, told
+    without, with_sharper = map(float, found.groups())
+    assert 0.98 * with_sharper < without < 2.0 * with_sharper
+    # Where the whole sphere is white, no kernel is too broad
+    np.testing.assert_allclose(in_white_light(stack), stack.albedo.sum(axis=0), rtol=1e-3)
+    assert run(["bake", "--environment", "light.exr", "--fit", "fit.json", "-o", "b.rsibr.exr"]) == 1
 
 
 @pytest.mark.slow

@@ -12,7 +12,7 @@ from ..harmonics.coefficients import EnvironmentHarmonics
 from ..prefilter import analysis_degree, prefilter, resolved_width
 from ..progress import Progress, Steps
 from ..zonal import TOLERANCE, ZonalSeries, expand
-from .bank import KernelBank, octaves
+from .bank import SHARPEST, KernelBank, octaves
 from .filtered_bank import FilteredBank, stack_from_bank
 from .fit import Fit
 from .stack import LobeStack, stack_representation
@@ -64,6 +64,33 @@ class BakedBank:
     interpolation: tuple[float, ...]
 
 
+def sharpest_resolved(height: int) -> float:
+    """Concentration of the sharpest kernel that an environment resolves.
+
+    Parameters
+    ----------
+    height : int
+        Of the environment in rows.
+
+    Returns
+    -------
+    float
+        One of `bank.octaves`.
+
+    Raises
+    ------
+    RangeError
+        It resolves none.
+    """
+    bank, least = octaves(SHARPEST), resolved_width(height)
+    resolved = [
+        kappa for kappa, lobe in zip(bank.concentrations, _expanded(bank), strict=True) if lobe.width >= least
+    ]
+    if not resolved:
+        raise RangeError(f"An environment of {height} rows resolves no kernel: use a larger one.")
+    return resolved[-1]
+
+
 def bake_bank(radiance: Array, layout: str, size: int) -> Steps[BakedBank]:
     """Filter an environment with every kernel that environment and maps resolve.
 
@@ -92,11 +119,8 @@ def bake_bank(radiance: Array, layout: str, size: int) -> Steps[BakedBank]:
     """
     stack_representation(layout, size)
     yield Progress(0, 2, "analysing the environment")
-    least = resolved_width(len(radiance))
-    bank = octaves(_SHARPEST_BY_TEXELS * size**2)
-    series = [lobe for lobe in _expanded(bank) if lobe.width >= least]
-    if not series:
-        raise RangeError(f"An environment of {len(radiance)} rows resolves no kernel: use a larger one.")
+    bank = octaves(min(_SHARPEST_BY_TEXELS * size**2, sharpest_resolved(len(radiance))))
+    series = _expanded(bank)
     harmonics = analyse_environment(radiance, analysis_degree(series))
     costs = [_interpolation(_curvature_of_kernel(lobe, harmonics), layout, size) for lobe in series]
     count = max(sum(cost <= ALLOWED_OF_A_KERNEL for cost in costs), 1)
@@ -134,12 +158,11 @@ def bake_stack(radiance: Array, fit: Fit, layout: str, size: int | None = None) 
     """
     if size is not None:
         stack_representation(layout, size)
-    used = np.flatnonzero(np.any(fit.weights, axis=(0, 1, 3)))
     yield Progress(0, 2, "analysing the environment")
-    bank = KernelBank(tuple(fit.bank.concentrations[kernel] for kernel in used))
+    bank = KernelBank(tuple(fit.bank.concentrations[kernel] for kernel in fit.used))
     series = _expanded(bank)
     harmonics = analyse_environment(radiance, analysis_degree(series))
-    curvature = _curvature(fit, fit.weights[:, :, used], series, harmonics)
+    curvature = _curvature(fit, fit.weights[:, :, fit.used], series, harmonics)
     if size is None:
         size = next(
             (n for n in SIZES if _interpolation(curvature, layout, n) <= ALLOWED_INTERPOLATION), SIZES[-1]

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..conventions import Array, ArrayLike
+from ..conventions import Array, ArrayLike, Indices
 from ..directions import dot
 from ..errors import RangeError, ShapeError
 from ..zonal import ZonalLobe
@@ -88,6 +88,11 @@ class Fit:
         """Directional albedo of each lobe at each elevation with all its taps, shape (L, S, 3)."""
         albedo: Array = self.weights.sum(axis=2) * self.scale * self.taps.sum(axis=2)[..., None]
         return albedo
+
+    @property
+    def used(self) -> Indices:
+        """Indices of the bank's kernels that have a weight, ascending."""
+        return np.flatnonzero(np.any(self.weights, axis=(0, 1, 3)))
 
     def lobe(self, lobe: int, elevation_slice: int, channel: int) -> ZonalLobe:
         """One profile as a lobe to filter environments with, without `scale` and `taps`.

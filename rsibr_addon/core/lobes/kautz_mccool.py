@@ -11,6 +11,7 @@ import numpy as np
 from ..brdf.albedo import hemisphere_quadrature
 from ..brdf.model import BrdfFunction
 from ..conventions import Array
+from .bank import SHARPEST
 from .clustering import clustered
 from .fit import Fit, offsets_from_axes
 from .joint import bank_for
@@ -147,7 +148,7 @@ def greedy_errors(
     return errors
 
 
-def single_fit(brdf: BrdfFunction, spec: str, mu: Array) -> Fit:
+def single_fit(brdf: BrdfFunction, spec: str, mu: Array, sharpest: float = SHARPEST) -> Fit:
     """Section 3.1: one lobe for each elevation, a mean profile about the peak, with the whole's energy.
 
     Parameters
@@ -157,16 +158,18 @@ def single_fit(brdf: BrdfFunction, spec: str, mu: Array) -> Fit:
         Its text.
     mu : ndarray, shape (S,)
         View elevations, ascending.
+    sharpest : float
+        Concentration that no kernel exceeds, one of `bank.octaves`.
 
     Returns
     -------
     Fit
         With one lobe.
     """
-    return _fit(brdf, spec, "single", mu, [[_single_lobe(brdf, cosine)] for cosine in mu])
+    return _fit(brdf, spec, "single", mu, [[_single_lobe(brdf, cosine)] for cosine in mu], sharpest)
 
 
-def single_2d_fit(brdf: BrdfFunction, spec: str, mu: Array) -> Fit:
+def single_2d_fit(brdf: BrdfFunction, spec: str, mu: Array, sharpest: float = SHARPEST) -> Fit:
     """Section 3.2: one profile for all elevations, the mean of theirs, times the elevation's albedo.
 
     Parameters
@@ -176,13 +179,15 @@ def single_2d_fit(brdf: BrdfFunction, spec: str, mu: Array) -> Fit:
         Its text.
     mu : ndarray, shape (S,)
         View elevations, ascending.
+    sharpest : float
+        Concentration that no kernel exceeds, one of `bank.octaves`.
 
     Returns
     -------
     Fit
         With one lobe and one profile: one map does.
     """
-    each = single_fit(brdf, spec, mu)
+    each = single_fit(brdf, spec, mu, sharpest)
     albedo = each.albedo
     shapes = np.divide(
         each.weights, albedo[:, :, None], out=np.zeros_like(each.weights), where=albedo[:, :, None] > 0
@@ -199,7 +204,14 @@ def single_2d_fit(brdf: BrdfFunction, spec: str, mu: Array) -> Fit:
     )
 
 
-def greedy_fit(brdf: BrdfFunction, spec: str, mu: Array, lobes: int, seek: Seek = Remainder.peak) -> Fit:
+def greedy_fit(
+    brdf: BrdfFunction,
+    spec: str,
+    mu: Array,
+    lobes: int,
+    seek: Seek = Remainder.peak,
+    sharpest: float = SHARPEST,
+) -> Fit:
     """Section 3.3: lobes one after the other, each a minimum profile, then clustered over the elevations.
 
     Parameters
@@ -212,6 +224,8 @@ def greedy_fit(brdf: BrdfFunction, spec: str, mu: Array, lobes: int, seek: Seek 
     lobes : int
     seek : callable
         Where to place the next lobe: at the highest peak, or as `seeking` has it.
+    sharpest : float
+        Concentration that no kernel exceeds, one of `bank.octaves`.
 
     Returns
     -------
@@ -223,7 +237,7 @@ def greedy_fit(brdf: BrdfFunction, spec: str, mu: Array, lobes: int, seek: Seek 
         for _ in range(lobes):
             rest.subtract(rest.minimum_profile(seek(rest)))
         found.append(rest.lobes)
-    return _fit(brdf, spec, "greedy", mu, found)
+    return _fit(brdf, spec, "greedy", mu, found, sharpest)
 
 
 def _angles(brdf: BrdfFunction, mu: float) -> Array:
@@ -247,9 +261,14 @@ def _in_plane(axis: Array) -> Array:
 
 
 def _fit(
-    brdf: BrdfFunction, spec: str, method: str, mu: Array, found: Sequence[Sequence[RadialProfile]]
+    brdf: BrdfFunction,
+    spec: str,
+    method: str,
+    mu: Array,
+    found: Sequence[Sequence[RadialProfile]],
+    sharpest: float,
 ) -> Fit:
-    bank = bank_for(target_slices(brdf, mu))
+    bank = bank_for(target_slices(brdf, mu), sharpest)
     mirror = np.stack([np.sqrt(1.0 - mu**2), np.zeros_like(mu), mu], axis=-1)
     axes = np.array([[lobe.axis for lobe in lobes] for lobes in found])
     offsets = offsets_from_axes(_NORMAL, mirror[:, None], axes)

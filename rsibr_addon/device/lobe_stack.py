@@ -5,14 +5,12 @@ import numpy as np
 
 from ..core.conventions import Array
 from ..core.errors import DeviceError
+from ..core.half_floats import half_holds
 from ..core.lobes.stack import LAYOUTS, LobeStack
 from ..core.shading.lobe_stack import StackLook
 from . import buffers
 from .drawing import Draw, MeshOnDevice
 from .lobe_stack_shaders import lobe_stack_shader
-
-LARGEST_HALF = 65504.0
-"""Beyond it, maps are uploaded as 32-bit floats."""
 
 DEEPEST = 2048
 """Slices of a 3D texture that every driver allows."""
@@ -38,7 +36,7 @@ class LobeStackOnDevice:
             raise DeviceError(
                 f"{len(texels)} maps do not fit into a texture of {DEEPEST}: fit fewer lobes or slices."
             )
-        half = np.abs(stack.maps).max() <= LARGEST_HALF
+        half = half_holds([maps for lobe in stack.maps for maps in lobe])
         self._maps = buffers.texture_3d(texels, "RGBA16F" if half else "RGBA32F")
         lobes, slices = stack.maps.shape[:2]
         numbers = LAYOUTS.index(stack.layout), lobes, stack.taps.shape[2], slices

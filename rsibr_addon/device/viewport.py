@@ -138,7 +138,7 @@ class Stage:
         if width <= self._size[0] and height <= self._size[1]:
             return
         size = (max(width, self._size[0]), max(height, self._size[1]))
-        self._radiance = gpu.types.GPUTexture(size, format="RGBA16F")
+        self._radiance = gpu.types.GPUTexture(size, format="RGBA32F")
         self._depth = gpu.types.GPUTexture(size, format="DEPTH_COMPONENT32F")
         self._target = gpu.types.GPUFrameBuffer(depth_slot=self._depth, color_slots=(self._radiance,))
         self._screen = buffers.triangles(

@@ -12,14 +12,13 @@ from pathlib import Path
 import numpy as np
 
 from ..core.conventions import Array
+from ..core.half_floats import half_holds
 from .atomic import written_aside
 
 IDENTIFIER = b"\xabKTX 20\xbb\r\n\x1a\n"
 
 HALF, FLOAT = 97, 109
 """Vulkan's R16G16B16A16_SFLOAT and R32G32B32A32_SFLOAT: three channels alone are read by few."""
-
-LARGEST_HALF = 65504.0
 
 _HEADER = struct.Struct("<12s9I4I2Q")
 _LEVEL = struct.Struct("<3Q")
@@ -42,8 +41,8 @@ class Texture:
 
     @property
     def is_half(self) -> bool:
-        """Whether 16-bit floats can hold every value."""
-        return all(np.abs(level).max() <= LARGEST_HALF for level in self.levels)
+        """Whether 16-bit floats can hold every value: see `half_holds`."""
+        return half_holds(self.levels)
 
 
 def write_ktx2(path: str | Path, texture: Texture, notes: Mapping[str, str], force: bool = False) -> None:
@@ -64,17 +63,18 @@ def write_ktx2(path: str | Path, texture: Texture, notes: Mapping[str, str], for
     OutputFileError
         See `written_aside`.
     """
-    pixels = [_pixels(level, texture.is_half) for level in texture.levels]
-    texel = 8 if texture.is_half else 16
+    half = texture.is_half
+    pixels = [_pixels(level, half) for level in texture.levels]
+    texel = 8 if half else 16
     layers, height, width = texture.levels[0].shape[:3]
     orientation = "rd" if texture.is_cube else "ru"
-    described = _description(texture.is_half)
+    described = _description(half)
     noted = _key_values({"KTXorientation": orientation, **notes})
     described_at = _HEADER.size + len(pixels) * _LEVEL.size
     noted_at = described_at + len(described)
     head = _HEADER.pack(
         IDENTIFIER,
-        *(HALF if texture.is_half else FLOAT, texel // 4),
+        *(HALF if half else FLOAT, texel // 4),
         *(width, height, 0),
         *((0, 6) if texture.is_cube else (layers, 1)),
         *(len(pixels), 0),

@@ -3,6 +3,7 @@
 import contextlib
 import hashlib
 import json
+import warnings
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -12,7 +13,15 @@ from typing import Any
 import numpy as np
 
 from ..core.conventions import Array
-from ..core.errors import InputFileError, MapSetError, RangeError, SchemaError, ShapeError
+from ..core.errors import (
+    InputFileError,
+    MapSetError,
+    RangeError,
+    RsibrWarning,
+    SchemaError,
+    ShapeError,
+)
+from ..core.half_floats import half_holds
 from ..core.schema import loads
 from .atomic import check_target, written_aside
 from .exr import MAGIC, Part, read_attributes, read_parts, write_parts
@@ -64,8 +73,8 @@ def write_map_set(path: str | Path, map_set: MapSet, force: bool = False, half: 
     force : bool
         Whether an existing file is replaced.
     half : bool
-        Store 16-bit floats: half the space, 11 significant bits (a relative error up to 2^-11, below
-        6e-5 an absolute one up to 2^-25), radiance up to 65504. Otherwise the maps come back bit by bit.
+        Store 16-bit floats, in half the space, for each map that they can hold: see `half_holds`. The others
+        come back bit by bit.
 
     Raises
     ------
@@ -76,13 +85,25 @@ def write_map_set(path: str | Path, map_set: MapSet, force: bool = False, half: 
     ShapeError
         The maps are not those that the header lists, or one has not the shape (height, width, 3).
     RangeError
-        A map holds NaN or infinite values, or more than half floats can hold.
+        A map holds NaN or infinite values.
+
+    Warns
+    -----
+    RsibrWarning
+        Maps are too bright or too dark for half floats; says how many.
     """
     check_target(path, force)
     listed = [part.get("name") for part in map_set.header.get("parts", [])]
     if listed != list(map_set.maps):
         raise ShapeError(f"{path} would hold the maps {list(map_set.maps)}, but its header lists {listed}.")
     stored = {name: _stored(name, pixels, half) for name, pixels in map_set.maps.items()}
+    if half and (whole := sum(pixels.dtype.itemsize > 2 for pixels in stored.values())):
+        warnings.warn(
+            f"{whole} of the {len(stored)} maps of {path} are too bright or too dark for 16-bit floats, and "
+            f"stored with 32 bits.",
+            RsibrWarning,
+            stacklevel=2,
+        )
     header = {
         "format": FORMAT,
         "kind": map_set.kind,
@@ -214,12 +235,10 @@ def _stored(name: str, pixels: Array, half: bool) -> Array:
     if pixels.ndim != 3 or pixels.shape[2] != 3 or not pixels.size:
         raise ShapeError(f"Map {name} must have the shape (height, width, 3), not {pixels.shape}.")
     with np.errstate(over="ignore"):
-        stored: Array = np.ascontiguousarray(pixels, dtype="<f2" if half else "<f4")
-    unusable = int(np.count_nonzero(~np.isfinite(stored)))
-    if unusable:
-        beyond = " or too large for half floats" if half else ""
-        raise RangeError(f"Map {name} holds {unusable} values that are NaN, infinite{beyond}: make it again.")
-    return stored
+        stored: Array = np.ascontiguousarray(pixels, dtype="<f4")
+    if unusable := int(np.count_nonzero(~np.isfinite(stored))):
+        raise RangeError(f"Map {name} holds {unusable} values that are NaN or infinite: make it again.")
+    return stored.astype("<f2") if half and half_holds([stored]) else stored
 
 
 def _derived(stored: Array) -> dict[str, Any]:

@@ -143,6 +143,22 @@ def test_light_too_bright_for_half_floats_is_kept(tmp_path: Path) -> None:
     np.testing.assert_array_equal(texture.levels[0][..., :3], sun)
 
 
+@pytest.mark.parametrize(("scale", "texel_format"), [(1.0, 97), (1e-2, 97), (1e-5, 109), (1e-7, 109)])
+def test_dark_light_is_kept(tmp_path: Path, scale: float, texel_format: int) -> None:
+    # From the mean's hundredth to its hundredfold, as rooms have it
+    light = np.geomspace(0.01, 100.0, 3 * 4 * 8).reshape(1, 4, 8, 3)
+    write_ktx2(tmp_path / "night.ktx2", Texture(((scale * light).astype(np.float32),)), {})
+    texture = read(tmp_path / "night.ktx2")
+    assert texture.format == texel_format
+    np.testing.assert_allclose(texture.levels[0][..., :3], scale * light, rtol=1e-3)
+
+
+def test_black_beside_light_does_not_matter(tmp_path: Path) -> None:
+    light = np.array([0.0, 1e-12, 1.0]).reshape(1, 1, 1, 3)
+    write_ktx2(tmp_path / "day.ktx2", Texture((light,)), {})
+    assert read(tmp_path / "day.ktx2").format == 97
+
+
 def test_what_cannot_be_exported_is_told_before_anything_is_written(tmp_path: Path) -> None:
     source = chain_file(tmp_path)
     with pytest.raises(OutputFileError, match=r"give a name that ends in \.ktx2"):

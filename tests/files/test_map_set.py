@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import OpenEXR
 import pytest
-from rsibr.rsibr_addon.core.errors import MapSetError, OutputFileError, RangeError, ShapeError
+from rsibr.rsibr_addon.core.errors import MapSetError, OutputFileError, RangeError, RsibrWarning, ShapeError
 from rsibr.rsibr_addon.files.map_set import MapSet, read_map_set, read_map_set_header, write_map_set
 from rsibr.rsibr_addon.files.pictures import write_exr
 
@@ -49,6 +49,20 @@ def test_half_maps_come_back_rounded(tmp_path: Path, make_views: MakeViews) -> N
         # As the format promises: 11 significant bits, below 2^-14 steps of 2^-24
         tolerance = np.maximum(2.0**-11 * np.abs(views.maps[name]), 2.0**-25)
         assert np.all(np.abs(pixels - views.maps[name]) <= tolerance)
+
+
+@pytest.mark.parametrize("scale", [1e6, 1e-5, 1e-7])
+def test_maps_that_half_floats_cannot_hold_are_told_and_kept(
+    tmp_path: Path, make_views: MakeViews, scale: float
+) -> None:
+    path, views = tmp_path / "a.rsibr.exr", make_views()
+    views.maps["view000.glossy"] *= np.float32(scale)
+    with pytest.warns(RsibrWarning, match=r"1 of the 5 maps of .* too bright or too dark for 16-bit floats"):
+        write_map_set(path, views, half=True)
+    back = read_map_set(path).maps
+    np.testing.assert_array_equal(back["view000.glossy"], views.maps["view000.glossy"])
+    np.testing.assert_allclose(back["view001.glossy"], views.maps["view001.glossy"], rtol=2.0**-11)
+    assert np.any(back["view001.glossy"] != views.maps["view001.glossy"])
 
 
 def test_the_header_is_read_whole_without_the_pixels(tmp_path: Path, make_views: MakeViews) -> None:
@@ -156,9 +170,8 @@ def test_maps_are_pictures_in_three_colours(tmp_path: Path, make_views: MakeView
 @pytest.mark.parametrize(
     ("value", "half", "sentence"),
     [
-        (np.nan, False, "2 values that are NaN, infinite:"),
-        (np.inf, True, "2 values that are NaN, infinite or too large for half floats:"),
-        (65520.0, True, "2 values that are NaN, infinite or too large for half floats:"),
+        (np.nan, False, "2 values that are NaN or infinite:"),
+        (np.inf, True, "2 values that are NaN or infinite:"),
     ],
 )
 def test_radiance_that_cannot_be_stored_is_counted_and_refused(

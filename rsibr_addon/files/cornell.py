@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from ..core.brdf.measured_cornell import scattered_brdf
-from ..core.brdf.spectrum import rec709_from_spectrum
+from ..core.brdf.spectrum import rec709_from_spectrum, told_wavelengths
 from ..core.brdf.tabulated import Tabulated
 from ..core.conventions import Array
 from ..core.errors import InputFileError, RangeError, RsibrWarning
@@ -43,6 +43,7 @@ def read_cornell(path: str | Path) -> Tabulated:
     -----
     RsibrWarning
         Reflectances are negative or NaN, or colours are outside Rec. 709; they are taken as 0; says how many.
+        See also `told_wavelengths`.
     """
     wavelength, rows = _parse(path)
     theta_i, phi_i, theta_s, phi_s = rows[:, :4].T
@@ -54,7 +55,7 @@ def read_cornell(path: str | Path) -> Tabulated:
         rows[:, 4:], f"{path} holds {{}} reflectances that are negative or NaN; they are taken as 0."
     )
     try:
-        colors = rec709_from_spectrum(wavelength, spectra)
+        colors = rec709_from_spectrum(told_wavelengths(wavelength, str(path)), spectra)
         colors = _floored(colors, f"{path} has {{}} values of colours outside Rec. 709; they are taken as 0.")
         directions = _direction(theta_i, phi_i), _direction(theta_s, phi_s)
         return scattered_brdf(*directions, colors, f"cornell:path={path}")

@@ -144,7 +144,7 @@ def test_light_too_bright_for_half_floats_is_kept(capfd: pytest.CaptureFixture[s
     write_radiance(Path("light.exr"), np.full((256, 512, 3), 1e5, dtype=np.float32), force=True)
     command = ["bake", "--environment", "light.exr", "--brdf", SPEC, *QUICK, "--half", "-o", "out.rsibr.exr"]
     assert run(command) == 0
-    assert "9 of the 9 maps of out.rsibr.exr are too bright or too dark" in capfd.readouterr().err
+    assert "maps of out.rsibr.exr are too bright or too dark for 16-bit floats" in capfd.readouterr().err
     maps = read_map_set("out.rsibr.exr").maps
     np.testing.assert_array_equal(maps["environment"], np.float32(1e5))
 

@@ -140,3 +140,22 @@ def test_real_paints_are_close_to_their_samples(name: str, spread: float) -> Non
     assert 0.0 <= albedo.min() < albedo.max() < 1.0
     colour = {"cayman": 2, "garnet_red": 0}[name]
     assert np.argmax(albedo[0]) == colour
+
+
+@pytest.mark.parametrize(("scale", "unit"), [(1e-3, "micrometres"), (1e-9, "metres")])
+def test_wavelengths_in_other_units_are_told_and_read(tmp_path: Path, scale: float, unit: str) -> None:
+    values = [0.9, 0.5, 0.2, 0.1]
+    expected = read_cornell(write(tmp_path / "a.brdf", rows(values))).table
+    small = " ".join(f"{scale * wavelength:g}" for wavelength in (400, 500, 600, 700))
+    with pytest.warns(RsibrWarning, match=rf"The wavelengths of .* are .* taken for {unit}"):
+        found = read_cornell(write(tmp_path / "b.brdf", rows(values), wls=small)).table
+    np.testing.assert_allclose(found, expected, rtol=1e-9)
+
+
+def test_wavelengths_that_no_eye_sees_are_told(tmp_path: Path) -> None:
+    with pytest.warns(RsibrWarning, match="1 of the wavelengths of .*, 400 to 900 nm, are beyond"):
+        read_cornell(write(tmp_path / "a.brdf", rows([0.25] * 4), wls="400 500 600 900"))
+    with pytest.warns(RsibrWarning, match="The wavelengths of .*, 500 to 620 nm, leave out up to"):
+        read_cornell(write(tmp_path / "a.brdf", rows([0.25] * 4), wls="500 550 600 620"))
+    with pytest.raises(InputFileError, match="wavelengths, 1000 to 1600 nm, are none that an eye sees"):
+        read_cornell(write(tmp_path / "a.brdf", rows([0.25] * 4), wls="1000 1200 1400 1600"))

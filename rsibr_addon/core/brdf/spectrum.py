@@ -1,9 +1,11 @@
 """Linear Rec. 709 from spectra."""
 
+import warnings
+
 import numpy as np
 
 from ..conventions import Array, ArrayLike
-from ..errors import RangeError
+from ..errors import RangeError, RsibrWarning
 
 REC709_FROM_XYZ = np.array(
     [
@@ -23,6 +25,13 @@ LOBES = (
 
 STEP = 1.0
 """[nm] between the points at which spectra are integrated."""
+
+VISIBLE = (360.0, 830.0)
+"""[nm] that the standard observer sees."""
+
+UNSEEN = 0.05
+"""Share of a colour-matching function beyond a spectrum's ends that is worth a warning; from 400 to 700 nm it
+is 0.005 at most."""
 
 
 def color_matching(wavelength: ArrayLike) -> Array:
@@ -51,6 +60,65 @@ def color_matching(wavelength: ArrayLike) -> Array:
             total = total + height * np.exp(-(offset**2) / 2.0)
         functions.append(total)
     return np.stack(functions, axis=-1)
+
+
+def told_wavelengths(wavelength: ArrayLike, name: str) -> Array:
+    """The wavelengths of a file in nanometres, with warnings of what a colour cannot use.
+
+    Parameters
+    ----------
+    wavelength : array_like, shape (W,)
+        As the file has them, increasing.
+    name : str
+        Named in messages.
+
+    Returns
+    -------
+    ndarray, shape (W,), float64
+        [nm].
+
+    Raises
+    ------
+    RangeError
+        No eye sees any of them.
+
+    Warns
+    -----
+    RsibrWarning
+        They are micrometres or metres by their size, and taken for that; some are beyond what is visible; or
+        they leave out a part of it.
+    """
+    wavelength = np.asarray(wavelength, dtype=np.float64)
+    for scale, unit in ((1e3, "micrometres"), (1e9, "metres")):
+        if wavelength.size and VISIBLE[0] < scale * np.mean(wavelength) < 5.0 * VISIBLE[1]:
+            _warn(f"The wavelengths of {name} are {_span(wavelength)}, and taken for {unit}.")
+            wavelength = scale * wavelength
+            break
+    seen = (wavelength >= VISIBLE[0]) & (wavelength <= VISIBLE[1])
+    if not seen.any():
+        raise RangeError(f"its wavelengths, {_span(wavelength)} nm, are none that an eye sees.")
+    if not seen.all():
+        _warn(
+            f"{np.count_nonzero(~seen)} of the wavelengths of {name}, {_span(wavelength)} nm, are beyond "
+            f"what an eye sees: they do not count."
+        )
+    visible = np.arange(*VISIBLE, STEP)
+    white = color_matching(visible)
+    told = white[(visible >= wavelength.min()) & (visible <= wavelength.max())]
+    if (unseen := float(np.max(1.0 - told.sum(axis=0) / white.sum(axis=0)))) > UNSEEN:
+        _warn(
+            f"The wavelengths of {name}, {_span(wavelength)} nm, leave out up to {100.0 * unseen:.2g} % of "
+            f"what an eye sees of a colour: the rest counts alone."
+        )
+    return wavelength
+
+
+def _span(wavelength: Array) -> str:
+    return f"{wavelength.min():g} to {wavelength.max():g}"
+
+
+def _warn(sentence: str) -> None:
+    warnings.warn(sentence, RsibrWarning, stacklevel=4)
 
 
 def rec709_from_spectrum(wavelength: ArrayLike, spectrum: ArrayLike) -> Array:

@@ -1,5 +1,6 @@
 """Environments from disk: OpenEXR and Radiance HDR."""
 
+import os
 from pathlib import Path
 
 from ..core.environment import Environment, environment_from_pixels
@@ -30,4 +31,6 @@ def read_environment(path: str | Path) -> Environment:
     RsibrWarning
         See `core.environment.usable_radiance`.
     """
-    return environment_from_pixels(read_radiance(path), Path(path).name)
+    # A name in other bytes than UTF-8 could not be written into a map set
+    name = os.fsencode(Path(path).name).decode("utf-8", "replace")
+    return environment_from_pixels(read_radiance(path), name)

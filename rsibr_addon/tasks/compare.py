@@ -155,7 +155,8 @@ def save_comparison(
     """
     with folder_written_aside(output, RESULT, force) as folder:
         sheets = save_sheets(folder / "images", references, drawn)
-        (folder / "index.html").write_text(comparison_page(comparison, sheets), encoding="utf-8")
+        page = comparison_page(comparison, sheets)
+        (folder / "index.html").write_text(page, encoding="utf-8", errors="replace")
         (folder / RESULT).write_text(json.dumps(comparison.to_json(), indent=1), encoding="utf-8")
 
 

@@ -59,8 +59,13 @@ def write_plots(folder: Path, fit: Fit, brdf: Brdf, errors: FitErrors, force: bo
     """
     with folder_written_aside(folder, _ERROR, force) as aside:
         for mu in ELEVATIONS:
-            (aside / f"lobes-{100 * mu:.0f}.svg").write_text(lobe_plot(fit, brdf, mu), encoding="utf-8")
-        (aside / _ERROR).write_text(_error(fit, brdf, errors), encoding="utf-8")
+            _write(aside / f"lobes-{100 * mu:.0f}.svg", lobe_plot(fit, brdf, mu))
+        _write(aside / _ERROR, _error(fit, brdf, errors))
+
+
+def _write(path: Path, plot: str) -> None:
+    # Its title may name a file by bytes that are no UTF-8
+    path.write_text(plot, encoding="utf-8", errors="replace")
 
 
 def lobe_plot(fit: Fit, brdf: Brdf | None, mu: float) -> str:

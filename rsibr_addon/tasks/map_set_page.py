@@ -103,7 +103,7 @@ def map_set_page(map_set: Path, output: Path, force: bool = False, brdf: str | N
         roles="\n".join(_roles(header["parts"], held.maps)),
     )
     with written_aside(output, force) as aside:
-        aside.write_text(page, encoding="utf-8")
+        aside.write_text(page, encoding="utf-8", errors="replace")  # of names that are no UTF-8
     return output
 
 
@@ -134,7 +134,7 @@ def _lobes(map_set: Path, truth: Brdf | None) -> list[str]:
         except RsibrError as error:
             missing = f'<p class="faint">The BRDF is not shown. {escape(str(error))}</p>'
     plots = [lobe_plot(fit, truth, mu) for mu in ELEVATIONS]
-    images = (_embedded("image/svg+xml", plot.encode("utf-8"), "lobes") for plot in plots)
+    images = (_embedded("image/svg+xml", plot.encode("utf-8", "replace"), "lobes") for plot in plots)
     return [LOBES, missing, '<div class="plots">', *images, "</div>"]
 
 

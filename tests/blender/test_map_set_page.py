@@ -1,12 +1,16 @@
 """The page of a map set: whole in itself, with everything that the set holds."""
 
+import os
 import re
+import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import MapSetError, OutputFileError
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.map_set import read_map_set_header
+from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.tasks.bake_mips import MipSettings, bake_mips
 from rsibr.rsibr_addon.tasks.map_set_page import map_set_page
 
@@ -30,6 +34,18 @@ def test_all_of_a_map_set_is_on_its_page(map_set: Path, tmp_path: Path) -> None:
     # Two pictures drawn with it, and one of each map
     assert text.count("data:image/png;base64,") == 2 + len(header["parts"])
     assert not re.search(r"<script|<link|https?:|src=\"(?!data:)", text)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="names are text in other systems")
+def test_names_that_are_no_utf8_are_shown_as_far_as_they_can_be(tmp_path: Path) -> None:
+    light, path = (tmp_path / os.fsdecode(b"caf\xe9" + kind) for kind in (b".exr", b".rsibr.exr"))
+    write_radiance(tmp_path / "light.exr", np.ones((16, 32, 3)))
+    (tmp_path / "light.exr").rename(light)
+    drain(bake_mips(str(light), MipSettings("box", 16), tmp_path / "a.rsibr.exr"))
+    (tmp_path / "a.rsibr.exr").rename(path)
+    text = drain(map_set_page(path, tmp_path / "page.html")).read_text()
+    assert "caf?.rsibr.exr" in text
+    assert "caf\ufffd.exr, 32x16" in text
 
 
 def test_files_are_not_replaced_unasked(map_set: Path, tmp_path: Path) -> None:

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import NoReturn
 
-from ..files.staging import staging_folder
+from ..files.staging import remove_own, staging_folder
 from . import endings
 
 PATIENCE_SECONDS = 0.6
@@ -75,12 +75,17 @@ def _work(work: Callable[[], int]) -> NoReturn:
     """Work to the end; without Blender's own, which takes time and has nothing left to do."""
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
-    endings.listen(lambda number: os._exit(128 + number))
+    endings.listen(_end)
     try:
         os._exit(work())
     except BaseException:
         sys.excepthook(*sys.exc_info())
         os._exit(1)
+
+
+def _end(number: int) -> NoReturn:
+    remove_own()
+    os._exit(128 + number)
 
 
 def _watch(child: int, asking: set[signal.Signals]) -> int:

@@ -21,6 +21,7 @@ from typing import Any, NoReturn
 
 from ..core.errors import RsibrError
 from ..files.locks import held
+from ..files.staging import remove_own
 from . import endings
 from .streams import Outlet, open_closed_streams, others_hushed, own_streams
 
@@ -54,6 +55,7 @@ def run_alone(argv: Sequence[str], temporary: str | None = None) -> int:
     out, err = os.dup(1), os.dup(2)
 
     def end(number: int) -> NoReturn:
+        remove_own()
         if temporary:
             shutil.rmtree(temporary, ignore_errors=True)
         endings.tell(endings.SENTENCE, argv, out, err)

@@ -24,6 +24,8 @@ STRANGE_SECONDS = 24 * 60 * 60.0
 _NAME = re.compile(r"\.rsibr-([0-9a-f]{8})-[0-9a-f]{8}")
 _BLENDERS_NAME = re.compile(r"blender_\w{6}")
 
+_own: set[Path] = set()
+
 
 def staging_name() -> str:
     """A name that no other staging folder has, and that tells which machine it belongs to."""
@@ -61,10 +63,18 @@ def staging_folder(around: Path) -> Iterator[Path]:
             with contextlib.suppress(BlockingIOError):
                 stack.enter_context(held(folder))
                 break
+        _own.add(folder)
         try:
             yield folder
         finally:
-            shutil.rmtree(folder, ignore_errors=True)
+            _remove(folder)
+            _own.discard(folder)
+
+
+def remove_own() -> None:
+    """Remove the staging folders of this process, which is about to end without leaving their contexts."""
+    for folder in list(_own):
+        _remove(folder)
 
 
 def clear_strays(around: Path) -> None:
@@ -84,8 +94,7 @@ def clear_strays(around: Path) -> None:
         for folder in strays:
             with contextlib.suppress(OSError), held(folder) as alone:
                 if alone:
-                    _put_back(folder / REPLACED, around)
-                    shutil.rmtree(folder, ignore_errors=True)
+                    _remove(folder)
 
 
 def _may_be_stray(entry: os.DirEntry[str]) -> bool:
@@ -101,6 +110,12 @@ def _age(entry: os.DirEntry[str]) -> float:
     """Seconds since something was last made in a folder, by the clock of the disk that it is on."""
     around = Path(entry).parent
     return around.stat().st_mtime - entry.stat().st_mtime
+
+
+def _remove(folder: Path) -> None:
+    with contextlib.suppress(OSError):
+        _put_back(folder / REPLACED, folder.parent)
+    shutil.rmtree(folder, ignore_errors=True)
 
 
 def _put_back(replaced: Path, around: Path) -> None:

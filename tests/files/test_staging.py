@@ -11,7 +11,13 @@ import pytest
 from rsibr.rsibr_addon.files.atomic import check_target, written_aside
 from rsibr.rsibr_addon.files.folders import check_folder_target, folder_written_aside
 from rsibr.rsibr_addon.files.locks import LOCK, held
-from rsibr.rsibr_addon.files.staging import clear_strays, staging_folder, staging_name
+from rsibr.rsibr_addon.files.staging import (
+    REPLACED,
+    clear_strays,
+    remove_own,
+    staging_folder,
+    staging_name,
+)
 
 HOLDER = """
 import sys, time
@@ -125,3 +131,14 @@ def test_blenders_folder_goes_where_a_killed_command_held_it(tmp_path: Path) -> 
     with held(living):
         clear_strays(tmp_path)
         assert sorted(tmp_path.iterdir()) == [living, others]
+
+
+def test_a_process_that_is_told_to_end_takes_its_own_with_it(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    with staging_folder(tmp_path) as folder, staging_folder(tmp_path) as other:
+        (other / "a").touch()
+        (folder / REPLACED).mkdir()
+        out.mkdir()
+        out.rename(folder / REPLACED / "out")
+        remove_own()
+        assert list(tmp_path.iterdir()) == [out]

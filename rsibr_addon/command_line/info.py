@@ -1,6 +1,9 @@
-"""Tell what a map set is, without Blender."""
+"""Tell what a map set is, or what would be used of a picture, without Blender."""
 
 import argparse
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
 from typing import Any
 
 from .report import Report
@@ -8,41 +11,109 @@ from .report import Report
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what `run` reads."""
-    parser.add_argument("map_set", metavar="NAME.rsibr.exr", help="a map set")
+    parser.add_argument(
+        "file",
+        metavar="NAME.rsibr.exr|PICTURE",
+        help="a map set, or a picture: OpenEXR, FILE.exr:LAYER for a layer of it, Radiance HDR, or a photograph",
+    )
 
 
 def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
-    """Read a map set, check all of it, and tell its description.
+    """Read a file, check all of it, and tell what it is.
 
     Returns
     -------
     dict
-        "map_set", the path; "header", the description as docs/map-set-format.md has it.
+        Of a map set "map_set", the path, and "header", the description as docs/map-set-format.md has it.
+        Of a picture "picture", the path; "light", the fields of `core.light_range.LightRange`; and of one of
+        radiance "facts", those of `files.picture_facts.PictureFacts`.
 
     Raises
     ------
-    MapSetError
-        See `read_map_set`: also when its maps are not whole.
+    InputFileError
+        The file cannot be read: see `read_map_set`, `read_radiance` and `read_photograph`.
+    RangeError
+        It is too large for this machine's memory.
+
+    Warns
+    -----
+    RsibrWarning
+        Something that a picture's header says is not used; says what.
     """
+    from ..files.kinds.environment import is_environment
+    from ..files.radiance_pictures import holds_radiance
+
+    if is_environment(Path(arguments.file)):
+        return _tell_of_radiance(arguments.file, report)
+    if holds_radiance(arguments.file):
+        return _tell_of_map_set(arguments.file, report)
+    return _tell_of_photograph(arguments.file, report)
+
+
+def _tell_of_radiance(path: str, report: Report) -> dict[str, Any]:
+    from ..files.radiance_pictures import describe_radiance, read_radiance
+
+    facts = describe_radiance(path)
+    report.say(f"{path}: {facts.format}, {_size(facts.size)}")
+    for name, value in (
+        ("window", facts.window),
+        ("channels", facts.channels),
+        ("layers", ", ".join(facts.layers) or "one, without a name"),
+        ("colours", facts.colours),
+        ("exposure", facts.exposure),
+    ):
+        report.say(f"  {name:<12} {value}")
+    if facts.size[0] != 2 * facts.size[1]:
+        report.say(
+            "  layout       not twice as wide as high, which an environment is: rsibr convert makes one"
+        )
+    return {"picture": path, "facts": asdict(facts), "light": _light(read_radiance(path), report)}
+
+
+def _tell_of_photograph(path: str, report: Report) -> dict[str, Any]:
+    from ..files.photographs import read_photograph
+
+    photograph = read_photograph(path)
+    height, width = photograph.stored.shape[:2]
+    report.say(f"{path}: {8 * photograph.stored.itemsize} bits a colour, {width}x{height}")
+    report.say(
+        "  radiance     none: lamps end at white, and no scale is known; rsibr illuminate makes some of it"
+    )
+    return {"picture": path, "light": _light(photograph.radiance(), report)}
+
+
+def _light(picture: Any, report: Report) -> dict[str, Any]:
+    from ..core.light_range import light_range
+
+    light = light_range(picture)
+    report.say(f"  light        peak {light.peak:.4g}, mean {light.mean:.4g}, dark end {light.dark_end:.4g}")
+    report.say(
+        f"  values       {light.black} black, {light.negative} negative, {light.infinite} infinite, "
+        f"{light.undefined} undefined (NaN)"
+    )
+    return asdict(light)
+
+
+def _tell_of_map_set(path: str, report: Report) -> dict[str, Any]:
     from ..files.map_set import read_map_set, read_map_set_header
 
-    read_map_set(arguments.map_set)
-    header = read_map_set_header(arguments.map_set)
+    read_map_set(path)
+    header = read_map_set_header(path)
     roles: dict[str, int] = {}
     for part in header["parts"]:
         roles[part["role"]] = roles.get(part["role"], 0) + 1
     counts = ", ".join(f"{count} {role}" for role, count in roles.items())
-    report.say(f"{arguments.map_set}: {header['kind']}, format {header['format']}")
+    report.say(f"{path}: {header['kind']}, format {header['format']}")
     report.say(f"  maps         {counts}; {_size(header['size'])}, {header['layout']}")
     report.say(f"  environment  {header['environment']['name']}, {_size(header['environment']['size'])}")
     report.say(f"  material     {_fields(header['material'])}")
     report.say(f"  settings     {_fields(header['settings'])}")
     report.say(f"  error bound  {_fields(header['error_bound'] or {}) or 'none promised'}")
     report.say(f"  made by      {header['software']}")
-    return {"map_set": arguments.map_set, "header": header}
+    return {"map_set": path, "header": header}
 
 
-def _size(size: list[int]) -> str:
+def _size(size: Sequence[int]) -> str:
     return "{}x{}".format(*size)
 
 

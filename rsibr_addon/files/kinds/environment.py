@@ -8,6 +8,7 @@ from ...core.errors import InputFileError, MapSetError
 from ..environments import read_environment
 from ..map_set import MapSet, is_map_set
 from ..map_set_header import ENVIRONMENT
+from ..pictures import split_layer
 from ..radiance_pictures import holds_radiance
 
 KIND = "environment"
@@ -26,7 +27,7 @@ def is_environment(path: Path) -> bool:
         False also where it cannot be read: reading it as a map set tells why.
     """
     with suppress(InputFileError):
-        return holds_radiance(path) and not is_map_set(path)
+        return holds_radiance(path) and not is_map_set(split_layer(path)[0])
     return False
 
 

@@ -14,7 +14,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "file",
         metavar="NAME.rsibr.exr|PICTURE",
-        help="a map set, or a picture: OpenEXR, FILE.exr:LAYER for a layer of it, Radiance HDR, or a photograph",
+        help="a map set, or a picture: OpenEXR (FILE.exr:LAYER for a layer), Radiance HDR, or a photograph",
     )
 
 

@@ -99,7 +99,7 @@ def read_parts(path: str | Path) -> list[Part]:
     for header in headers:
         if header["type"] not in (OpenEXR.scanlineimage, OpenEXR.tiledimage):
             raise InputFileError(f"{path} holds deep pixels: flatten it, and save it as a plain OpenEXR.")
-    sizes = [_window_size(header["dataWindow"]) for header in headers]
+    sizes = [window_size(header["dataWindow"]) for header in headers]
     texels = sum(
         width * height * len(header["channels"])
         for header, (width, height) in zip(headers, sizes, strict=True)
@@ -125,23 +125,35 @@ def read_parts(path: str | Path) -> list[Part]:
 def _full(channel: Any, window: tuple[Indices, Indices]) -> Array:
     """A channel's pixels, one for each of its part's, row 0 at the bottom."""
     sampling, pixels = (channel.ySampling, channel.xSampling), channel.pixels
-    for axis, (step, length) in enumerate(zip(sampling, _window_size(window)[::-1], strict=True)):
+    for axis, (step, length) in enumerate(zip(sampling, window_size(window)[::-1], strict=True)):
         pixels = interpolated(pixels, axis, step, length)
     flipped: Array = pixels[::-1]
     return flipped
 
 
-def _window_size(window: tuple[Indices, Indices]) -> tuple[int, int]:
-    """Width and height."""
+def window_size(window: tuple[Indices, Indices]) -> tuple[int, int]:
+    """Width and height of a window.
+
+    Parameters
+    ----------
+    window : (ndarray, ndarray)
+        Its corners, both within it, as a header has them.
+
+    Returns
+    -------
+    int, int
+    """
     low, high = window
     return int(high[0]) - int(low[0]) + 1, int(high[1]) - int(low[1]) + 1
 
 
-def in_display_window(part: Part) -> Part:
+def in_display_window(path: str | Path, part: Part) -> Part:
     """The whole picture of a part of which only a window has pixels, or more than the picture has.
 
     Parameters
     ----------
+    path : str or Path
+        Of the file, for messages.
     part : Part
         As read.
 
@@ -152,16 +164,21 @@ def in_display_window(part: Part) -> Part:
 
     Raises
     ------
-    ValueError
+    InputFileError
         It stores none of them.
+    RangeError
+        The picture is too large for this machine's memory.
     """
     low, high = (np.asarray(corner, dtype=np.int64) for corner in part.attributes["dataWindow"])
     first, last = (np.asarray(corner, dtype=np.int64) for corner in part.attributes["displayWindow"])
     if np.array_equal(low, first) and np.array_equal(high, last):
         return part
     if np.any(high < first) or np.any(low > last):
-        raise ValueError("no pixel of its data window lies in its display window")
-    width, height = last - first + 1
+        raise InputFileError(
+            f"{path} is black, as its data window lies beside its display window: save it again, cropped."
+        )
+    width, height = window_size(part.attributes["displayWindow"])
+    check_memory(BYTES_OF_SAMPLE * width * height * len(part.channels), str(path), (width, height))
     start, end = np.maximum(low, first), np.minimum(high, last) + 1
     channels = {}
     for name, pixels in part.channels.items():

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core.conventions import Array, ArrayLike
 from .chromaticities import REC_709, luminance_weights, rec709_from
-from .exr import CUBE, primaries_named
+from .exr import CUBE, primaries_named, window_size
 
 ACES = (0.7347, 0.2653, 0.0, 1.0, 0.0001, -0.077, 0.32168, 0.33767)
 """Of every picture in an ACES container, whether it states them or not."""
@@ -129,8 +129,7 @@ def _ignored(header: dict[str, Any], primaries: ArrayLike) -> Iterator[str]:
         yield f"states a pixelAspectRatio of {aspect:.4g}, but its pixels are taken as square."
     if header.get("Orientation", 1) not in (0, 1):
         yield f"states an Orientation of {header['Orientation']}, but is taken as it is stored."
-    low, high = (np.asarray(corner) for corner in header["displayWindow"])
-    width, height = high - low + 1
+    width, height = window_size(header["displayWindow"])
     if header.get("envmap") == CUBE and height != 6 * width:
         yield "states that it is a cube map, but has not six faces one below the other."
     neutral = header.get("adoptedNeutral")

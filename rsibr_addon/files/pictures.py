@@ -10,7 +10,7 @@ from ..core.conventions import Array
 from ..core.errors import InputFileError, RsibrWarning, ShapeError
 from .atomic import written_aside
 from .chromaticities import XYZ, rec709_from
-from .exr import Part, in_display_window, read_attributes, read_parts, write_parts
+from .exr import Part, in_display_window, read_attributes, read_parts, window_size, write_parts
 from .exr_header import Meaning, meaning
 from .exr_layers import Layer, choose, layers_of
 from .picture_facts import PictureFacts
@@ -81,14 +81,8 @@ def read_exr(path: str | Path) -> Array:
             f"{path} holds no colour but whole numbers ({', '.join(layer.channels.values())}): "
             f"save it in float or half."
         )
-    try:
-        placed = in_display_window(
-            Part(part.name, {role: part.channels[name] for role, name in wanted.items()}, part.attributes)
-        )
-    except ValueError as error:
-        raise InputFileError(
-            f"{path} is black, as {error}: save it again, cropped to its picture."
-        ) from error
+    picture = Part(part.name, {role: part.channels[name] for role, name in wanted.items()}, part.attributes)
+    placed = in_display_window(path, picture)
     return _rec709_picture(placed.channels, meant)
 
 
@@ -131,10 +125,9 @@ def describe_exr(path: str | Path) -> PictureFacts:
     file, layer, meant, remarks = _chosen(path)
     headers = read_attributes(file)
     header = headers[layer.part]
-    low, high = header["displayWindow"]
     return PictureFacts(
         format="OpenEXR",
-        size=(int(high[0] - low[0]) + 1, int(high[1] - low[1]) + 1),
+        size=window_size(header["displayWindow"]),
         window=" to ".join("{},{}".format(*corner) for corner in header["dataWindow"]),
         channels=", ".join(layer.channels.values()),
         layers=tuple(other.name for other in layers_of(headers) if other.name),

@@ -138,7 +138,7 @@ def _stored_colours(formats: list[str]) -> tuple[tuple[float, ...], str]:
         if "xyze" in value.lower():
             primaries, colours = XYZ, "CIE XYZ, as FORMAT says"
         elif value and "rgbe" not in value.lower():
-            raise ValueError(f"its format is {value}")
+            raise ValueError(f"its format is {value[:SHOWN]!r}")
     return primaries, colours
 
 

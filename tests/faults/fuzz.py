@@ -50,7 +50,7 @@ MEGABYTES = 200
 
 
 def _info(path: Path) -> None:
-    told = info.run(argparse.Namespace(map_set=str(path)), Report("none", io.StringIO()))
+    told = info.run(argparse.Namespace(file=str(path)), Report("none", io.StringIO()))
     json.dumps(told).encode()
 
 

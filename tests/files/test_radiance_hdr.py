@@ -230,7 +230,7 @@ def test_the_header_tells_what_it_states(tmp_path: Path) -> None:
     [
         (b"no picture", "not a Radiance picture"),
         (b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n", "states no size"),
-        (b"#?RADIANCE\nFORMAT=16-bit\n\n-Y 1 +X 1\n1234", "its format is 16-bit"),
+        (b"#?RADIANCE\nFORMAT=16-bit\n\n-Y 1 +X 1\n1234", "its format is '16-bit'"),
         (b"#?RADIANCE\n\n-Y 1 +Y 1\n1234", "states no size"),
         (b"#?RADIANCE\n\n-Y 0 +X 1\n1234", "states no size"),
         (b"#?RADIANCE\n\n-Y 1 +X 1", "states no size"),

@@ -88,7 +88,8 @@ def _checked_fields(path: str | Path) -> dict[str, Array]:
         raise InputFileError(f"{path} is anisotropic, which lobes cannot follow: give an isotropic material.")
     if not np.all(tensors["jacobian"] == 1):
         raise InputFileError(f"{path} is of an unknown scale (jacobian 0): give the database's current file.")
-    fields: dict[str, Array] = {name: tensors[name].astype(np.float64) for name in FIELDS}
+    with np.errstate(invalid="ignore"):  # NaN of the signalling kind
+        fields: dict[str, Array] = {name: tensors[name].astype(np.float64) for name in FIELDS}
     if unusable := sum(int(np.count_nonzero(~np.isfinite(field))) for field in fields.values()):
         raise InputFileError(f"{path} holds {unusable} values that are NaN or infinite: fetch it again.")
     negative_density = any((fields[name] < 0.0).any() for name in ("ndf", "vndf"))

@@ -38,6 +38,9 @@ Readers that take the first part's size for that of all parts write beyond their
 larger; Blender's own image loader is one of them.
 """
 
+SMALLEST_TEXEL = 6.0 / 1032.0
+"""Bytes of a black one of half floats, as deflate packs it at best."""
+
 DERIVED = ("size", "sha256")
 """Fields of a part that follow from its pixels."""
 
@@ -139,8 +142,8 @@ def read_map_set(path: str | Path, kind: str | None = None) -> MapSet:
     Raises
     ------
     MapSetError
-        As `read_map_set_header`; or the set is of another kind, pixels are missing, differ from what
-        was written, or are not finite.
+        As `read_map_set_header`; or the set is of another kind, too large for this machine's memory, or
+        pixels are missing, differ from what was written, or are not finite.
     """
     header = read_map_set_header(path)
     if kind not in (None, header["kind"]):
@@ -214,6 +217,8 @@ def read_map_set_header(path: str | Path) -> dict[str, Any]:
     check_header(header, str(path))
     listed = {part["name"]: part["size"] for part in header["parts"]}
     found = {part.get("name", ""): _size(part) for part in attributes}
+    if SMALLEST_TEXEL * sum(width * height for width, height in found.values()) > Path(path).stat().st_size:
+        raise MapSetError(f"{path} is truncated: it states more than it can hold; fetch or make it again.")
     found.pop(COVER, None)
     for name in [*listed, *found]:
         if listed.get(name) != found.get(name):
@@ -276,5 +281,5 @@ def _as_map_set_error() -> Iterator[None]:
     """Whatever is wrong with a file that should hold a map set is a `MapSetError`."""
     try:
         yield
-    except InputFileError as error:
+    except (InputFileError, RangeError) as error:
         raise MapSetError(str(error)) from error

@@ -1,9 +1,12 @@
 """A map set that was cut off or damaged anywhere is refused, in words."""
 
+import re
+import struct
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import OpenEXR
 import pytest
 from rsibr.rsibr_addon.core.errors import MapSetError
 from rsibr.rsibr_addon.files.map_set import MapSet, read_map_set, read_map_set_header, write_map_set
@@ -39,6 +42,19 @@ def test_the_header_alone_is_refused_when_it_is_cut(path: Path) -> None:
 def test_a_set_that_something_was_appended_to_is_whole(path: Path, make_views: Callable[..., MapSet]) -> None:
     path.write_bytes(path.read_bytes() + b"more")
     np.testing.assert_array_equal(read_map_set(path).maps["environment"], make_views().maps["environment"])
+
+
+def test_maps_that_the_file_cannot_hold_are_refused_before_they_take_memory(path: Path) -> None:
+    with OpenEXR.File(str(path)) as file:
+        number = [part.name() for part in file.parts].index("view001.glossy")
+    data = bytearray(path.read_bytes())
+    attribute = b"dataWindow\0box2i\0" + struct.pack("<i", 16)
+    start = [match.end() for match in re.finditer(re.escape(attribute), data)][number]
+    for width in (5000, 30000):
+        data[start : start + 16] = struct.pack("<4i", 0, 0, width - 1, width - 1)
+        path.write_bytes(data)
+        with pytest.raises(MapSetError, match="is truncated: it states more than it can hold"):
+            read_map_set_header(path)
 
 
 @pytest.mark.slow

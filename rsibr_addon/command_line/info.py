@@ -71,15 +71,32 @@ def _tell_of_radiance(path: str, report: Report) -> dict[str, Any]:
 
 
 def _tell_of_photograph(path: str, report: Report) -> dict[str, Any]:
-    from ..files.photographs import read_photograph
+    from ..files.orientation import Orientation
+    from ..files.photographs import orientation_of, read_photograph
 
-    photograph = read_photograph(path)
+    photograph, turned = read_photograph(path), orientation_of(path) != Orientation()
     height, width = photograph.stored.shape[:2]
     report.say(f"{path}: {8 * photograph.stored.itemsize} bits a colour, {width}x{height}")
-    report.say(
-        "  radiance     none: lamps end at white, and no scale is known; rsibr illuminate makes some of it"
-    )
+    if turned:
+        report.say("  turned       upright, as its Exif says")
+    report.say(f"  colours      {photograph.encoding.name}")
+    report.say(f"  exposure     {_exposure(path)}")
+    if photograph.encoding.curves is not None:
+        why = "lamps end at white, and no scale is known"
+        report.say(f"  radiance     none: {why}; rsibr illuminate makes some of it")
     return {"picture": path, "light": _light(photograph.radiance(), report)}
+
+
+def _exposure(path: str) -> str:
+    from ..core.errors import InputFileError
+    from ..files.exif import read_exposure
+
+    try:
+        told = read_exposure(path)
+    except InputFileError:
+        return "not told"
+    f_number = f", f/{told.f_number:.3g}" if told.f_number else ""
+    return f"{told.time:.4g} s{f_number}" + (f", ISO {told.sensitivity:g}" if told.sensitivity else "")
 
 
 def _light(picture: Any, report: Report) -> dict[str, Any]:

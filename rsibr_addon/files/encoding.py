@@ -37,10 +37,13 @@ class Encoding:
         Of red, green and blue; None where the numbers are linear.
     to_rec709 : ndarray, shape (3, 3)
         From linear light.
+    name : str
+        Of the colour space, for people.
     """
 
     curves: tuple[Curve, Curve, Curve] | None
     to_rec709: Array
+    name: str
 
 
 def power_curve(exponent: float) -> Curve:
@@ -78,7 +81,7 @@ def named_encoding(name: str) -> Encoding:
     """
     transfer, primaries = name.split("_")[:2] if "_" in name else (name, "")
     curve = power_curve(2.2) if (transfer, primaries) == ("g22", "adobergb") else TRANSFERS[transfer]
-    return Encoding(curve and (curve, curve, curve), rec709_from(PRIMARIES[primaries]))
+    return Encoding(curve and (curve, curve, curve), rec709_from(PRIMARIES[primaries]), name)
 
 
 def profile_encoding(profile: bytes) -> Encoding:
@@ -110,7 +113,8 @@ def profile_encoding(profile: bytes) -> Encoding:
         raise ValueError("it has no primaries with curves") from error
     levels = np.linspace(0.0, 1.0, 256)
     straight = all(np.abs(curve(levels) - levels).max() < STRAIGHT for curve in curves)
-    return Encoding(None if straight else (curves[0], curves[1], curves[2]), to_rec709)
+    told = None if straight else (curves[0], curves[1], curves[2])
+    return Encoding(told, to_rec709, "linear, by its profile" if straight else "by its profile")
 
 
 def _tags(profile: bytes) -> dict[bytes, bytes]:

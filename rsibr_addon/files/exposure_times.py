@@ -62,6 +62,6 @@ def read_times(path: str | Path) -> tuple[float, ...]:
     lines = re.sub(r"(#|//).*", "", data.decode(encoding, errors="replace").replace("\r", "\n"))
     words = re.split(r"[\s,;\"']+", re.sub(r"\s*/\s*", "/", re.sub(r"(?<=\d)\s*s\b", "", lines)))
     try:
-        return tuple(exposure_time(word) for word in words if word)
+        return tuple(exposure_time(word[:40]) for word in words if word)
     except ValueError as error:
         raise InputFileError(f"{path} is no list of exposure times ({error}): write 1/125 or 0.5.") from error

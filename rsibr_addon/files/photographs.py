@@ -230,7 +230,8 @@ def _encoding(path: str | Path, spec: Any, notes: dict[str, Any], head: bytes) -
         except ValueError as error:
             name = notes.get("ICCProfile:profile_description", "without a name")
             _warn(
-                f"{path} has a colour profile ({name}) that cannot be used, as {error}: it is taken as sRGB."
+                f"{path} has a colour profile ({name!r:.60}) that cannot be used, as {error}: it is taken as "
+                f"sRGB."
             )
             return named_encoding("srgb_rec709")
     floats = spec.format.basetype in (OpenImageIO.HALF, OpenImageIO.FLOAT, OpenImageIO.DOUBLE)

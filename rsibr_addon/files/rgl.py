@@ -153,7 +153,7 @@ def _read_entry(stream: BinaryIO) -> tuple[str, tuple[str, int, tuple[int, ...]]
     name = _read(stream, length).decode()
     dimensions, kind, offset = _unpack(stream, "HBQ")
     if kind not in TYPES:
-        raise ValueError(f"its field {name} is of unknown type {kind}")
+        raise ValueError(f"its field {name!r:.40} is of unknown type {kind}")
     return name, (TYPES[kind], offset, _unpack(stream, f"{dimensions}Q"))
 
 

@@ -9,6 +9,7 @@ import OpenImageIO
 import pytest
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.light_range import light_range
+from rsibr.tests.written_pictures import EXPOSURE_TIME, F_NUMBER, ISO, ORIENTATION, add_exif, write_png
 
 
 def told(path: Path, capfd: pytest.CaptureFixture[str]) -> dict:
@@ -56,8 +57,20 @@ def test_a_photograph_is_said_to_be_no_radiance(tmp_path: Path, capfd: pytest.Ca
     assert run(["info", str(tmp_path / "a.png")]) == 0
     lines = capfd.readouterr().out.splitlines()
     assert lines[0].endswith("a.png: 8 bits a colour, 8x4")
-    assert lines[1].startswith("  radiance     none: lamps end at white")
-    assert lines[2].startswith("  light        peak 1, ")
+    assert lines[1:3] == ["  colours      srgb_rec709_scene", "  exposure     not told"]
+    assert lines[3].startswith("  radiance     none: lamps end at white")
+    assert lines[4].startswith("  light        peak 1, ")
+
+
+def test_what_is_used_of_a_photograph_is_told(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    write_png(tmp_path / "a.png", np.full((4, 8, 3), 255, np.uint8), (b"gAMA", bytes((0, 1, 134, 160))))
+    add_exif(tmp_path / "a.png", {ORIENTATION: 8, EXPOSURE_TIME: (1, 40), F_NUMBER: (4, 1), ISO: 200})
+    assert run(["info", str(tmp_path / "a.png")]) == 0
+    lines = capfd.readouterr().out.splitlines()
+    assert lines[0].endswith("8 bits a colour, 4x8")
+    assert lines[1:3] == ["  turned       upright, as its Exif says", "  colours      lin_rec709_scene"]
+    assert lines[3] == "  exposure     0.025 s, f/4, ISO 200"
+    assert lines[4].startswith("  light ")
 
 
 @pytest.mark.parametrize("content", [b"", b"text", b"#?RADIANCE\n\n-Y 9 +X 9\n", b"\x76\x2f\x31\x01"])

@@ -81,7 +81,7 @@ def _parse(path: str | Path) -> tuple[Array, Array]:
             raise ValueError(f"it ends within a row of {4 + count} numbers")
     except (ValueError, IndexError, OverflowError) as error:
         raise InputFileError(
-            f"{path} is no measurement of Cornell's, or truncated or damaged ({error!s:.100}): fetch it again."
+            f"{path} is no measurement of Cornell's, or truncated or damaged ({error!s:.99}): fetch it again."
         ) from error
     return wavelength, samples.reshape(-1, 4 + count)
 

@@ -145,7 +145,9 @@ def test_a_full_disk_leaves_nothing(
     tmp_path: Path, make_views: MakeViews, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     real_open = Path.open
-    monkeypatch.setattr(Path, "open", lambda path, mode: real_open(Path("/dev/full"), mode))
+    monkeypatch.setattr(
+        Path, "open", lambda path, mode: real_open(path if mode == "a" else Path("/dev/full"), mode)
+    )
     with pytest.raises(OutputFileError, match=r"a\.rsibr\.exr was not written because the disk is full"):
         write_map_set(tmp_path / "a.rsibr.exr", make_views())
     assert os.listdir(tmp_path) == []

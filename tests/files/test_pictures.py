@@ -69,7 +69,9 @@ def test_a_full_disk_is_noticed_also_by_small_files(
 ) -> None:
     # A small file fits the system's buffers, so that only closing it fails
     real_open = Path.open
-    monkeypatch.setattr(Path, "open", lambda path, mode: real_open(Path("/dev/full"), mode))
+    monkeypatch.setattr(
+        Path, "open", lambda path, mode: real_open(path if mode == "a" else Path("/dev/full"), mode)
+    )
     with pytest.raises(OutputFileError, match=r"a\.exr was not written because the disk is full"):
         write_exr(tmp_path / "a.exr", np.random.default_rng(0).random((size, size, 4)))
     assert os.listdir(tmp_path) == []

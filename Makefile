@@ -3,7 +3,7 @@ VENV := .venv
 PYTHON := $(VENV)/bin/python
 READY := $(VENV)/.ready
 
-.PHONY: help demo test test-quick test-gui lint extension bench clean
+.PHONY: help demo test test-quick test-gui test-faults lint extension bench clean
 
 help:
 	@echo "make demo        capture two materials, preview them and compare with Cycles; pictures under demo/"
@@ -11,6 +11,7 @@ help:
 	@echo "make lint        ruff and mypy"
 	@echo "make extension   dist/rsibr-*.zip, to be installed in Blender"
 	@echo "make test-gui    the built extension in a Blender of its own, which .ci/window/blender installs (root on Debian)"
+	@echo "make test-faults kills and signals at many moments of every command; more than an hour"
 	@echo "make bench       how long captures, previews and filtering take here; tables for docs"
 	@echo "make clean       remove everything that these targets made"
 
@@ -32,6 +33,9 @@ test-quick: $(READY)
 
 test-gui: $(READY)
 	RSIBR_REQUIRE=gui $(PYTHON) -m pytest tests/gui
+
+test-faults: $(READY)
+	RSIBR_MOMENTS=200 RSIBR_REQUIRE=gl,bpy,cycles $(PYTHON) -m pytest tests/faults
 
 lint: $(READY)
 	$(PYTHON) -m ruff check

@@ -6,29 +6,52 @@ folder=${1:-demo}
 mkdir -p "$folder"
 cd "$folder"
 : >errors.txt
+log=$PWD/demo.log
+: >"$log"
+exec 3>&2
+[ -t 2 ] || exec 2>>"$log" # a bar is for a terminal
+
+# One line for each step; what it prints, and what Blender says, into the log: step WHAT COMMAND ...
+step() {
+    echo "$1"
+    shift
+    if ! "$@" >>"$log"; then
+        tail -n 20 "$log" >&3
+        echo "The demo stopped at: $*. All that was said: $log" >&3
+        exit 1
+    fi
+}
+
+ours() {
+    rsibr "$@" --log "$log"
+}
+
+compare() {
+    ours compare "$@" | tee -a errors.txt
+}
 
 # Cabral, Olano & Nemec 1999: what Cycles sees of a material, turned and held against Cycles
 for material in copper plastic; do
-    rsibr capture --environment forest --material "$material" --views 12 --size 256 --samples 16 --denoise \
+    step "Capturing $material" ours capture --environment forest --material "$material" --views 12 --size 256 --samples 16 --denoise \
         -o "$material.rsibr.exr" --force
-    rsibr info "$material.rsibr.exr"
-    rsibr preview "$material.rsibr.exr" --mesh monkey --view 0.3,-1,0.3 --size 256 --turntable 24 \
+    step "Reading what $material.rsibr.exr holds" ours info "$material.rsibr.exr"
+    step "Turning Suzanne in $material" ours preview "$material.rsibr.exr" --mesh monkey --view 0.3,-1,0.3 --size 256 --turntable 24 \
         -o "$material-monkey.png" --force
-    rsibr compare "$material.rsibr.exr" --views 3 --samples 64 -o "$material-compare" --force >>errors.txt
+    step "Comparing $material with Cycles" compare "$material.rsibr.exr" --views 3 --samples 64 -o "$material-compare" --force
 done
 
 # Kautz & McCool 2000: a BRDF as three lobes, held against the BRDF itself
-rsibr bake --environment forest --brdf ggx:alpha=0.3,metal=copper --lobes 3 -o lobes.rsibr.exr --force
-rsibr compare lobes.rsibr.exr --views 2 -o lobes-compare --force >>errors.txt
-rsibr report lobes.rsibr.exr -o lobes.html --force
+step "Baking copper as three lobes" ours bake --environment forest --brdf ggx:alpha=0.3,metal=copper --lobes 3 -o lobes.rsibr.exr --force
+step "Comparing the lobes with the BRDF" compare lobes.rsibr.exr --views 2 -o lobes-compare --force
+step "Reporting on the lobes" ours report lobes.rsibr.exr -o lobes.html --force
 
 # Miller & Hoffman 1984 and Kautz, Daubert & Seidel 2004
-rsibr tables --environment forest --material varnished -o tables.rsibr.exr --force
-rsibr mips --environment forest --size 128 -o mips.rsibr.exr --force
-rsibr export mips.rsibr.exr -o mips.ktx2 --up y --force
+step "Baking reflection tables of varnish" ours tables --environment forest --material varnished -o tables.rsibr.exr --force
+step "Filtering the environment's mip chain" ours mips --environment forest --size 128 -o mips.rsibr.exr --force
+step "Exporting it" ours export mips.rsibr.exr -o mips.ktx2 --up y --force
 
 # Beyond them: light filtered once, for any material that is chosen afterwards
-rsibr bank --environment forest -o bank.rsibr.exr --force
+step "Filtering the environment with a bank of kernels" ours bank --environment forest -o bank.rsibr.exr --force
 
 for mesh in monkey sphere; do
     for map_set in plastic lobes tables mips bank; do
@@ -37,11 +60,11 @@ for mesh in monkey sphere; do
             bank) look=(--brdf ggx:alpha=0.15,metal=gold) ;;
             *) look=() ;;
         esac
-        rsibr preview "$map_set.rsibr.exr" --mesh "$mesh" --view 0.3,-1,0.3 --size 256 "${look[@]}" \
+        step "Drawing a $mesh from $map_set.rsibr.exr" ours preview "$map_set.rsibr.exr" --mesh "$mesh" --view 0.3,-1,0.3 --size 256 "${look[@]}" \
             -o "$map_set-$mesh.exr" --force
     done
 done
-python "$docs/../.ci/contact_sheet.py" systems.png 5 -1.3 {plastic,lobes,tables,mips,bank}-monkey.exr \
+step "Putting the pictures on one sheet" python "$docs/../.ci/contact_sheet.py" systems.png 5 -1.3 {plastic,lobes,tables,mips,bank}-monkey.exr \
     {plastic,lobes,tables,mips,bank}-sphere.exr
 
 echo
@@ -53,3 +76,4 @@ echo "  lobes.html: all of a map set on one page"
 echo "  copper-compare/index.html, plastic-compare/index.html: previews beside Cycles' own pictures, and the errors;"
 echo "  lobes-compare/index.html: beside the BRDF itself:"
 sed 's/^/    /' errors.txt
+echo "What Blender said: $log"

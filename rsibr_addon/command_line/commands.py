@@ -1,6 +1,7 @@
 """The commands, and what a command line asks for."""
 
 import argparse
+import os
 from collections.abc import Sequence
 from types import ModuleType
 from typing import Any
@@ -52,7 +53,7 @@ def parsed(argv: Sequence[str]) -> argparse.Namespace:
     Returns
     -------
     argparse.Namespace
-        The command's own arguments; its function, `run`; `json`, `progress` and `verbose`.
+        The command's own arguments; its function, `run`; `json`, `progress`, `verbose` and `log`.
 
     Raises
     ------
@@ -78,8 +79,12 @@ def _parser() -> argparse.ArgumentParser:
         default="auto",
         help="on standard error: a bar, a JSON object a line, or nothing (default: a bar on a terminal)",
     )
-    common.add_argument(
+    heard = common.add_mutually_exclusive_group()
+    heard.add_argument(
         "--verbose", action="store_true", help="on standard error, also what Blender and its libraries say"
+    )
+    heard.add_argument(
+        "--log", metavar="FILE", default=os.devnull, help="add what Blender and its libraries say to a file"
     )
     parser = argparse.ArgumentParser(prog="rsibr", description="Prefiltered reflection maps with Blender.")
     commands = parser.add_subparsers(metavar="COMMAND", required=True)

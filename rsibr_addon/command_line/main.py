@@ -93,8 +93,7 @@ def run(argv: Sequence[str]) -> int:
             arguments = parsed(argv)
         except SystemExit as end:  # argparse has said why, or has printed the help
             return int(end.code or 0)
-        with others_hushed(told if arguments.verbose else None):
-            result, lines = _done(arguments, told)
+        result, lines = _done(arguments, told)
         for line in [json.dumps(result)] if arguments.json else lines:
             out.write(f"{line}\n")
         if out.full:
@@ -109,7 +108,8 @@ def _done(arguments: argparse.Namespace, told: Outlet) -> tuple[dict[str, Any], 
     report = Report(arguments.progress, told)
     with report.hearing_warnings():
         try:
-            result = {"ok": True, **arguments.run(arguments, report)}
+            with others_hushed(told if arguments.verbose else None, arguments.log):
+                result = {"ok": True, **arguments.run(arguments, report)}
         except (RsibrError, OSError) as error:
             result = {"ok": False, "error": _sentence(error)}
             told.write(f"rsibr: error: {result['error']}\n")

@@ -103,7 +103,7 @@ def own_streams() -> Iterator[tuple[Outlet, Outlet]]:
 
 
 @contextmanager
-def others_hushed(heard: Outlet | None) -> Iterator[None]:
+def others_hushed(heard: Outlet | None, log: str) -> Iterator[None]:
     """Within, what others write to the standard streams is kept from them.
 
     Blender, its libraries and the graphics driver write beneath Python, to C's streams or to the file
@@ -112,14 +112,21 @@ def others_hushed(heard: Outlet | None) -> Iterator[None]:
     Parameters
     ----------
     heard : Outlet or None
-        Where it goes; None for nowhere.
+        Standard error, where it is to be heard after all.
+    log : str
+        The file to which it is added otherwise.
+
+    Raises
+    ------
+    OSError
+        The log cannot be opened.
     """
-    kept = os.dup(1), os.dup(2)
-    with open(os.devnull, "w") as nowhere:
+    with open(log, "a", encoding="utf-8", errors="surrogateescape", buffering=1) as file:
+        kept = os.dup(1), os.dup(2)
         for descriptor in (1, 2):
-            os.dup2(nowhere.fileno() if heard is None else kept[1], descriptor)
+            os.dup2(kept[1] if heard else file.fileno(), descriptor)
         try:
-            with redirect_stdout(nowhere if heard is None else heard):
+            with redirect_stdout(heard or file):
                 yield
         finally:
             ctypes.CDLL("ucrtbase" if sys.platform == "win32" else None).fflush(None)

@@ -20,8 +20,8 @@ from ..core.schema import decode, loads
 LAST_LINES = 20
 """Of what a Blender said, kept for the case that it ends without a word of ours."""
 
-GRACE_SECONDS = 5.0
-"""Until a Blender that was asked to end is killed."""
+GRACE_SECONDS = 1.0
+"""Until a Blender that was asked to end is killed: more than it takes to do so by itself."""
 
 NICENESS = 10
 """Of a bake, above that of the artist's Blender, which comes first."""

@@ -275,7 +275,8 @@ def _in_background(title: str, job: BakeJob, item: Any, output: Path, needs_file
         title=title,
         output=output,
         command=blender_command(program, EXTENSION, blend, path),
-        variables={ORIGINAL: open_file()},
+        # What its Blender leaves, ended amid its start, goes with the folder
+        variables={ORIGINAL: open_file(), "TMPDIR": str(folder)},
         items=[item.session_uid],
         reads=reads,
     )

@@ -22,8 +22,8 @@ from mathutils import Vector  # noqa: F401
 
 ROOT = "bl_ext.user_default.rsibr"
 HOLD = Path("/job/hold")
-SECONDS = 280.0
-"""After these a scenario has failed."""
+SECONDS = 560.0
+"""After these a scenario hangs: a machine that others use too may take most of them."""
 
 bpy.context.preferences.view.show_splash = False
 bpy.context.preferences.system.viewport_aa = "OFF"

@@ -11,9 +11,6 @@ LARGEST = 150_000
 """Bytes of a picture."""
 
 HANDS = """
-import in_window
-in_window.SECONDS = 560.0  # where others work, a bake is the last to be served
-
 def event(kind, value, x, y, **more):
     window().event_simulate(type=kind, value=value, x=x, y=y, **more)
     yield

@@ -28,6 +28,9 @@ primaries_named = OpenEXR.colorInteropIDToChromaticities
 
 OpenEXR.set_global_thread_count(os.cpu_count() or 1)
 
+FEWEST_STORED = 1000
+"""A picture with fewer than one in so many pixels stored is none."""
+
 BYTES_OF_SAMPLE = 8
 """Of memory for each number of a channel: as float, and as much again for the picture made of them."""
 
@@ -69,7 +72,13 @@ def read_attributes(path: str | Path) -> list[dict[str, Any]]:
         The file is missing, unreadable, not OpenEXR, or damaged in its headers.
     """
     with opened(path) as stream, _package_file(path, stream, header_only=True) as file:
-        return [dict(part.header) for part in file.parts]
+        headers = [dict(part.header) for part in file.parts]
+    try:
+        for header in headers:
+            [channel.name for channel in header["channels"]]
+    except UnicodeDecodeError as error:
+        raise InputFileError(f"{path} has names of channels that are not UTF-8: save it again.") from error
+    return headers
 
 
 def read_parts(path: str | Path) -> list[Part]:
@@ -165,7 +174,7 @@ def in_display_window(path: str | Path, part: Part) -> Part:
     Raises
     ------
     InputFileError
-        It stores none of them.
+        It stores none of them, or hardly any.
     RangeError
         The picture is too large for this machine's memory.
     """
@@ -173,13 +182,14 @@ def in_display_window(path: str | Path, part: Part) -> Part:
     first, last = (np.asarray(corner, dtype=np.int64) for corner in part.attributes["displayWindow"])
     if np.array_equal(low, first) and np.array_equal(high, last):
         return part
-    if np.any(high < first) or np.any(low > last):
-        raise InputFileError(
-            f"{path} is black, as its data window lies beside its display window: save it again, cropped."
-        )
-    width, height = window_size(part.attributes["displayWindow"])
-    check_memory(BYTES_OF_SAMPLE * width * height * len(part.channels), str(path), (width, height))
     start, end = np.maximum(low, first), np.minimum(high, last) + 1
+    width, height = window_size(part.attributes["displayWindow"])
+    if np.any(end <= start) or np.prod(end - start) * FEWEST_STORED < width * height:
+        raise InputFileError(
+            f"{path} is black, as its data window lies beside its display window, or is a speck in it: "
+            f"save it again, cropped."
+        )
+    check_memory(BYTES_OF_SAMPLE * width * height * len(part.channels), str(path), (width, height))
     channels = {}
     for name, pixels in part.channels.items():
         picture = np.zeros((height, width), pixels.dtype)

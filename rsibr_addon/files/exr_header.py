@@ -150,4 +150,5 @@ def _unknown(header: dict[str, Any]) -> Iterator[str]:
     unknown = [name for name in header if not HARMLESS.fullmatch(name) and not COLOUR_SPACE.fullmatch(name)]
     if unknown:
         more = f" and {len(unknown) - 8} more" if len(unknown) > 8 else ""
-        yield f"has attributes that are not used: {', '.join(unknown[:8])}{more}."
+        shown = [name if name.isprintable() else ascii(name) for name in unknown[:8]]
+        yield f"has attributes that are not used: {', '.join(shown)}{more}."

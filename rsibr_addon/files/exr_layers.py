@@ -76,6 +76,7 @@ def layers_of(headers: Sequence[dict[str, Any]]) -> list[Layer]:
         # Capitals come first, and win
         for name in sorted(channel.name for channel in header["channels"]):
             prefix, _, word = name.rpartition(".")
+            prefix = prefix if prefix.isprintable() else ascii(prefix)
             if role := ROLES.get(word.lower()):
                 found.setdefault(prefix, {}).setdefault(role, name)
         for prefix, roles in found.items():

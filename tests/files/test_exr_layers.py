@@ -227,11 +227,21 @@ def test_primaries_of_another_type_are_left_out(tmp_path: Path, rgb: np.ndarray)
         np.testing.assert_array_equal(read_exr(path), rgb[::-1])
 
 
-def test_pixels_beside_the_picture_are_refused(tmp_path: Path, rgb: np.ndarray) -> None:
-    window = (np.int32([100, 0]), np.int32([131, 15]))
-    display = (np.int32([0, 0]), np.int32([31, 15]))
+@pytest.mark.parametrize(("corner", "side"), [((100, 0), 31), ((-40, 0), 31), ((0, 0), 20000)])
+def test_pixels_beside_the_picture_or_a_speck_in_it_are_refused(
+    tmp_path: Path, rgb: np.ndarray, corner: tuple[int, int], side: int
+) -> None:
+    window = (np.int32(corner), np.int32(corner) + np.int32([31, 15]))
+    display = (np.int32([0, 0]), np.int32([side, side]))
     path = write(tmp_path / "a.exr", channels(rgb), dataWindow=window, displayWindow=display)
     with pytest.raises(InputFileError, match="is black, as its data window lies beside"):
+        read_exr(path)
+
+
+def test_names_that_are_no_text_are_refused_in_a_sentence(tmp_path: Path, rgb: np.ndarray) -> None:
+    path = write(tmp_path / "a.exr", channels(rgb, "layer."))
+    path.write_bytes(path.read_bytes().replace(b"layer.", b"lay\xffr."))
+    with pytest.raises(InputFileError, match=r"a\.exr has names of channels that are not UTF-8"):
         read_exr(path)
 
 

@@ -110,14 +110,16 @@ def _done(arguments: argparse.Namespace, told: Outlet) -> tuple[dict[str, Any], 
         try:
             with others_hushed(told if arguments.verbose else None, arguments.log):
                 result = {"ok": True, **arguments.run(arguments, report)}
-        except (RsibrError, OSError) as error:
+        except (RsibrError, OSError, MemoryError) as error:
             result = {"ok": False, "error": _sentence(error)}
             told.write(f"rsibr: error: {result['error']}\n")
     return result | {"warnings": report.warnings}, report.lines
 
 
-def _sentence(error: RsibrError | OSError) -> str:
+def _sentence(error: RsibrError | OSError | MemoryError) -> str:
     """What to tell of an error, naming the file where the system knows it."""
+    if isinstance(error, MemoryError):
+        return "The memory of this machine is used up: choose a smaller size, or close other programs."
     if isinstance(error, OSError) and error.filename is not None:
         return f"{error.filename}: {error.strerror}."
     return str(error)

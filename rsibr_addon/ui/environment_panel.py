@@ -2,6 +2,15 @@
 
 import bpy
 
+from .sentences import tell
+
+RADIANCE = ("OPEN_EXR", "OPEN_EXR_MULTILAYER", "HDR")
+"""Blender's names of the formats that hold radiance."""
+
+NO_RADIANCE = (
+    "This picture is no radiance: its lamps end at white. Give OpenEXR or Radiance HDR, or make one from it."
+)
+
 THUMBNAIL_SCALE = 4.0
 """Of an environment's picture; a button is 1 high."""
 
@@ -41,6 +50,8 @@ class RSIBR_PT_environment(bpy.types.Panel):
                 if chosen.image is not None:
                     layout.template_icon(bpy.types.UILayout.icon(chosen.image), scale=THUMBNAIL_SCALE)
                 layout.prop(chosen, "picture", text="")
+                if chosen.image is not None and chosen.image.file_format not in RADIANCE:
+                    tell(layout, NO_RADIANCE, context.region.width)
         capture = layout.operator(
             "rsibr.capture_environment", text="Capture from Scene...", icon="RENDER_STILL"
         )

@@ -1,8 +1,12 @@
 """How good fits are: the tables and plots of docs/lobes.md.
 
-bench_fits.py [SPEC ...] fits these models too.
+bench_fits.py [SPEC ...] fits these models too. bench_fits.py --errors prints E of the fits that were once
+different on every processor, as JSON.
 """
 
+import json
+import os
+import subprocess
 import sys
 import time
 from collections.abc import Callable
@@ -83,8 +87,40 @@ def methods(spec: str) -> str:
     return HEAD + "".join(row(name, spec, fit) for name, fit in fits.items())
 
 
+def tapped() -> dict[str, Callable[[], Fit]]:
+    """The fits with taps, whose start is hardest to choose."""
+    return {
+        "copper, 1 with 5 taps": partial(joint, COPPER, 1, 5),
+        "copper, 2 with 3 taps": partial(joint, COPPER, 2, 3),
+        "Ward, 1 with 5 taps": partial(joint, WARD, 1, 5),
+        "Ward, 2 with 3 taps": partial(joint, WARD, 2, 3),
+        **{spec: partial(layered, spec) for spec in MODELS},
+    }
+
+
+def errors_here() -> list[str]:
+    """E of `tapped` on this processor."""
+    fits = [make() for make in tapped().values()]
+    return [f"{fit_errors(fit, brdf_from_spec(fit.brdf)).error:.5f}" for fit in fits]
+
+
+def processors() -> str:
+    """E of `tapped` under each of OpenBLAS's kernels, as a table."""
+    table = f"| kernel | {' | '.join(tapped())} |\n|{(len(tapped()) + 1) * '---|'}\n"
+    for kernel in ("default", "Prescott", "Nehalem", "Sandybridge", "Haswell", "Zen"):
+        setting = {} if kernel == "default" else {"OPENBLAS_CORETYPE": kernel}
+        command = [sys.executable, __file__, "--errors"]
+        run = subprocess.run(command, env=os.environ | setting, capture_output=True, check=True)
+        table += f"| {kernel} | {' | '.join(json.loads(run.stdout))} |\n"
+    return table
+
+
 def main() -> None:
     """Make all tables and plots."""
+    if sys.argv[1:] == ["--errors"]:
+        print(json.dumps(errors_here()))
+        return
+    write_table("lobes.md", "processors", processors())
     write_table("lobes.md", "copper", methods(COPPER))
     write_table("lobes.md", "ward", methods(WARD))
     models = [row(spec.rpartition("/")[2], spec, partial(layered, spec)) for spec in (*MODELS, *sys.argv[1:])]

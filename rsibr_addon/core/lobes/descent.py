@@ -72,4 +72,7 @@ def _moved(lookups: Lookups, step: Array, non_negative: bool) -> Lookups:
     turn, change = np.split(step, 2)
     turn = np.clip(turn, -_LARGEST_TURN, _LARGEST_TURN).reshape(lookups.angles.shape)
     taps = lookups.taps + change.reshape(lookups.taps.shape)
-    return Lookups(lookups.angles + turn, np.maximum(taps, 0.0) if non_negative else taps)
+    if non_negative:
+        taps = np.maximum(taps, 0.0)
+    # A factor of a lobe's taps is one of its profile: fixed, or rounding alone would choose it
+    return Lookups(lookups.angles + turn, taps / np.abs(taps).sum(axis=1, keepdims=True))

@@ -1,8 +1,11 @@
 """All profiles of a fit together, with axes by variable projection, tracked over the elevations.
 
 Fits grow lobe by lobe. A new lobe is tried at every angle, and by spreading those that are there; the better
-start is followed to its optimum at one elevation, and from there to grazing and to normal incidence, each
-elevation starting from its neighbour's tilts.
+start is followed to its optimum at one elevation. Taps start there from several spreads, and the best is kept.
+From there the fit goes to grazing and to normal incidence, each elevation starting from its neighbour's tilts.
+
+A fit is the same on every processor, although the last bits of sums are not: no step depends on rounding.
+Taps have one scale, axes are tied to where they start, and of equals the first is taken.
 """
 
 from collections.abc import Sequence
@@ -14,7 +17,7 @@ from ..conventions import Array
 from .bank import SHARPEST, KernelBank, octaves
 from .descent import descend
 from .fit import Fit
-from .projection import Lookups, Projector
+from .projection import Lookups, Projection, Projector
 from .smoothing import smoothed_lookups, smoothed_weights
 from .target import TargetSlice
 
@@ -25,6 +28,8 @@ _SHARPNESS, _THINNEST = 20.0, 3.0
 _START = 0.25
 _ANGLES = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 33)
 _TIE = 1.0
+_SPREADS, _TIES = (0.5, 1.0, 2.0), (_TIE, 0.01)
+_BETTER = 0.99
 _STIFFER, _STIFFEST = 1.4, 1e4
 
 
@@ -132,10 +137,7 @@ class JointFitter:
         errors : ndarray, shape (S,)
             `State.error` of each elevation.
         """
-        start = Lookups(self._angles, np.ones_like(self._angles))
-        for _ in range(taps - 1):
-            wider = _added_tap(start, self._projector.target.radius)
-            start, _ = descend(self._projector, wider, with_taps=True)
+        start = _best_taps(self._projector, self._angles, taps)
         states = _tracked(self._slices, self._bank, start, self._first, self._non_negative)
         return _fit(self._slices, self._bank, states, self._brdf), np.array([state.error for state in states])
 
@@ -169,14 +171,34 @@ def _added_lobe(projector: Projector, angles: Array) -> Array:
     if len(angles):
         spread = _spread(angles.T, projector.target.radius).T
         starts.append(Lookups(spread, np.ones_like(spread)))
-    settled = [descend(projector, start, with_taps=False) for start in starts]
-    return min(settled, key=lambda pair: pair[1].objective)[0].angles
+    return _first_of_the_best([descend(projector, start, with_taps=False) for start in starts]).angles
 
 
-def _added_tap(lookups: Lookups, width: float) -> Lookups:
-    """One tap more for every lobe, between those that are there."""
-    angles = _spread(lookups.angles, width)
-    return Lookups(angles, np.full(angles.shape, 1.0 / angles.shape[1]))
+def _best_taps(projector: Projector, angles: Array, taps: int) -> Lookups:
+    """Taps about given angles, shape (J, 1), from several distances between them.
+
+    Taps are tied to where they start, and more loosely then. Let go at once, they run through long valleys
+    in steps whose direction rounding decides, and end in another place on every processor.
+    """
+    if taps == 1:
+        return Lookups(angles, np.ones_like(angles))
+    settled = []
+    for spread in _SPREADS:
+        apart = angles + spread * projector.target.radius * np.linspace(-0.5, 0.5, taps)
+        lookups = Lookups(apart, np.full(apart.shape, 1.0 / taps))
+        for tie in _TIES:
+            lookups, projection = descend(projector, lookups, with_taps=True, tie=tie)
+        settled.append((lookups, projection))
+    return _first_of_the_best(settled)
+
+
+def _first_of_the_best(settled: Sequence[tuple[Lookups, Projection]]) -> Lookups:
+    """The best, or the first that is nearly as good: rounding chooses between equals."""
+    best = settled[0]
+    for each in settled[1:]:
+        if each[1].objective < _BETTER * best[1].objective:
+            best = each
+    return best[0]
 
 
 def _spread(angles: Array, width: float) -> Array:
@@ -233,8 +255,8 @@ def _fit(slices: Sequence[TargetSlice], bank: KernelBank, states: Sequence[State
     taps = np.stack([state.lookups.taps for state in states], axis=1)
     tilts = [_tilts(target, state.lookups.angles) for target, state in zip(slices, states, strict=True)]
     offsets = np.stack([np.stack(tilts, axis=1), np.zeros_like(taps)], axis=-1)
-    # The same sign at all elevations, or interpolation between them would cancel
-    sign = np.where(taps.sum(axis=2, keepdims=True) < 0.0, -1.0, 1.0)
+    # One sign for all elevations, or interpolation between them would cancel
+    sign = np.where(taps.sum(axis=(1, 2), keepdims=True) < 0.0, -1.0, 1.0)
     total = sign * np.abs(taps).sum(axis=2, keepdims=True)
     return Fit(
         brdf=brdf,

@@ -1,8 +1,9 @@
 """All profiles of a fit together, with axes by variable projection, tracked over the elevations.
 
 Fits grow lobe by lobe. A new lobe is tried at every angle, and by spreading those that are there; the better
-start is followed to its optimum at one elevation. Taps start there from several spreads, and the best is kept.
-From there the fit goes to grazing and to normal incidence, each elevation starting from its neighbour's tilts.
+start is followed to its optimum at one elevation. Taps start there from several spreads, and the best is
+kept. From there the fit goes to grazing and to normal incidence, each elevation starting from its neighbour's
+tilts.
 
 A fit is the same on every processor, although the last bits of sums are not: no step depends on rounding.
 Taps have one scale, axes are tied to where they start, and of equals the first is taken.

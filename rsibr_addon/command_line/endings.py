@@ -24,6 +24,7 @@ GRACE_SECONDS = 0.4
 SENTENCE = "Interrupted: give the same command again; a capture keeps its finished views."
 
 _asked = threading.Event()
+_done = threading.Event()
 _working = threading.Lock()
 
 
@@ -51,7 +52,8 @@ def listen(end: Callable[[int], NoReturn]) -> None:
             pass
         _asked.set()
         _working.acquire(timeout=GRACE_SECONDS)
-        end(number)
+        if not _done.is_set():
+            end(number)
 
     threading.Thread(target=hear, daemon=True).start()
 
@@ -67,8 +69,13 @@ def orderly() -> Iterator[threading.Event]:
     """
     with _working:
         yield _asked
-    if _asked.is_set():
+    if _asked.is_set() and not _done.is_set():
         threading.Event().wait()  # for the end, which the thread that heard is about to bring
+
+
+def done() -> None:
+    """Say that the work is done: a signal comes too late then, and the result will be told."""
+    _done.set()
 
 
 def tell(sentence: str, argv: Sequence[str], out: int, err: int) -> None:

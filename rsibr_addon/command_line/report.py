@@ -8,7 +8,7 @@ from typing import Any
 
 from ..core.errors import RsibrWarning
 from ..core.progress import Progress, Steps
-from .endings import orderly
+from .endings import done, orderly
 from .streams import CLEAR_LINE, Outlet
 
 BAR_WIDTH = 24
@@ -55,6 +55,7 @@ class Report:
                 while not asked.is_set():
                     self._show(next(steps))
             except StopIteration as end:
+                done()
                 result: Result = end.value
             finally:
                 steps.close()

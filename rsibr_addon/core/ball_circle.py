@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from .conventions import Array
 from .errors import RangeError
+from .ties import TIE, first_greatest, greatest_first
 
 type ComplexArray = NDArray[np.complexfloating[Any]]
 
@@ -130,8 +131,9 @@ def _scores(edges: ComplexArray, circles: Array) -> Array:
     height, width = edges.shape
     angle = 2.0 * np.pi * np.arange(POINTS) / POINTS
     direction = np.exp(1j * angle)
-    column = np.rint(circles[:, :1] + circles[:, 2:] * direction.real - 0.5).astype(np.intp)
-    row = np.rint(circles[:, 1:2] + circles[:, 2:] * direction.imag - 0.5).astype(np.intp)
+    # Straight above and beside a pixel's corner lie borders of pixels
+    column = np.floor(circles[:, :1] + circles[:, 2:] * direction.real + TIE).astype(np.intp)
+    row = np.floor(circles[:, 1:2] + circles[:, 2:] * direction.imag + TIE).astype(np.intp)
     within = (column >= 0) & (column < width) & (row >= 0) & (row < height)
     found = edges[np.where(within, row, 0), np.where(within, column, 0)]
     along = (found * np.conj(direction**2)).real * within
@@ -147,14 +149,14 @@ def _searched(edges: ComplexArray) -> Array:
     best = []
     for radius in np.arange(SMALLEST * min(edges.shape), LARGEST * min(edges.shape), 1.0):
         circles = np.stack([x, y, np.full_like(x, radius)], axis=-1).reshape(-1, 3)
-        best.append(circles[np.argmax(_scores(edges, circles))])
+        best.append(circles[first_greatest(_scores(edges, circles))])
     return np.array(best)
 
 
 def _best(edges: ComplexArray, circles: Array) -> Array:
     """The circles of the highest scores, the highest first, that are not nearly the same."""
     kept: list[Array] = []
-    for circle in circles[np.argsort(-_scores(edges, circles))]:
+    for circle in circles[greatest_first(_scores(edges, circles))]:
         if len(kept) < KEPT and all(np.abs(circle - other).max() > 2.0 for other in kept):
             kept.append(circle)
     return np.array(kept)
@@ -167,7 +169,7 @@ def _climbed(edges: ComplexArray, start: Array, step: float = 1.0) -> Array:
     best = start
     while True:
         circles = best + offsets
-        nearest = circles[np.argmax(_scores(edges, circles))]
+        nearest = circles[first_greatest(_scores(edges, circles))]
         if np.array_equal(nearest, best):
             return best
         best = nearest

@@ -166,6 +166,7 @@ def _gain(first: Array, other: Array, weight: Array) -> float:
             "sides that are nearer."
         )
     ratio, weight = brightness[usable] / other_brightness[usable], weight[usable]
-    order = np.argsort(ratio)
-    below = np.cumsum(weight[order])
-    return float(ratio[order][np.searchsorted(below, 0.5 * below[-1])])
+    order = np.argsort(ratio, kind="stable")
+    # Between two that share the middle, as even weights have them, neither is chosen
+    below = np.cumsum(weight[order]) - 0.5 * weight[order]
+    return float(np.interp(0.5 * weight.sum(), below, ratio[order]))

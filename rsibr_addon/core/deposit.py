@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from .conventions import Array, Indices
 from .directions import dot
 from .maps.representation import Representation
+from .ties import TIE
 
 BLOCK = 1 << 17
 """Texels at a time, so that what is known of them takes some 50 MB, however large the map."""
@@ -110,7 +111,7 @@ class Deposit:
         centre = np.stack([uv[..., 0] * self._width, uv[..., 1] * self._height])
         edges = np.stack([self._edges(centre, sheet, 2), self._edges(centre, sheet, 1)])
         extent = np.abs(edges[0]) + np.abs(edges[1])
-        coarse = np.maximum(extent[0], extent[1]) > 1.0
+        coarse = np.maximum(extent[0], extent[1]) > 1.0 + TIE
         if source.disk < np.inf:
             coarse |= _cut(texels.uv, np.diag(texels.step), source.disk)
         if self._target.disk < np.inf and len(self._target.sheets) > 1:

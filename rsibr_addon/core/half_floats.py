@@ -6,9 +6,6 @@ import numpy as np
 
 from .conventions import Array
 
-LARGEST = 65504.0
-"""The largest half float."""
-
 PRECISION = 1e-3
 """Relative error that is allowed; 11 significant bits keep half of it."""
 
@@ -27,8 +24,8 @@ def half_holds(maps: Sequence[Array]) -> bool:
     Returns
     -------
     bool
-        No value is beyond `LARGEST`, and rounding changes none by more than `PRECISION` of itself, or of
-        `DARKNESS` of the mean magnitude: below 6e-5 half floats get coarser, and below 3e-8 they are 0.
+        Rounding changes no value by more than `PRECISION` of itself, or of `DARKNESS` of the mean magnitude:
+        from 65520 on half floats are infinite, below 6e-5 they get coarser, and below 3e-8 they are 0.
     """
     count = sum(pixels.size for pixels in maps)
     mean = sum(float(np.sum(np.abs(pixels), dtype=np.float64)) for pixels in maps) / count
@@ -36,8 +33,7 @@ def half_holds(maps: Sequence[Array]) -> bool:
 
 
 def _held(pixels: Array, floor: float) -> bool:
-    magnitude = np.abs(pixels)
-    if magnitude.max() > LARGEST:
-        return False
-    error = np.abs(pixels.astype(np.float16).astype(np.float32) - pixels)
-    return bool(np.all(error <= PRECISION * np.maximum(magnitude, floor)))
+    # The largest, 65504, is what suns are clipped to: with the last bit of a mean it may be a little more
+    with np.errstate(over="ignore"):
+        error = np.abs(pixels.astype(np.float16).astype(np.float32) - pixels)
+    return bool(np.all(error <= PRECISION * np.maximum(np.abs(pixels), floor)))

@@ -13,6 +13,7 @@ from .conventions import Array, ArrayLike
 from .directions import camera_frame, normalize
 from .errors import RangeError
 from .maps import equirect
+from .ties import TIE
 
 GOLDEN_ANGLE = np.pi * (3.0 - np.sqrt(5.0))
 """Turn from one seed of a sunflower to the next [rad]."""
@@ -112,8 +113,8 @@ def add_lamps(radiance: Array, lamps: Iterable[LampLight]) -> Array:
     energy = np.zeros((height * width, 3))
     for lamp in lamps:
         uv = equirect.uv_from_direction(lamp.directions)
-        column = np.minimum((uv[:, 0] * width).astype(np.intp), width - 1)
-        row = np.minimum((uv[:, 1] * height).astype(np.intp), height - 1)
+        column = np.minimum((uv[:, 0] * width + TIE).astype(np.intp), width - 1)
+        row = np.minimum((uv[:, 1] * height + TIE).astype(np.intp), height - 1)
         np.add.at(energy, row * width + column, np.asarray(lamp.irradiance) / len(uv))
     added: Array = energy.reshape(height, width, 3) / equirect.texel_solid_angle(width, height)[..., None]
     return radiance + added

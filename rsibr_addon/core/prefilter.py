@@ -20,6 +20,7 @@ from .harmonics.coefficients import EnvironmentHarmonics
 from .harmonics.kernel import Kernel, kernels_for
 from .harmonics.synthesis import grid_rows, synthesise
 from .maps import equirect
+from .ties import TIE
 from .zonal import ZonalLobe, ZonalSeries
 
 _CUT_SHARE = 0.5
@@ -169,7 +170,7 @@ def _polar_angles(directions: ArrayLike) -> tuple[Array, Array, tuple[int, ...]]
 
 def _check_resolved(harmonics: EnvironmentHarmonics, lobe: ZonalSeries, number: int) -> None:
     least = resolved_width(harmonics.height)
-    if lobe.width < least:
+    if lobe.width < (1.0 - TIE) * least:
         raise RangeError(
             f"Lobe {number} is {np.degrees(lobe.width):.3g} degrees wide, and a map of {harmonics.height} "
             f"rows resolves {np.degrees(least):.3g}: widen the lobe to that, or use a larger map."

@@ -21,6 +21,9 @@ ORIGINAL = "RSIBR_ORIGINAL"
 NAMES_SHOWN = 8
 """So many materials of a file are listed when one is asked for that it does not hold."""
 
+MATRIX_DIGITS = 5
+"""After the point, of an object's matrix: sines in it may differ in their last digits between processors."""
+
 
 def load_material(spec: str) -> bpy.types.Material:
     """The material that `spec` names.
@@ -193,7 +196,7 @@ def _content(value: Any) -> Any:
         case bpy.types.Text():
             return value.as_string()
         case bpy.types.Object():  # Gives coordinates.
-            return [value.name, _content(value.matrix_world)]
+            return [value.name, _content(np.round(np.array(value.matrix_world), MATRIX_DIGITS).tolist())]
         case bpy.types.ID() | bpy.types.Node():
             return value.name
         case bpy.types.bpy_struct():

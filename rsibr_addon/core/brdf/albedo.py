@@ -7,6 +7,7 @@ import numpy as np
 
 from ..conventions import Array, ArrayLike
 from ..errors import RangeError, RsibrWarning
+from ..ties import TIE
 from .model import BrdfFunction
 
 RADIAL_NODES, ARC_NODES = 8, 32
@@ -143,7 +144,7 @@ def _panel(nodes: int) -> tuple[Array, Array]:
 
 def _radial_nodes(theta: float, nodes: int, narrowest: float) -> tuple[Array, Array]:
     """Radii in (0, pi/2) and their weights; panels end where arcs meet the horizon or the border."""
-    halvings = np.pi / 2.0 * 0.5 ** np.arange(np.ceil(np.log2(np.pi / 2.0 / narrowest)) + 1.0)
+    halvings = np.pi / 2.0 * 0.5 ** np.arange(np.ceil(np.log2(np.pi / 2.0 / narrowest) - TIE) + 1.0)
     corners = [corner for corner in (theta, np.pi / 2.0 - theta) if narrowest < corner < np.pi / 2.0]
     edges = np.unique([0.0, *halvings, *corners])
     node, weight = _panel(nodes)

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..conventions import Array
 from ..errors import RangeError
+from ..ties import first_greatest
 from .motion import Motion, covers, looked_up, motion_between, pixel_points
 from .response import Response, recover_response
 
@@ -22,6 +23,9 @@ WHITE = 0.97
 
 BLACK = 2.0 / 255.0
 """Encoded values up to this are black: rounding alone makes a quarter of them."""
+
+ROUNDING = 1e-6
+"""Of encoded values in single precision, and more than that: 2 of 255 is black."""
 
 FALL = 0.02
 """A longer exposure that is darker by this is not what it seems."""
@@ -127,7 +131,7 @@ def merge_bracket(
     motions = _motions(photographs, weights) if align else [Motion()] * len(photographs)
     curve = response or _recovered(photographs, weights, times, motions)
     mean, amount = _mean(photographs, weights, times, motions, curve)
-    unsure = amount <= 0.0
+    unsure = amount < ROUNDING
     shortest, longest = _ends(photographs, motions)
     by_shortest = curve.logarithm(shortest) - np.log(times[0])
     by_longest = curve.logarithm(longest) - np.log(times[-1])
@@ -138,7 +142,7 @@ def merge_bracket(
     return Merged(
         np.exp(np.where(unsure, rest, mean)).astype(np.float32),
         float(np.mean(np.any(unsure & (shortest > WHITE), axis=-1))),
-        float(np.mean(np.any(unsure & (longest <= BLACK), axis=-1))),
+        float(np.mean(np.any(unsure & (longest < BLACK + ROUNDING), axis=-1))),
         curve,
         tuple(motions),
     )
@@ -158,7 +162,7 @@ def _motions(photographs: Sequence[Array], weights: Sequence[Array]) -> list[Mot
     motions = [Motion()]
     for first, second in pairwise(photographs):
         motions.append(motion_between(first[..., GREEN], second[..., GREEN]).after(motions[-1]))
-    middle = int(np.argmax([weight.sum() for weight in weights]))
+    middle = first_greatest(np.array([weight.sum() for weight in weights]))
     back = motions[middle].inverse()
     height, width = weights[0].shape[:2]
     from_middle = (motion.after(back) for motion in motions)

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ..conventions import Array, Indices
 from ..resample import bilinear
+from ..ties import first_greatest
 
 type ComplexArray = NDArray[np.complexfloating[Any]]
 """Points or vectors x + i y of the plane."""
@@ -179,7 +180,7 @@ def _peak(first: ComplexArray, second: ComplexArray) -> tuple[complex, float]:
     spectra = [np.fft.fft2(field) for field in fields]
     correlation = _rounded(np.fft.ifft2(np.conj(spectra[0]) * spectra[1]).real)
     height, width = correlation.shape
-    row, column = divmod(int(np.argmax(correlation)), width)
+    row, column = divmod(first_greatest(correlation), width)
     x = column + _vertex(correlation[row, [column - 1, column, (column + 1) % width]])
     y = row + _vertex(correlation[[row - 1, row, (row + 1) % height], column])
     shift = complex((x + width / 2) % width - width / 2, (y + height / 2) % height - height / 2)

@@ -3,6 +3,7 @@
 import numpy as np
 
 from ..conventions import Array, Indices
+from ..ties import TIE
 from .coefficients import Complex, EnvironmentHarmonics
 from .kernel import WIDEST, Kernel
 from .legendre import Panel, legendre_panels
@@ -220,6 +221,6 @@ def _interpolate(grid: Array, row: Array, column: Array, kernel: Kernel) -> Arra
 
 def _taps(position: Array, kernel: Kernel) -> tuple[Indices, Array]:
     """First grid point of each window, shape (points,), and its weights, shape (points, width)."""
-    first = np.ceil(position - 0.5 * kernel.width)
+    first = np.ceil(position - 0.5 * kernel.width - TIE)
     weights = kernel((position - first)[:, None] - np.arange(kernel.width))
     return first.astype(np.intp), weights

@@ -11,6 +11,7 @@ from ..harmonics.analysis import analyse_environment
 from ..harmonics.coefficients import EnvironmentHarmonics
 from ..prefilter import analysis_degree, prefilter, resolved_width
 from ..progress import Progress, Steps
+from ..ties import TIE
 from ..zonal import TOLERANCE, ZonalSeries, expand
 from .bank import SHARPEST, KernelBank, octaves
 from .filtered_bank import FilteredBank, stack_from_bank
@@ -82,7 +83,7 @@ def sharpest_resolved(height: int) -> float:
     RangeError
         It resolves none.
     """
-    bank, least = octaves(SHARPEST), resolved_width(height)
+    bank, least = octaves(SHARPEST), (1.0 - TIE) * resolved_width(height)
     resolved = [
         kappa for kappa, lobe in zip(bank.concentrations, _expanded(bank), strict=True) if lobe.width >= least
     ]

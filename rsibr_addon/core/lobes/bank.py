@@ -14,6 +14,7 @@ import numpy as np
 from ..conventions import Array
 from ..errors import RangeError
 from ..radial_lobes import von_mises_fisher_lobe
+from ..ties import TIE
 from ..zonal import ZonalLobe, graded_knots
 
 BROADEST = 0.5
@@ -180,5 +181,5 @@ def octaves(sharpest: float) -> KernelBank:
     -------
     KernelBank
     """
-    last = int(np.ceil(np.log2(np.clip(sharpest, BROADEST, SHARPEST) / BROADEST)))
+    last = int(np.ceil(np.log2(np.clip(sharpest, BROADEST, SHARPEST) / BROADEST) - TIE))
     return KernelBank(tuple(float(kappa) for kappa in BROADEST * 2.0 ** np.arange(last + 1)))

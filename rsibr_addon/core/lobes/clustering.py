@@ -3,6 +3,7 @@
 import numpy as np
 
 from ..conventions import Array, Indices
+from ..ties import first_greatest
 
 
 def clustered(offsets: Array) -> Indices:
@@ -29,7 +30,7 @@ def clustered(offsets: Array) -> Indices:
         before = offsets[s + 1, order[s + 1]]
         distance = np.linalg.norm(before[:, None] - offsets[s], axis=-1)
         for _ in range(lobes):
-            sequence, lobe = np.unravel_index(int(np.argmin(distance)), distance.shape)
+            sequence, lobe = np.unravel_index(first_greatest(-distance), distance.shape)
             order[s, sequence] = lobe
             distance[sequence], distance[:, lobe] = np.inf, np.inf
     return order

@@ -11,6 +11,7 @@ import numpy as np
 from ..brdf.albedo import hemisphere_quadrature
 from ..brdf.model import BrdfFunction
 from ..conventions import Array
+from ..ties import first_greatest
 from .bank import SHARPEST
 from .clustering import clustered
 from .fit import Fit, offsets_from_axes
@@ -80,7 +81,7 @@ class Remainder:
 
     def peak(self) -> Array:
         """Direction in which most remains, shape (3,)."""
-        peak: Array = self.nodes[int(np.argmax(self.values.sum(axis=1)))]
+        peak: Array = self.nodes[first_greatest(self.values.sum(axis=1))]
         return peak
 
     def mean_profile(self, axis: Array) -> RadialProfile:

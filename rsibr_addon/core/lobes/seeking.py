@@ -4,12 +4,13 @@ A peak may be a noisy sample, and a lobe may have its maximum on a ring instead 
 therefore look for the lobe of most volume, which here is the integral of its minimum profile.
 """
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 
 import numpy as np
 
 from ..conventions import Array
 from ..directions import camera_frame
+from ..ties import first_greatest, greatest_first
 from .bank import KernelBank
 from .kautz_mccool import Remainder, Seek
 
@@ -57,7 +58,7 @@ def search(rest: Remainder) -> Array:
     axes = _everywhere(spacing)
     finalists: list[Array] = []
     for _ in range(_COPIES):
-        best = axes[np.argsort(-_blurred(rest, axes, spacing))[:_CANDIDATES]]
+        best = axes[greatest_first(_blurred(rest, axes, spacing))[:_CANDIDATES]]
         finalists.extend(best)
         spacing *= 0.5
         axes = np.concatenate([_neighbours(axis, spacing) for axis in best])
@@ -68,8 +69,9 @@ SEEKING: dict[str, Seek] = {"peaks": Remainder.peak, "places": best_place, "sear
 """Name -> how the axis of the next lobe is chosen."""
 
 
-def _most_volume(rest: Remainder, axes: Iterable[Array]) -> Array:
-    return max(axes, key=lambda axis: float(rest.minimum_profile(axis).integral.sum()))
+def _most_volume(rest: Remainder, axes: Sequence[Array]) -> Array:
+    volumes = [float(rest.minimum_profile(axis).integral.sum()) for axis in axes]
+    return axes[first_greatest(np.array(volumes))]
 
 
 def _everywhere(spacing: float) -> Array:

@@ -77,10 +77,13 @@ def read_fit(path: str | Path) -> Fit:
     """
     with opened(path) as stream:
         text = stream.read(LARGEST_TEXT + 1)
+    no_fit = InputFileError(f"{path} is no lobe fit: give a file that rsibr fit wrote.")
+    if not text.lstrip().startswith(b"{"):
+        raise no_fit
     try:
         plain = loads(text)
         if not isinstance(plain, dict) or plain.get("kind") != KIND:
-            raise InputFileError(f"{path} is no lobe fit: give a file that rsibr fit wrote.")
+            raise no_fit
         if plain.get("format") != FORMAT:
             raise InputFileError(
                 f"{path} has format {plain.get('format')!r:.40}, which is newer: update the program."

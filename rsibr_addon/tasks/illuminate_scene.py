@@ -206,8 +206,8 @@ def _merged_rows(pixels: Array) -> Array:
     """Means over the texels of a panorama that was rendered with more rows."""
     rows, width, channels = pixels.shape
     weight = equirect.texel_solid_angle(1, rows).reshape(-1, PANORAMA_ROWS, 1, 1)
-    weight /= weight.sum(axis=1, keepdims=True)
-    return np.sum(weight * pixels.reshape(-1, PANORAMA_ROWS, width, channels), axis=1)
+    share = weight / weight.sum(axis=1, keepdims=True)
+    return np.sum(share * pixels.reshape(-1, PANORAMA_ROWS, width, channels), axis=1)
 
 
 def _radiance(light: SceneLight, passes: dict[str, Array], overlap: int) -> Array:

@@ -11,6 +11,7 @@ import rsibr
 from rsibr.rsibr_addon.command_line.commands import parsed
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import InputFileError, MapSetError, OutputFileError, RsibrError, SceneError
+from rsibr.rsibr_addon.files.staging import is_staging_folder
 from rsibr.rsibr_addon.job import BakeJob
 from rsibr.rsibr_addon.tasks.bake_order import Order, bake_of, comparison_of, is_baked, order_for, output_for
 from rsibr.rsibr_addon.tasks.methods import QUALITIES
@@ -148,7 +149,8 @@ def test_a_bake_gets_a_copy_of_the_file_as_it_is(tmp_path: Path, monkeypatch: py
     before = open_file_state()
     bake = bake_of(order(), bpy.context.object, tmp_path / "out.rsibr.exr")
     assert open_file_state() == before
-    assert bake.variables == {"RSIBR_ORIGINAL": ""}
+    assert bake.variables["RSIBR_ORIGINAL"] == ""
+    assert is_staging_folder(Path(bake.variables["TMPDIR"]))
     blend, job = Path(bake.command[3]), Path(bake.command[9])
     assert json.loads(job.read_text())["arguments"][:3] == ["capture", "--material", ":Material"]
     with bpy.data.libraries.load(str(blend)) as (found, _):

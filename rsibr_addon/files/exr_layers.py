@@ -21,6 +21,9 @@ ROLES = {name: name.upper() for name in ("r", "g", "b", "a", "x", "y", "z", "ry"
 KINDS = ("RGB", ("Y", "RY", "BY"), "XYZ", "Y")
 """What a picture is made of; the first that a layer has whole."""
 
+PARTIAL = ("R", "G", "B", "RY", "BY")
+"""Roles of what is no colour without others."""
+
 MAIN = frozenset(
     ("combined", "beauty", "rgba", "rgb", "c", "ci", "color", "colour", "image", "main", "final")
 )
@@ -38,11 +41,14 @@ class Layer:
         What its channels' names begin with, or its part's name; empty where it has none.
     channels : dict of str to str
         Names of channels by their role, one of `KINDS` and perhaps "A".
+    left : tuple of str
+        Names of channels of a colour that has not all of its own, so that the picture is grey.
     """
 
     part: int
     name: str
     channels: dict[str, str]
+    left: tuple[str, ...] = ()
 
     @property
     def is_grey(self) -> bool:
@@ -84,7 +90,8 @@ def layers_of(headers: Sequence[dict[str, Any]]) -> list[Layer]:
             if kind is not None:
                 label = prefix or (str(header.get("name", "")) if len(headers) > 1 else "")
                 channels = {role: roles[role] for role in (*kind, "A") if role in roles}
-                layers.append(Layer(number, label, channels))
+                left = tuple(roles[role] for role in PARTIAL if role in roles) if kind == "Y" else ()
+                layers.append(Layer(number, label, channels, left))
     return layers
 
 

@@ -2,6 +2,9 @@
 
 from dataclasses import dataclass
 
+GREY = "grey"
+"""The colours of a picture that has none."""
+
 
 @dataclass(frozen=True)
 class PictureFacts:

@@ -13,7 +13,7 @@ from .chromaticities import XYZ, rec709_from
 from .exr import Part, in_display_window, read_attributes, read_parts, window_size, write_parts
 from .exr_header import Meaning, meaning
 from .exr_layers import Layer, choose, layers_of
-from .picture_facts import PictureFacts
+from .picture_facts import GREY, PictureFacts
 
 
 def write_exr(path: str | Path, rgba: Array, force: bool = False) -> None:
@@ -131,7 +131,7 @@ def describe_exr(path: str | Path) -> PictureFacts:
         window=" to ".join("{},{}".format(*corner) for corner in header["dataWindow"]),
         channels=", ".join(layer.channels.values()),
         layers=tuple(other.name for other in layers_of(headers) if other.name),
-        colours="grey" if layer.is_grey else meant.colours,
+        colours=GREY if layer.is_grey else meant.colours,
         exposure="none stated",
         remarks=tuple(remarks),
     )
@@ -155,6 +155,11 @@ def _chosen(path: str | Path) -> tuple[Path, Layer, Meaning, list[str]]:
     meant = meaning(headers[layer.part])
     if "X" in layer.channels:
         left.append("has channels X, Y and Z, which are taken as CIE XYZ.")
+    if layer.left:
+        left.append(
+            f"has {', '.join(layer.left)} beside {layer.channels['Y']}, but not the other channels of a "
+            f"colour: it is taken as grey."
+        )
     return file, layer, meant, [*left, *meant.remarks]
 
 

@@ -137,6 +137,18 @@ def test_luminance_and_chroma_become_colours(tmp_path: Path, rgb: np.ndarray, st
     np.testing.assert_allclose(read_exr(path), expected, rtol=0, atol=1e-4)
 
 
+@pytest.mark.parametrize(("names", "left"), [(("RY",), "RY"), (("BY",), "BY"), (("R", "B"), "R, B")])
+def test_a_part_of_a_colour_is_told_of(
+    tmp_path: Path, rgb: np.ndarray, names: tuple[str, ...], left: str
+) -> None:
+    planes = {f"V.{name}": rgb[..., i] for i, name in enumerate(("Y", *names))}
+    path = write(tmp_path / "a.exr", planes | {"Z": rgb[..., 0]})
+    told = ", ".join(f"V.{name}" for name in names)
+    with pytest.warns(RsibrWarning, match=rf"a\.exr has {told} beside V\.Y, but not the other channels"):
+        picture = read_exr(path)
+    np.testing.assert_array_equal(picture, rgb[::-1, :, :1])
+
+
 @pytest.mark.parametrize("step", [(2, 2), (2, 1), (4, 2)])
 def test_subsampled_chroma_is_interpolated(tmp_path: Path, step: tuple[int, int]) -> None:
     # Colours that change slowly: a period of 64 texels, of which a chroma has every second or fourth

@@ -40,6 +40,8 @@ class CaptureJob:
         Of Cycles' noise.
     force : bool
         Whether `output` is replaced if it exists.
+    clamp : float or None
+        See `core.environment.usable_radiance`.
 
     Raises
     ------
@@ -56,6 +58,7 @@ class CaptureJob:
     denoise: bool = False
     seed: int = 0
     force: bool = False
+    clamp: float | None = None
 
     def __post_init__(self) -> None:
         if self.views not in VERTEX_COUNTS:

@@ -70,7 +70,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
 
     given = {name: value for name, value in vars(arguments).items() if name in FITTING}
     settings = StackSettings(arguments.layout, arguments.size, arguments.half)
-    target = settings, arguments.output, arguments.force
+    target = settings, arguments.output, arguments.force, arguments.clamp
     if arguments.fit is None:
         steps = bake_brdf(arguments.environment, arguments.brdf, FitSettings(**given), *target)
     elif given:

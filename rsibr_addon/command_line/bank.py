@@ -43,7 +43,8 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
 
     settings = BankSettings(arguments.layout, arguments.size)
     output = arguments.output
-    baked = report.steps(bake_environment(arguments.environment, settings, output, arguments.force))
+    target = output, arguments.force, arguments.clamp
+    baked = report.steps(bake_environment(arguments.environment, settings, *target))
     kernels, sharpest, size = len(baked.filtered.bank), baked.filtered.sharpest, settings.size
     report.say(
         f"{output}: {kernels} kernels, the sharpest of concentration {sharpest:g}, {size}x{size} texels"

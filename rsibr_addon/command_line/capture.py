@@ -56,6 +56,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
         seed=arguments.seed,
         output=str(arguments.output),
         force=arguments.force,
+        clamp=arguments.clamp,
     )
     path = report.steps(capture(job))
     report.say(f"{path}: {job.views} views of {job.size}x{job.size}")

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from .options import positive
+from .options import add_clamp, positive
 from .report import Report
 
 LAYOUTS = (
@@ -60,6 +60,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=float,
         help="of the camera from a mirror_ball's centre in radii of the ball (default: infinite)",
     )
+    add_clamp(parser)
     parser.add_argument("--force", action="store_true", help="replace what exists")
 
 
@@ -84,6 +85,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
         size=arguments.size,
         overscan=arguments.overscan,
         distance=arguments.distance,
+        clamp=arguments.clamp,
     )
     pictures = report.steps(convert(arguments.source, settings, arguments.output, arguments.force))
     for picture in pictures:

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from .illuminate_options import add_environment_output
+from .options import add_clamp
 from .report import Report
 
 
@@ -23,6 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="scale each photograph so that they agree along the edges: for a camera that chose its "
         "exposures itself",
     )
+    add_clamp(parser)
     add_environment_output(parser)
 
 
@@ -41,10 +43,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     """
     from ..tasks.illuminate_faces import illuminate_from_faces
 
-    gains = report.steps(
-        illuminate_from_faces(
-            arguments.source, arguments.size, arguments.output, arguments.balance, arguments.force
-        )
-    )
+    target = arguments.output, arguments.balance, arguments.force, arguments.clamp
+    gains = report.steps(illuminate_from_faces(arguments.source, arguments.size, *target))
     report.say(f"{arguments.output}")
     return {"environment": str(arguments.output), "gains": gains.tolist()}

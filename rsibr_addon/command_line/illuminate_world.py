@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from .illuminate_options import add_environment_output
+from .options import add_clamp
 from .report import Report
 
 
@@ -12,6 +13,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what `run` reads."""
     parser.add_argument("source", metavar="FILE.blend", type=Path, help="the file that holds the scene")
     parser.add_argument("--scene", metavar="NAME", help="which scene (default: the one it was saved with)")
+    add_clamp(parser)
     add_environment_output(parser)
 
 
@@ -32,8 +34,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     from ..tasks.illuminate_world import illuminate_from_world
 
     open_blend(arguments.source)
-    path = report.steps(
-        illuminate_from_world(arguments.scene, arguments.size, arguments.output, arguments.force)
-    )
+    target = arguments.output, arguments.force, arguments.clamp
+    path = report.steps(illuminate_from_world(arguments.scene, arguments.size, *target))
     report.say(f"{path}")
     return {"environment": str(path)}

@@ -122,7 +122,9 @@ def _tell_of_map_set(path: str, report: Report) -> dict[str, Any]:
     counts = ", ".join(f"{count} {role}" for role, count in roles.items())
     report.say(f"{path}: {header['kind']}, format {header['format']}")
     report.say(f"  maps         {counts}; {_size(header['size'])}, {header['layout']}")
-    report.say(f"  environment  {header['environment']['name']}, {_size(header['environment']['size'])}")
+    environment = header["environment"]
+    clamped = f", clamped to {environment['clamp']:g}" if "clamp" in environment else ""
+    report.say(f"  environment  {environment['name']}, {_size(environment['size'])}{clamped}")
     report.say(f"  material     {_fields(header['material'])}")
     report.say(f"  settings     {_fields(header['settings'])}")
     report.say(f"  error bound  {_fields(header['error_bound'] or {}) or 'none promised'}")

@@ -51,7 +51,8 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     from ..tasks.bake_mips import MipSettings, bake_mips
 
     settings = MipSettings(arguments.filter, arguments.size, arguments.roughness)
-    path = report.steps(bake_mips(arguments.environment, settings, arguments.output, arguments.force))
+    target = arguments.output, arguments.force
+    path = report.steps(bake_mips(arguments.environment, settings, *target, arguments.clamp))
     report.say(f"{path}: {settings.filter} mips from {settings.size}x{settings.size}")
     return {"map_set": str(path)}
 

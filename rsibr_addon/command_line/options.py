@@ -54,6 +54,17 @@ def colour(text: str) -> tuple[float, float, float]:
     return red, green, blue
 
 
+def radiance(text: str) -> float:
+    """A radiance that 32-bit floats hold, above 0."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 1e-30 <= value <= 1e30:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a radiance, a number from 1e-30 to 1e30")
+    return value
+
+
 def degrees(text: str) -> float:
     """An angle in degrees, above 0 and below 180."""
     try:
@@ -66,12 +77,24 @@ def degrees(text: str) -> float:
 
 
 def add_environment(parser: argparse.ArgumentParser) -> None:
-    """Declare `environment`; None for the world of the open file."""
+    """Declare `environment`, None for the world of the open file, and `clamp`."""
     parser.add_argument(
         "--environment",
         metavar="FILE",
         help="latitude-longitude picture (EXR or HDR), or the bare name of one of Blender's own, as forest "
         "(default: the world of the open file)",
+    )
+    add_clamp(parser)
+
+
+def add_clamp(parser: argparse.ArgumentParser) -> None:
+    """Declare `clamp`, the greatest radiance that is kept of what is read; None for all."""
+    parser.add_argument(
+        "--clamp",
+        metavar="VALUE",
+        type=radiance,
+        help="take radiance above VALUE, and what is infinite, as VALUE, and say how many values that are "
+        "(default: take what is infinite as the greatest value that is not)",
     )
 
 

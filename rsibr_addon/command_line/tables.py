@@ -81,6 +81,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     settings = TableSettings(
         base | given, TableSizes(arguments.diffuse_rows, arguments.rows), arguments.exact
     )
-    path = report.steps(bake_table_set(arguments.environment, settings, arguments.output, arguments.force))
+    target = arguments.output, arguments.force
+    path = report.steps(bake_table_set(arguments.environment, settings, *target, arguments.clamp))
     report.say(f"{path}: {', '.join(f'{part} {text}' for part, text in settings.material.items())}")
     return {"map_set": str(path)}

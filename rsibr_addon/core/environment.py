@@ -22,18 +22,21 @@ class Environment:
         What a person calls it, for reports: a file's name, or a world's.
     sha256 : str
         Hash of the radiance as little-endian float32 in the order above.
+    clamp : float or None
+        What brighter radiance was taken as; None where all was kept.
     """
 
     radiance: Array
     name: str
     sha256: str = field(init=False)
+    clamp: float | None = None
 
     def __post_init__(self) -> None:
         pixels = np.ascontiguousarray(self.radiance, dtype="<f4")
         object.__setattr__(self, "sha256", hashlib.sha256(pixels.data).hexdigest())
 
 
-def environment_from_pixels(pixels: Array, name: str) -> Environment:
+def environment_from_pixels(pixels: Array, name: str, clamp: float | None = None) -> Environment:
     """Check that `pixels` can light a scene, and make it an `Environment`.
 
     Parameters
@@ -42,6 +45,8 @@ def environment_from_pixels(pixels: Array, name: str) -> Environment:
         Radiance, row 0 at the bottom.
     name : str
         Named in messages: the file, or the world.
+    clamp : float, optional
+        See `usable_radiance`.
 
     Returns
     -------
@@ -64,10 +69,10 @@ def environment_from_pixels(pixels: Array, name: str) -> Environment:
             f"{name} is {width}x{height}, but an environment is a latitude-longitude map, "
             f"twice as wide as high: resize or convert it."
         )
-    return Environment(usable_radiance(pixels, name), name)
+    return Environment(usable_radiance(pixels, name, clamp), name, clamp)
 
 
-def usable_radiance(pixels: Array, name: str) -> Array:
+def usable_radiance(pixels: Array, name: str, clamp: float | None = None) -> Array:
     """Make radiance of what a picture holds.
 
     Parameters
@@ -75,12 +80,15 @@ def usable_radiance(pixels: Array, name: str) -> Array:
     pixels : ndarray, any shape
     name : str
         Named in messages: the file, or the world.
+    clamp : float, optional
+        The greatest radiance that is kept, above 0.
 
     Returns
     -------
     ndarray, shape of `pixels`, float32
-        At least 0 and finite: `pixels` itself, where it is such; what is infinite, as a sun that half
-        floats cannot hold, is the greatest finite value; NaN and what is negative, which no light is, is 0.
+        At least 0 and finite: `pixels` itself, where it is such; what is above `clamp` is `clamp`, or without
+        it what is infinite, as a sun that half floats cannot hold, the greatest finite value; NaN and what is
+        negative, which no light is, is 0.
 
     Raises
     ------
@@ -94,23 +102,25 @@ def usable_radiance(pixels: Array, name: str) -> Array:
     """
     with np.errstate(over="ignore"):
         radiance = pixels.astype(np.float32, copy=False)
-    if np.min(radiance) >= 0.0 and np.max(radiance) < np.inf:
+    most = np.finfo(np.float32).max if clamp is None else np.float32(clamp)
+    if np.min(radiance) >= 0.0 and np.max(radiance) <= most:
         return radiance
     finite = np.isfinite(radiance)
     if not finite.any():
         raise InputFileError(f"{name} holds no finite value: make it again.")
-    greatest = np.max(radiance, where=finite, initial=0.0)
+    if clamp is None:
+        most = np.max(radiance, where=finite, initial=0.0)
     changes = (
-        ("infinite", radiance == np.inf, greatest),
-        ("undefined (NaN)", np.isnan(radiance), np.float32(0.0)),
-        ("negative", radiance < 0.0, np.float32(0.0)),
+        ("infinite values" if clamp is None else f"values above {clamp:g}", radiance > most, most),
+        ("undefined (NaN) values", np.isnan(radiance), np.float32(0.0)),
+        ("negative values", radiance < 0.0, np.float32(0.0)),
     )
     radiance = radiance.copy()
     for kind, where, instead in changes:
         if count := np.count_nonzero(where):
             radiance[where] = instead
             warnings.warn(
-                f"{name} holds {count} {kind} values; they are taken as {instead:g}.",
+                f"{name} holds {count} {kind}; they are taken as {instead:g}.",
                 RsibrWarning,
                 stacklevel=2,
             )

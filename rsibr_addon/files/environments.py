@@ -7,13 +7,15 @@ from ..core.environment import Environment, environment_from_pixels
 from .radiance_pictures import read_radiance
 
 
-def read_environment(path: str | Path) -> Environment:
+def read_environment(path: str | Path, clamp: float | None = None) -> Environment:
     """Read a latitude-longitude map of incoming radiance.
 
     Parameters
     ----------
     path : str or Path
         OpenEXR or Radiance HDR, told by its first bytes, not by its name.
+    clamp : float, optional
+        See `core.environment.usable_radiance`.
 
     Returns
     -------
@@ -33,4 +35,4 @@ def read_environment(path: str | Path) -> Environment:
     """
     # A name in other bytes than UTF-8 could not be written into a map set
     name = os.fsencode(Path(path).name).decode("utf-8", "replace")
-    return environment_from_pixels(read_radiance(path), name)
+    return environment_from_pixels(read_radiance(path), name, clamp)

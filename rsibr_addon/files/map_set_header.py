@@ -59,6 +59,7 @@ class _Environment(TypedDict):
     sha256: Hash
     size: Size
     part: Name | None
+    clamp: NotRequired[Annotated[float, Rule("a number above 0", lambda value: value > 0.0)]]
 
 
 class _Material(TypedDict):
@@ -200,6 +201,7 @@ def make_header(
             "sha256": environment.sha256,
             "size": [width, height],
             "part": ENVIRONMENT if embedded else None,
+            **({} if environment.clamp is None else {"clamp": environment.clamp}),
         },
         "material": material,
         "parts": parts,

@@ -66,7 +66,7 @@ def light_with(scene: bpy.types.Scene, environment: Environment) -> None:
     scene.world = world
 
 
-def sample_world(world: bpy.types.World, height: int) -> Environment:
+def sample_world(world: bpy.types.World, height: int, clamp: float | None = None) -> Environment:
     """See a world as an environment, whatever its nodes.
 
     Parameters
@@ -74,6 +74,8 @@ def sample_world(world: bpy.types.World, height: int) -> Environment:
     world : bpy.types.World
     height : int
         Of the environment in texels; it is twice as wide.
+    clamp : float, optional
+        See `core.environment.usable_radiance`.
 
     Returns
     -------
@@ -109,7 +111,7 @@ def sample_world(world: bpy.types.World, height: int) -> Environment:
             add_clear_shell(scene)
             scene.cycles.max_bounces = scene.cycles.transmission_bounces = 1
         seen = render_passes(scene)["Combined"][..., :3]
-        return environment_from_pixels(rec709_from_working(seen), world.name)
+        return environment_from_pixels(rec709_from_working(seen), world.name, clamp)
 
 
 def _image(environment: Environment) -> bpy.types.Image:

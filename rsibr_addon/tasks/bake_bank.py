@@ -38,7 +38,11 @@ class BankSettings:
 
 
 def bake_environment(
-    environment: str | None, settings: BankSettings, output: Path, force: bool = False
+    environment: str | None,
+    settings: BankSettings,
+    output: Path,
+    force: bool = False,
+    clamp: float | None = None,
 ) -> Steps[BakedBank]:
     """Filter an environment with every kernel that the maps resolve.
 
@@ -52,6 +56,8 @@ def bake_environment(
         By custom NAME.rsibr.exr.
     force : bool
         Whether an existing file is replaced.
+    clamp : float, optional
+        See `core.environment.usable_radiance`.
 
     Yields
     ------
@@ -75,7 +81,7 @@ def bake_environment(
     """
     check_target(output, force)
     yield Progress(0, 1, "reading the environment")
-    light = load_environment(environment)
+    light = load_environment(environment, clamp)
     baked = yield from bake_bank(light.radiance, settings.layout, settings.size)
     stated = {"layout": settings.layout, "size": settings.size}
     yield Progress(0, 1, f"writing {output.name}")

@@ -75,7 +75,11 @@ class MipSettings:
 
 
 def bake_mips(
-    environment: str | None, settings: MipSettings, output: Path, force: bool = False
+    environment: str | None,
+    settings: MipSettings,
+    output: Path,
+    force: bool = False,
+    clamp: float | None = None,
 ) -> Steps[Path]:
     """Filter an environment.
 
@@ -89,6 +93,8 @@ def bake_mips(
         By custom NAME.rsibr.exr.
     force : bool
         Whether an existing file is replaced.
+    clamp : float, optional
+        See `core.environment.usable_radiance`.
 
     Yields
     ------
@@ -113,7 +119,7 @@ def bake_mips(
     check_target(output, force)
     total = settings.size.bit_length() + 2
     yield Progress(0, total, "reading the environment")
-    light = load_environment(environment)
+    light = load_environment(environment, clamp)
     stated: dict[str, Any] = {"filter": settings.filter, "size": settings.size}
     bound = None
     if settings.filter == "ggx":

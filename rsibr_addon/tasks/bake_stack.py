@@ -60,6 +60,7 @@ def bake_brdf(
     settings: StackSettings,
     output: Path,
     force: bool = False,
+    clamp: float | None = None,
 ) -> Steps[BakedStack]:
     """Fit lobes to a model and filter an environment with them.
 
@@ -76,6 +77,8 @@ def bake_brdf(
         By custom NAME.rsibr.exr.
     force : bool
         Whether an existing file is replaced.
+    clamp : float, optional
+        See `core.environment.usable_radiance`.
 
     Yields
     ------
@@ -101,14 +104,19 @@ def bake_brdf(
     """
     check_target(output, force)
     yield Progress(0, 1, "reading the environment")
-    light = load_environment(environment)
+    light = load_environment(environment, clamp)
     brdf = yield from load_brdf(spec)
     fit = yield from _resolved_fit(brdf, fitting, light)
     return (yield from _baked(light, fit, settings, output, force))
 
 
 def bake_fit(
-    environment: str | None, fit: Path, settings: StackSettings, output: Path, force: bool = False
+    environment: str | None,
+    fit: Path,
+    settings: StackSettings,
+    output: Path,
+    force: bool = False,
+    clamp: float | None = None,
 ) -> Steps[BakedStack]:
     """Filter an environment with the lobes of a fit that was made before.
 
@@ -118,7 +126,7 @@ def bake_fit(
         As in `bake_brdf`.
     fit : Path
         What `tasks.fit_lobes` wrote.
-    settings, output, force
+    settings, output, force, clamp
         As in `bake_brdf`.
 
     Yields
@@ -142,7 +150,7 @@ def bake_fit(
     """
     check_target(output, force)
     yield Progress(0, 1, "reading the environment")
-    return (yield from _baked(load_environment(environment), read_fit(fit), settings, output, force))
+    return (yield from _baked(load_environment(environment, clamp), read_fit(fit), settings, output, force))
 
 
 def _resolved_fit(brdf: Brdf, fitting: FitSettings, light: Environment) -> Steps[Fit]:

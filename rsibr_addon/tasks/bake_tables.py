@@ -35,7 +35,11 @@ class TableSettings:
 
 
 def bake_table_set(
-    environment: str | None, settings: TableSettings, output: Path, force: bool = False
+    environment: str | None,
+    settings: TableSettings,
+    output: Path,
+    force: bool = False,
+    clamp: float | None = None,
 ) -> Steps[Path]:
     """Make the tables of a material.
 
@@ -48,6 +52,8 @@ def bake_table_set(
         By custom NAME.rsibr.exr.
     force : bool
         Whether an existing file is replaced.
+    clamp : float, optional
+        See `core.environment.usable_radiance`.
 
     Yields
     ------
@@ -73,7 +79,7 @@ def bake_table_set(
     material = material_from_texts(settings.material, read_measured)
     warn_of_table_gain(material)
     yield Progress(0, 1, "reading the environment")
-    light = load_environment(environment)
+    light = load_environment(environment, clamp)
     baked = yield from bake_tables(light.radiance, material, settings.sizes, settings.exact)
     map_set = to_map_set(
         baked.tables,

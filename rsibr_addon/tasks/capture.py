@@ -94,7 +94,7 @@ class _Subject:
 
     def __init__(self, job: CaptureJob) -> None:
         self.job = job
-        self.environment = load_environment(job.environment)
+        self.environment = load_environment(job.environment, job.clamp)
         with temporary_scene():
             material = load_material(job.material)
             self.fingerprint = fingerprint(material)

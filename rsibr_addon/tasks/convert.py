@@ -1,6 +1,7 @@
 """A map in another representation: from pictures to pictures."""
 
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -34,6 +35,8 @@ class ConvertSettings:
     distance : float or None
         Of the camera from mirror balls: see `core.maps.mirror_ball`; None where there are none, or for
         a camera far away.
+    clamp : float or None
+        See `core.environment.usable_radiance`.
 
     Raises
     ------
@@ -46,6 +49,7 @@ class ConvertSettings:
     size: int
     overscan: float | None = None
     distance: float | None = None
+    clamp: float | None = None
 
     def __post_init__(self) -> None:
         for name, owner in PARAMETERS.items():
@@ -109,7 +113,7 @@ def convert(source: Path, settings: ConvertSettings, output: Path, force: bool =
     sheets, height, width = after.representation.shape(settings.size)
     check_memory(BYTES_OF_TEXEL * sheets * height * width, str(output), (width, height))
     yield Progress(0, 3, f"reading {source.name}")
-    image = read_map(source, before, read_light)
+    image = read_map(source, before, partial(read_light, clamp=settings.clamp))
     yield Progress(1, 3, f"making {output.name}")
     if settings.source == settings.target == "equirect" and image.shape[2] == settings.size:
         made = image

@@ -13,7 +13,7 @@ WORLD_HEIGHT = 512
 """Of the environment that a world is sampled into, in texels."""
 
 
-def load_environment(spec: str | None) -> Environment:
+def load_environment(spec: str | None, clamp: float | None = None) -> Environment:
     """An environment from a file, one of Blender's own, or the world of the open file.
 
     Parameters
@@ -21,6 +21,8 @@ def load_environment(spec: str | None) -> Environment:
     spec : str or None
         A file as `files.environments.read_environment` takes it, or a name such as "forest"; None for the
         world as it is, sampled through Cycles.
+    clamp : float, optional
+        See `core.environment.usable_radiance`.
 
     Returns
     -------
@@ -39,11 +41,11 @@ def load_environment(spec: str | None) -> Environment:
         See `files.environments.read_environment`.
     """
     if spec is None:
-        return sample_world(world_of(find_scene(None)), WORLD_HEIGHT)
+        return sample_world(world_of(find_scene(None)), WORLD_HEIGHT, clamp)
     own = studio_environments()
     # A folder may well be called as one of Blender's own
     if spec in own and not Path(spec).is_file():
-        return read_environment(own[spec])
+        return read_environment(own[spec], clamp)
     if not split_layer(spec)[0].exists():
         raise InputFileError(f"There is no environment {spec}: give a file, or one of {', '.join(own)}.")
-    return read_environment(spec)
+    return read_environment(spec, clamp)

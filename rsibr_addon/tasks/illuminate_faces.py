@@ -1,5 +1,6 @@
 """An environment from six photographs: [Miller1984] section 5.1, the first way."""
 
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +20,12 @@ SATURATED = 0.96
 
 
 def illuminate_from_faces(
-    source: Path, size: int, output: Path, balance: bool = False, force: bool = False
+    source: Path,
+    size: int,
+    output: Path,
+    balance: bool = False,
+    force: bool = False,
+    clamp: float | None = None,
 ) -> Steps[Array]:
     """Put an environment together from a cube's faces.
 
@@ -35,6 +41,8 @@ def illuminate_from_faces(
         Whether each photograph is scaled, channel by channel, so that they agree along the edges.
     force : bool
         Whether an existing file is replaced.
+    clamp : float, optional
+        See `core.environment.usable_radiance`.
 
     Yields
     ------
@@ -57,7 +65,7 @@ def illuminate_from_faces(
     check_radiance_target(output, force)
     equirect.shape(size)
     yield Progress(0, 3, f"reading {source.name}")
-    cube = read_map(source, faces, read_light).astype(np.float64)
+    cube = read_map(source, faces, partial(read_light, clamp=clamp)).astype(np.float64)
     gains: Array = np.ones((6, 3))
     if balance:
         white = np.inf if holds_radiance(faces.paths(source)[0]) else SATURATED

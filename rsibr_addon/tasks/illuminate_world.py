@@ -9,7 +9,9 @@ from ..host.scenes import find_scene
 from ..host.worlds import sample_world, world_of
 
 
-def illuminate_from_world(scene: str | None, size: int, output: Path, force: bool = False) -> Steps[Path]:
+def illuminate_from_world(
+    scene: str | None, size: int, output: Path, force: bool = False, clamp: float | None = None
+) -> Steps[Path]:
     """Sample the world of a scene of the open file into a latitude-longitude map.
 
     Parameters
@@ -22,6 +24,8 @@ def illuminate_from_world(scene: str | None, size: int, output: Path, force: boo
         NAME.exr or NAME.hdr.
     force : bool
         Whether an existing file is replaced.
+    clamp : float, optional
+        See `core.environment.usable_radiance`.
 
     Yields
     ------
@@ -50,5 +54,5 @@ def illuminate_from_world(scene: str | None, size: int, output: Path, force: boo
     _, height, _ = representation("equirect").shape(size)
     world = world_of(find_scene(scene))
     yield Progress(0, 1, f"sampling world {world.name}")
-    write_radiance(output, sample_world(world, height).radiance, force)
+    write_radiance(output, sample_world(world, height, clamp).radiance, force)
     return output

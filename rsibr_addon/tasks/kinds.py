@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ..core.environment import Environment
+from ..core.errors import RangeError
 from ..core.shading.environment import EnvironmentLook
 from ..core.shading.kernel_bank import BankLook
 from ..core.shading.lobe_stack import StackLook
@@ -121,7 +122,7 @@ def kind_of(path: Path) -> str:
     return str(read_map_set_header(path)["kind"])
 
 
-def open_map_set(path: Path, kind: str | None = None) -> OpenedMapSet:
+def open_map_set(path: Path, kind: str | None = None, clamp: float | None = None) -> OpenedMapSet:
     """Read a map set.
 
     Parameters
@@ -130,6 +131,8 @@ def open_map_set(path: Path, kind: str | None = None) -> OpenedMapSet:
         A map set; where any kind will do, a picture of an environment as well.
     kind : str, optional
         The only kind that will do.
+    clamp : float, optional
+        Of a picture: see `core.environment.usable_radiance`.
 
     Returns
     -------
@@ -141,9 +144,13 @@ def open_map_set(path: Path, kind: str | None = None) -> OpenedMapSet:
         As `files.map_set.read_map_set`, or the kind's own `from_map_set`.
     InputFileError
         A picture cannot be used: see `files.environments.read_environment`.
+    RangeError
+        A map set is to be clamped.
     """
     if kind is None and environment.is_environment(path):
-        map_set = environment.read_as_map_set(path)
+        map_set = environment.read_as_map_set(path, clamp)
+    elif clamp is not None:
+        raise RangeError(f"{path} is a map set, whose light is filtered already: clamp where it is baked.")
     else:
         map_set = read_map_set(path, kind)
     return OpenedMapSet(

@@ -8,13 +8,15 @@ from ..files.photographs import read_photograph
 from ..files.radiance_pictures import holds_radiance, read_radiance
 
 
-def read_light(path: Path) -> Array:
+def read_light(path: Path, clamp: float | None = None) -> Array:
     """Read a picture as radiance.
 
     Parameters
     ----------
     path : Path
         OpenEXR or Radiance HDR, or a picture of 8 or 16 bits, whose curve is undone.
+    clamp : float, optional
+        See `usable_radiance`.
 
     Returns
     -------
@@ -32,5 +34,5 @@ def read_light(path: Path) -> Array:
         See `usable_radiance` and `read_photograph`.
     """
     if holds_radiance(path):
-        return usable_radiance(read_radiance(path), path.name)
-    return usable_radiance(read_photograph(path).radiance(), path.name)
+        return usable_radiance(read_radiance(path), path.name, clamp)
+    return usable_radiance(read_photograph(path).radiance(), path.name, clamp)

@@ -42,6 +42,8 @@ class PreviewSettings:
         Width and height in pixels, 1 to `LARGEST`.
     look : object, optional
         Of the map set's kind, see `core.shading`; by default that kind's own.
+    clamp : float, optional
+        Of an environment's picture: see `tasks.kinds.open_map_set`.
 
     Raises
     ------
@@ -53,6 +55,7 @@ class PreviewSettings:
     mesh: str = "sphere"
     size: int = 512
     look: Any = None
+    clamp: float | None = None
 
     def __post_init__(self) -> None:
         if not 1 <= self.size <= LARGEST:
@@ -159,7 +162,7 @@ class _Studio:
     def __init__(self, map_set: Path, settings: PreviewSettings) -> None:
         self._settings = settings
         self._mesh: TriangleMesh = load_mesh(settings.mesh)
-        opened = open_map_set(map_set)
+        opened = open_map_set(map_set, clamp=settings.clamp)
         self._look = settings.look or KINDS[opened.kind].look()
         self._renderer = PreviewRenderer(opened.upload())
 

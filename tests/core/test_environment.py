@@ -69,6 +69,27 @@ def test_values_that_are_no_numbers_are_replaced_and_counted() -> None:
     np.testing.assert_array_equal(pixels, before)
 
 
+def test_what_is_brighter_than_the_clamp_is_the_clamp_with_the_count() -> None:
+    pixels = PIXELS.copy()
+    pixels[0, 0] = np.inf, 1e30, np.nan
+    clamp = float(np.median(PIXELS))
+    brighter = np.count_nonzero(pixels > clamp)
+    with pytest.warns(RsibrWarning) as caught:
+        environment = environment_from_pixels(pixels, "room.exr", clamp)
+    assert (
+        str(caught[0].message)
+        == f"room.exr holds {brighter} values above {clamp:g}; they are taken as {clamp:g}."
+    )
+    assert str(caught[1].message) == "room.exr holds 1 undefined (NaN) values; they are taken as 0."
+    np.testing.assert_array_equal(environment.radiance, np.minimum(np.nan_to_num(pixels), np.float32(clamp)))
+    assert environment.clamp == clamp
+
+
+def test_nothing_is_said_of_a_clamp_that_changes_nothing() -> None:
+    environment = environment_from_pixels(PIXELS, "room.exr", float(PIXELS.max()))
+    assert environment.sha256 == environment_from_pixels(PIXELS, "room.exr").sha256
+
+
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
 def test_a_map_without_any_finite_value_is_refused(value: float) -> None:
     with pytest.raises(InputFileError, match=r"^room\.exr holds no finite value"):

@@ -199,6 +199,10 @@ def test_values_that_are_no_radiance(tmp_path: Path, capfd: pytest.CaptureFixtur
     assert "a.exr holds 1 negative values; they are taken as 0." in told
     made = read_radiance(tmp_path / "b.exr")
     assert (made[0, 0, 0], made[0, 0, 1], made[1, 1, 1]) == (0.0, greatest, 0.0)
+    assert convert(tmp_path / "a.exr", tmp_path / "c.exr", *arguments, "--clamp", 2) == 0
+    brighter = np.count_nonzero(picture > 2.0)
+    assert f"a.exr holds {brighter} values above 2; they are taken as 2." in capfd.readouterr().err
+    np.testing.assert_array_equal(read_radiance(tmp_path / "c.exr"), np.minimum(made, 2.0))
 
 
 def test_outputs_are_kept_and_none_is_written_when_one_is_there(

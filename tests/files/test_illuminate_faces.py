@@ -33,6 +33,13 @@ def test_six_photographs_make_an_environment(tmp_path: Path) -> None:
     np.testing.assert_allclose(read_radiance(tmp_path / "room.exr"), expected, atol=1 / 32)
 
 
+def test_faces_are_clamped(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    brighter = np.count_nonzero(write_faces(tmp_path / "a.exr")[0] > 2.0)
+    assert illuminate(tmp_path / "a.exr", "-o", tmp_path / "room.exr", "--size", 64, "--clamp", 2) == 0
+    assert f"a-px.exr holds {brighter} values above 2; they are taken as 2." in capfd.readouterr().err
+    assert read_radiance(tmp_path / "room.exr").max() <= 2.0
+
+
 def test_balanced_photographs_agree(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     cube = write_faces(tmp_path / "a.exr")
     applied = np.array([1.0, 3.0, 0.5, 1.5, 1.0, 0.7])

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.errors import MapSetError
+from rsibr.rsibr_addon.core.errors import MapSetError, RsibrWarning
 from rsibr.rsibr_addon.files.kinds.environment import from_map_set, is_environment, read_as_map_set
 from rsibr.rsibr_addon.files.map_set import read_map_set
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
@@ -20,6 +20,16 @@ def test_a_picture_stands_for_itself(tmp_path: Path, name: str) -> None:
     assert read.name == name
     # Radiance HDR keeps 8 bits of the largest channel.
     np.testing.assert_allclose(read.radiance, light.radiance, atol=light.radiance.max() / 128.0)
+
+
+def test_a_picture_is_clamped(tmp_path: Path) -> None:
+    light = environment(16)
+    write_radiance(tmp_path / "forest.exr", light.radiance)
+    clamp = float(np.median(light.radiance))
+    with pytest.warns(RsibrWarning, match=r"forest\.exr holds \d+ values above"):
+        map_set = read_as_map_set(tmp_path / "forest.exr", clamp)
+    read = from_map_set(tmp_path / "forest.exr", map_set).radiance
+    np.testing.assert_array_equal(read, np.minimum(light.radiance, np.float32(clamp)))
 
 
 def test_map_sets_and_what_is_neither_are_no_pictures(tmp_path: Path) -> None:

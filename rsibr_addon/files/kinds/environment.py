@@ -31,12 +31,14 @@ def is_environment(path: Path) -> bool:
     return False
 
 
-def read_as_map_set(path: Path) -> MapSet:
+def read_as_map_set(path: Path, clamp: float | None = None) -> MapSet:
     """Read a picture as if it were a map set.
 
     Parameters
     ----------
     path : Path
+    clamp : float, optional
+        See `read_environment`.
 
     Returns
     -------
@@ -48,7 +50,7 @@ def read_as_map_set(path: Path) -> MapSet:
     InputFileError
         See `read_environment`.
     """
-    environment = read_environment(path)
+    environment = read_environment(path, clamp)
     header = {"environment": {"name": environment.name, "part": ENVIRONMENT}, "material": {}}
     return MapSet(KIND, {ENVIRONMENT: environment.radiance}, header)
 

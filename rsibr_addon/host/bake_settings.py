@@ -2,12 +2,13 @@
 
 import os
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import bpy
 
 from ..core.errors import InputFileError, OutputFileError, SceneError
-from .map_sets import stored_path, written_path
+from ..files.pictures import split_layer
+from .map_sets import Settings, chosen_path, stored_path, use_file, written_path
 from .materials import surface_output
 from .worlds import studio_environments, world_of
 
@@ -19,6 +20,25 @@ FOLDER = "//rsibr"
 
 SHAPED = ("MESH", "CURVE", "SURFACE", "FONT", "META")
 """Types of objects that have surfaces."""
+
+
+class LightSettings(Settings, Protocol):
+    """`ui.bake_properties.RSIBR_PG_bake`."""
+
+    layer: str
+
+
+def chosen_picture(settings: LightSettings) -> str:
+    """The light's picture as Blender writes paths, FILE.exr:LAYER where a layer is named; empty without."""
+    path = chosen_path(settings)
+    return f"{path}:{settings.layer}" if path and settings.layer else path
+
+
+def use_picture(settings: LightSettings, path: str) -> None:
+    """Choose the light's picture, as `chosen_picture` tells it; it need not be there."""
+    _, layer = split_layer(bpy.path.abspath(path))
+    settings.layer = layer or ""
+    use_file(settings, path.removesuffix(f":{layer}"))
 
 
 def chosen_environment(scene: bpy.types.Scene) -> str | None:
@@ -47,7 +67,8 @@ def chosen_environment(scene: bpy.types.Scene) -> str | None:
             return str(studio_environments()[chosen.studio])
         case _:
             picture = chosen.picture and str(written_path(chosen))
-            return existing(picture, "environment", "a latitude-longitude picture")
+            file = existing(picture, "environment", "a latitude-longitude picture")
+            return f"{file}:{chosen.layer}" if chosen.layer else file
 
 
 def existing(path: str, what: str, wanted: str) -> str:

@@ -10,6 +10,7 @@ from typing import Any
 
 from ..core.errors import MapSetError, SceneError
 from ..files.map_set import read_map_set
+from ..files.pictures import split_layer
 from ..files.temporary import temporary_folder
 from ..host.bake_settings import (
     EXTENSION,
@@ -56,6 +57,8 @@ class Order:
         Name of the material, where it is one of the open file.
     measured : str or None
         Path of the file that holds the material, where there is one.
+    clamp : float
+        The greatest radiance of the environment that is kept; 0 for all.
     settings : dict
         All that the scene says, to bake the same again.
     """
@@ -64,6 +67,7 @@ class Order:
     method: Method
     own_material: str | None
     measured: str | None
+    clamp: float
     settings: dict[str, Any]
 
     @property
@@ -74,13 +78,17 @@ class Order:
     @property
     def title(self) -> str:
         """What is baked, in words."""
-        light = "the world" if self.environment is None else Path(self.environment).stem
+        light = "the world" if self.environment is None else split_layer(self.environment)[0].stem
         return f"{self.method.subject or self.method.kind.replace('_', ' ')} in {light}"
 
     def job(self, output: Path) -> BakeJob:
         """What makes `output`, and replaces what is there: that is damaged, or it would not be made."""
         light = () if self.environment is None else ("--environment", self.environment)
-        return BakeJob((*self.method.arguments(), *light, "--output", str(output), "--force"))
+        return BakeJob((*self.arguments(), *light, "--output", str(output), "--force"))
+
+    def arguments(self) -> tuple[str, ...]:
+        """Of the command line, without environment and output."""
+        return *self.method.arguments(), *(("--clamp", f"{self.clamp:g}") if self.clamp else ())
 
 
 @dataclass
@@ -133,7 +141,8 @@ def order_for(scene: Any, item: Any) -> Order:
     measured = existing(chosen.path, "measured material", "its file") if source == "FILE" else None
     environment = chosen_environment(scene)
     method = METHODS[scene.rsibr_bake.kind](chosen, own or measured or "")
-    return Order(environment, method, own, measured, plain_settings(scene.rsibr_bake))
+    clamp = scene.rsibr_bake.clamp
+    return Order(environment, method, own, measured, clamp, plain_settings(scene.rsibr_bake))
 
 
 def output_for(order: Order, scene: Any, item: Any) -> Path:
@@ -157,8 +166,8 @@ def output_for(order: Order, scene: Any, item: Any) -> Path:
         Its folder cannot be made.
     """
     content = {
-        "method": order.method.arguments(),
-        "light": fingerprint(world_of(scene)) if order.environment is None else _digest(order.environment),
+        "method": order.arguments(),
+        "light": fingerprint(world_of(scene)) if order.environment is None else _light(order.environment),
         "material": fingerprint(own_material(item)) if order.own_material else None,
         "measured": _digest(order.measured) if order.measured else None,
         "software": software(),
@@ -282,6 +291,11 @@ def _in_background(title: str, job: BakeJob, item: Any, output: Path, needs_file
     )
 
 
-def _digest(path: str) -> str:
+def _light(environment: str) -> str:
+    file, layer = split_layer(environment)
+    return _digest(file) + (f":{layer}" if layer else "")
+
+
+def _digest(path: str | Path) -> str:
     with open(path, "rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()

@@ -11,6 +11,7 @@ from ..core.lobes.fit import Fit
 from ..files.kinds import environment, lobe_stack
 from ..files.map_set import read_map_set_header
 from ..files.map_set_header import content_hash
+from ..files.pictures import split_layer
 
 
 def read_once[Told](read: Callable[[Path], Told]) -> Callable[[Path], Told]:
@@ -19,7 +20,7 @@ def read_once[Told](read: Callable[[Path], Told]) -> Callable[[Path], Told]:
     Parameters
     ----------
     read : callable
-        Takes the path of a file, that need not be there. What it raises is not kept.
+        Takes the path of a file, that need not be there, or FILE.exr:LAYER. What it raises is not kept.
     """
 
     @lru_cache(maxsize=16)
@@ -28,7 +29,7 @@ def read_once[Told](read: Callable[[Path], Told]) -> Callable[[Path], Told]:
 
     @wraps(read)
     def told(path: Path) -> Told:
-        return kept(path, file_stamp(path))
+        return kept(path, file_stamp(split_layer(path)[0]))
 
     return told
 

@@ -4,7 +4,7 @@ import bpy
 
 from ..core.brdf.gallery import GALLERY
 from ..core.tables.material import PRESETS as TABLE_PRESETS
-from ..host.map_sets import chosen_path, use_file
+from ..host.bake_settings import chosen_picture, use_picture
 from ..host.presets import PRESETS
 from ..host.worlds import studio_environments
 from ..properties import keep_in_overrides
@@ -198,11 +198,21 @@ class RSIBR_PG_bake(bpy.types.PropertyGroup):
     )
     picture = bpy.props.StringProperty(
         name="Picture",
-        description="Latitude-longitude picture of the light, OpenEXR or Radiance HDR",
+        description="Latitude-longitude picture of the light, OpenEXR (or FILE.exr:LAYER) or Radiance HDR",
         subtype="FILE_PATH",
         options={"PATH_SUPPORTS_BLEND_RELATIVE"},
-        get=chosen_path,
-        set=use_file,
+        get=chosen_picture,
+        set=use_picture,
+    )
+    layer = bpy.props.StringProperty(
+        name="Layer", description="Of an OpenEXR picture with several; empty for the one that is the picture"
+    )
+    clamp = bpy.props.FloatProperty(
+        name="Clamp",
+        description="Take brighter radiance, also where it is infinite, as this; 0 to keep what is finite",
+        min=0.0,
+        max=1e30,
+        soft_max=1e5,
     )
     kind = bpy.props.EnumProperty(
         name="Method",

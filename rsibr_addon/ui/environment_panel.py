@@ -1,15 +1,14 @@
 """Which light is baked."""
 
+from contextlib import suppress
+from pathlib import Path
+
 import bpy
 
+from ..core.errors import RsibrError
+from ..host.bake_settings import chosen_environment
+from ..tasks.light_pictures import light_remarks
 from .sentences import tell
-
-RADIANCE = ("OPEN_EXR", "OPEN_EXR_MULTILAYER", "HDR")
-"""Blender's names of the formats that hold radiance."""
-
-NO_RADIANCE = (
-    "This picture is no radiance: its lamps end at white. Give OpenEXR or Radiance HDR, or make one from it."
-)
 
 THUMBNAIL_SCALE = 4.0
 """Of an environment's picture; a button is 1 high."""
@@ -50,8 +49,13 @@ class RSIBR_PT_environment(bpy.types.Panel):
                 if chosen.image is not None:
                     layout.template_icon(bpy.types.UILayout.icon(chosen.image), scale=THUMBNAIL_SCALE)
                 layout.prop(chosen, "picture", text="")
-                if chosen.image is not None and chosen.image.file_format not in RADIANCE:
-                    tell(layout, NO_RADIANCE, context.region.width)
+                if chosen.image is not None:
+                    layout.prop(chosen, "layer")
+                    # Whatever keeps it from being used is told with the button
+                    with suppress(RsibrError):
+                        for remark in light_remarks(Path(chosen_environment(context.scene) or "")):
+                            tell(layout, remark, context.region.width)
+        layout.prop(chosen, "clamp")
         capture = layout.operator(
             "rsibr.capture_environment", text="Capture from Scene...", icon="RENDER_STILL"
         )

@@ -4,17 +4,24 @@ import itertools
 import json
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
+from unittest.mock import MagicMock
 
 import bpy
+import numpy as np
 import pytest
 import rsibr
 from rsibr.rsibr_addon.command_line.commands import parsed
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import InputFileError, MapSetError, OutputFileError, RsibrError, SceneError
+from rsibr.rsibr_addon.files.exr import Part, write_parts
 from rsibr.rsibr_addon.files.staging import is_staging_folder
+from rsibr.rsibr_addon.host.bake_settings import apply_settings, plain_settings
 from rsibr.rsibr_addon.job import BakeJob
 from rsibr.rsibr_addon.tasks.bake_order import Order, bake_of, comparison_of, is_baked, order_for, output_for
+from rsibr.rsibr_addon.tasks.light_pictures import NO_RADIANCE, light_remarks
 from rsibr.rsibr_addon.tasks.methods import QUALITIES
+from rsibr.rsibr_addon.ui.environment_panel import RSIBR_PT_environment
 from rsibr.tests.flat_capture import write_flat_capture
 from rsibr.tests.open_file import open_file_state
 
@@ -136,11 +143,62 @@ def test_equal_bakes_have_one_file_and_others_another(tmp_path: Path) -> None:
         differs()
     chosen.kind = "mip_chain"
     differs()
-    assert len(names) == 7
+    chosen.clamp = 2.5
+    differs()
+    chosen.clamp = 3.0
+    differs()
+    assert parsed(order().job(Path("out.rsibr.exr")).arguments).clamp == 3.0
+    chosen.layer = "V.Sky"
+    differs()
+    assert len(names) == 10
     cube.active_material.name = cube.name = "Renamed"
     before = output()
     cube.location.x += 3.0
     assert output() == before
+
+
+def panel_labels() -> str:
+    """What the environment's panel tells, its lines in one."""
+    layout = MagicMock()
+    context = SimpleNamespace(scene=bpy.context.scene, object=None, region=SimpleNamespace(width=500))
+    RSIBR_PT_environment.draw(SimpleNamespace(layout=layout), context)
+    return " ".join(call.kwargs["text"] for call in layout.column.return_value.label.call_args_list)
+
+
+def test_a_layer_is_named_with_its_file_or_apart(tmp_path: Path) -> None:
+    plane = np.ones((4, 8), np.float32)
+    layers = {f"{layer}.{channel}": plane for layer in ("Sky", "Room") for channel in "RGB"}
+    path = tmp_path / "light.exr"
+    write_parts(path, [Part("", layers | {"Fog.Y": plane, "Fog.RY": plane})])
+    chosen = bpy.context.scene.rsibr_bake
+    chosen.light, chosen.picture = "PICTURE", str(path)
+
+    def told() -> tuple[str, ...]:
+        return light_remarks(Path(order().environment or ""))
+
+    assert "holds several layers (Room, Sky): name one" in told()[0]
+    chosen.picture = f"{path}:Sky"
+    assert (chosen.layer, Path(chosen.image.filepath)) == ("Sky", path)
+    assert order().environment == chosen.picture == f"{path}:Sky"
+    assert order().title.endswith(" in light")
+    assert told() == ()
+    apply_settings(chosen, plain_settings(chosen))
+    assert chosen.picture == f"{path}:Sky"
+    chosen.layer = "Fog"
+    assert told()[0] == "light.exr:Fog is grey: its light has no colour."
+    assert told()[1].startswith("light.exr:Fog has Fog.RY beside Fog.Y")
+    chosen.layer = "Depth"
+    assert "holds no layer Depth: choose Fog, Room, Sky" in told()[0]
+    assert panel_labels() == told()[0]
+    chosen.picture = str(path)
+    assert chosen.layer == ""
+
+
+def test_a_picture_that_is_no_radiance_is_told_of(tmp_path: Path) -> None:
+    write_parts(tmp_path / "data.exr", [Part("", {"Depth.Z": np.ones((4, 8), np.float32)})])
+    (tmp_path / "photo.png").write_bytes(b"\x89PNG")
+    assert "data.exr holds no colour (channels: Depth.Z)" in light_remarks(tmp_path / "data.exr")[0]
+    assert light_remarks(tmp_path / "photo.png") == (NO_RADIANCE,)
 
 
 def test_a_bake_gets_a_copy_of_the_file_as_it_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

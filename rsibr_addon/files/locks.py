@@ -11,6 +11,9 @@ from typing import IO
 LOCK = "rsibr.lock"
 """Name of the file in a held folder by which it is known for one of ours."""
 
+TRIES = 100
+"""To hold a folder, which those that held it before us may be removing each time."""
+
 
 @contextlib.contextmanager
 def held(folder: Path) -> Iterator[bool]:
@@ -45,7 +48,7 @@ def held(folder: Path) -> Iterator[bool]:
 
 def _held(folder: Path) -> tuple[IO[str], bool]:
     """The open lock, and whether the system did lock it."""
-    while True:
+    for _ in range(TRIES):
         file = _opened(folder)
         try:
             alone = _lock(file)
@@ -56,13 +59,19 @@ def _held(folder: Path) -> tuple[IO[str], bool]:
         if not alone or _is_there(folder / LOCK, file):
             return file, alone
         file.close()
+    raise _never_there(folder)
 
 
 def _opened(folder: Path) -> IO[str]:
-    while True:
+    for _ in range(TRIES):
         folder.mkdir(mode=0o700, exist_ok=True)
         with contextlib.suppress(FileNotFoundError):
             return (folder / LOCK).open("a")
+    raise _never_there(folder)
+
+
+def _never_there(folder: Path) -> OSError:
+    return OSError(errno.EIO, "the file system does not show what was made", str(folder / LOCK))
 
 
 def _is_there(path: Path, file: IO[str]) -> bool:

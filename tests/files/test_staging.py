@@ -8,6 +8,7 @@ import time
 from pathlib import Path
 
 import pytest
+from rsibr.rsibr_addon.files import locks
 from rsibr.rsibr_addon.files.atomic import check_target, written_aside
 from rsibr.rsibr_addon.files.folders import check_folder_target, folder_written_aside
 from rsibr.rsibr_addon.files.locks import LOCK, held
@@ -142,3 +143,18 @@ def test_a_process_that_is_told_to_end_takes_its_own_with_it(tmp_path: Path) -> 
         out.rename(folder / REPLACED / "out")
         remove_own()
         assert list(tmp_path.iterdir()) == [out]
+
+
+def test_a_file_system_that_does_not_show_what_it_made_is_an_error(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = tmp_path / "folder"
+    monkeypatch.setattr(locks, "_is_there", lambda path, file: False)
+    with pytest.raises(OSError, match=f"does not show what was made.*{LOCK}"), held(folder):
+        pass
+    monkeypatch.undo()
+    # A link to nothing in a folder that is not there is made anew each time, and never found
+    (folder / LOCK).unlink()
+    (folder / LOCK).symlink_to(tmp_path / "none" / "none")
+    with pytest.raises(OSError, match=f"does not show what was made.*{LOCK}"), held(folder):
+        pass

@@ -78,13 +78,13 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     else:
         steps = bake_fit(arguments.environment, arguments.fit, *target)
     baked = report.steps(steps)
-    lobes, maps = baked.stack.maps.shape[:2]
-    size = baked.stack.size
+    lobes, maps = baked.fit.weights.shape[:2]
+    size = baked.filtered.size
     report.say(f"{arguments.output}: lobes: {lobes}, maps of each: {maps}, {size}x{size} texels")
     return {
         "map_set": str(arguments.output),
         "lobes": lobes,
-        "elevations": len(baked.stack.mu),
+        "elevations": len(baked.fit.mu),
         "size": size,
         "interpolation": baked.interpolation,
     }

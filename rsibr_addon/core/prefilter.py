@@ -96,16 +96,18 @@ def prefilter(
     ceilings = harmonics.ceilings()
     degrees = [_cut(lobe, ceilings) for lobe in series]
     channels = len(harmonics.flux)
-    radiance = np.empty((len(series), len(theta), channels))
+    # Channel by channel, as sums of maps go through it
+    by_channel = np.empty((channels, len(series), len(theta)))
     bound = np.empty((len(series), channels))
     for group in _groups(degrees, channels):
         gains = np.zeros((len(group), max(degrees[i] for i in group) + 1))
         for row, i in zip(gains, group, strict=True):
             row[: degrees[i] + 1] = series[i].coefficients[: degrees[i] + 1]
         kernel, leakage = _kernel(gains, ceilings, min(series[i].tolerance for i in group))
-        radiance[group] = synthesise(harmonics, gains, theta, phi, kernel).swapaxes(0, 1)
+        by_channel[:, group] = synthesise(harmonics, gains, theta, phi, kernel).transpose(2, 1, 0)
         for i in group:
             bound[i] = _bound(series[i], degrees[i], ceilings, leakage, harmonics.flux)
+    radiance = np.moveaxis(by_channel, 0, -1)
     for lobe, values in zip(series, radiance, strict=True):
         if not lobe.signed:
             # What the cut makes negative is nearer to the truth at 0.

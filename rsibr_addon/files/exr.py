@@ -1,6 +1,7 @@
 """OpenEXR files, single-part or multi-part: the one module that knows the OpenEXR package."""
 
 import contextlib
+import io
 import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -218,26 +219,46 @@ def write_parts(path: Path, parts: Sequence[Part]) -> None:
     OSError
         The system refuses, or the disk is full.
     """
-    # The parts of a file must have one display window; each picture is its part's data window
-    sizes = [pixels.shape for part in parts for pixels in part.channels.values()]
-    corner = np.max(sizes, axis=0)[::-1] - 1
+    shapes = [pixels.shape for part in parts for pixels in part.channels.values()]
+    largest = np.max(shapes, axis=0).tolist()
+    # Through a stream of ours, because the package's own drops the error of its last bytes
+    with path.open("wb") as stream:
+        OpenEXR.File([_described(part, largest) for part in parts]).write(stream)
+
+
+def packed(part: Part, largest: Sequence[int]) -> bytes:
+    """The bytes of a file with one part.
+
+    Parameters
+    ----------
+    part : Part
+    largest : sequence of two int
+        Height and width that its display window has.
+
+    Returns
+    -------
+    bytes
+        Compressed as `write_parts` does it.
+    """
+    stream = io.BytesIO()
+    OpenEXR.File([_described(part, largest)]).write(stream)
+    return stream.getvalue()
+
+
+def _described(part: Part, largest: Sequence[int]) -> Any:
+    """A part as the package wants it: all of a file have one display window, and their own data window."""
+    height, width = largest
     header = {
         "type": OpenEXR.scanlineimage,
         "compression": OpenEXR.ZIP_COMPRESSION,
-        "displayWindow": (np.zeros(2, np.int32), corner.astype(np.int32)),
+        "displayWindow": (np.zeros(2, np.int32), np.array([width - 1, height - 1], np.int32)),
     }
-    described = [
-        OpenEXR.Part(
-            {**header, **part.attributes},
-            # The package reads the memory of an array without looking at its strides
-            {name: np.ascontiguousarray(pixels[::-1]) for name, pixels in part.channels.items()},
-            part.name,
-        )
-        for part in parts
-    ]
-    # Through a stream of ours, because the package's own drops the error of its last bytes
-    with path.open("wb") as stream:
-        OpenEXR.File(described).write(stream)
+    return OpenEXR.Part(
+        {**header, **part.attributes},
+        # The package reads the memory of an array without looking at its strides
+        {name: np.ascontiguousarray(pixels[::-1]) for name, pixels in part.channels.items()},
+        part.name,
+    )
 
 
 @contextlib.contextmanager

@@ -4,7 +4,7 @@ import contextlib
 import hashlib
 import json
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,7 +24,8 @@ from ..core.errors import (
 from ..core.half_floats import half_holds
 from ..core.schema import loads
 from .atomic import check_target, written_aside
-from .exr import MAGIC, Part, read_attributes, read_parts, write_parts
+from .exr import MAGIC, Part, read_attributes, read_parts
+from .exr_in_turn import PartsInTurn
 from .map_set_header import FORMAT, check_header
 from .reading import opened
 
@@ -65,14 +66,36 @@ class MapSet:
     header: dict[str, Any]
 
 
-def write_map_set(path: str | Path, map_set: MapSet, force: bool = False, half: bool = False) -> None:
+@dataclass(frozen=True)
+class MapsInTurn:
+    """A map set to be written whose maps are made meanwhile, so that not all are in memory at once.
+
+    Attributes
+    ----------
+    kind, header
+        See `MapSet`.
+    shapes : dict of str to (int, int)
+        Height and width by part name.
+    maps : iterable of ndarray, shape (height, width, 3)
+        In the order of `shapes`.
+    """
+
+    kind: str
+    shapes: dict[str, tuple[int, int]]
+    maps: Iterable[Array]
+    header: dict[str, Any]
+
+
+def write_map_set(
+    path: str | Path, map_set: MapSet | MapsInTurn, force: bool = False, half: bool = False
+) -> None:
     """Write a map set; equal sets give equal bytes.
 
     Parameters
     ----------
     path : str or Path
         By custom NAME.rsibr.exr.
-    map_set : MapSet
+    map_set : MapSet or MapsInTurn
     force : bool
         Whether an existing file is replaced.
     half : bool
@@ -96,33 +119,40 @@ def write_map_set(path: str | Path, map_set: MapSet, force: bool = False, half: 
         Maps are too bright or too dark for half floats; says how many.
     """
     check_target(path, force)
+    if isinstance(map_set, MapSet):
+        for name, pixels in map_set.maps.items():
+            _check_shape(name, pixels)
+        shapes = {name: pixels.shape[:2] for name, pixels in map_set.maps.items()}
+        map_set = MapsInTurn(map_set.kind, shapes, map_set.maps.values(), map_set.header)
     listed = [part.get("name") for part in map_set.header.get("parts", [])]
-    if listed != list(map_set.maps):
-        raise ShapeError(f"{path} would hold the maps {list(map_set.maps)}, but its header lists {listed}.")
-    stored = {name: _stored(name, pixels, half) for name, pixels in map_set.maps.items()}
-    if half and (whole := sum(pixels.dtype.itemsize > 2 for pixels in stored.values())):
+    if listed != list(map_set.shapes):
+        raise ShapeError(f"{path} would hold the maps {list(map_set.shapes)}, but its header lists {listed}.")
+    header = {"format": FORMAT, "kind": map_set.kind, **map_set.header}
+    # Sums are as long before they are known
+    header["parts"] = [
+        {**part, "size": [*map_set.shapes[part["name"]][::-1]], "sha256": "0" * 64}
+        for part in header["parts"]
+    ]
+    check_header(header, str(path))
+    largest = np.max(list(map_set.shapes.values()), axis=0)
+    cover, whole = np.broadcast_to(np.zeros((), "<f2"), (*largest, 3)), 0
+    with written_aside(path, force) as aside, aside.open("wb") as stream:
+        text = json.dumps(header, allow_nan=False)
+        parts = PartsInTurn(stream, {COVER: tuple(largest), **map_set.shapes}, ATTRIBUTE, text)
+        parts.add(COVER, cover)
+        for part, pixels in zip(header["parts"], map_set.maps, strict=True):
+            stored = _stored(part["name"], pixels, half)
+            whole += stored.dtype.itemsize > 2
+            part |= _derived(stored)
+            parts.add(part["name"], stored)
+        parts.finish(json.dumps(header, allow_nan=False))
+    if half and whole:
         warnings.warn(
-            f"{whole} of the {len(stored)} maps of {path} are too bright or too dark for 16-bit floats, and "
+            f"{whole} of the {len(listed)} maps of {path} are too bright or too dark for 16-bit floats, and "
             f"stored with 32 bits.",
             RsibrWarning,
             stacklevel=2,
         )
-    header = {
-        "format": FORMAT,
-        "kind": map_set.kind,
-        **map_set.header,
-        "parts": [{**part, **_derived(stored[part["name"]])} for part in map_set.header["parts"]],
-    }
-    check_header(header, str(path))
-    text = json.dumps(header, allow_nan=False)
-    largest = np.max([pixels.shape[:2] for pixels in stored.values()], axis=0)
-    cover = dict.fromkeys("RGB", np.zeros(largest, dtype="<f2"))
-    parts = [
-        Part(name, {channel: pixels[..., i] for i, channel in enumerate("RGB")}, {})
-        for name, pixels in stored.items()
-    ]
-    with written_aside(path, force) as aside:
-        write_parts(aside, [Part(COVER, cover, {ATTRIBUTE: text}), *parts])
 
 
 def read_map_set(path: str | Path, kind: str | None = None) -> MapSet:
@@ -235,10 +265,13 @@ def _description(attributes: list[dict[str, Any]]) -> str | None:
     return text if isinstance(text, str) else None
 
 
-def _stored(name: str, pixels: Array, half: bool) -> Array:
-    """Pixels as the file holds them."""
+def _check_shape(name: str, pixels: Array) -> None:
     if pixels.ndim != 3 or pixels.shape[2] != 3 or not pixels.size:
         raise ShapeError(f"Map {name} must have the shape (height, width, 3), not {pixels.shape}.")
+
+
+def _stored(name: str, pixels: Array, half: bool) -> Array:
+    """Pixels as the file holds them."""
     with np.errstate(over="ignore"):
         stored: Array = np.ascontiguousarray(pixels, dtype="<f4")
     if unusable := int(np.count_nonzero(~np.isfinite(stored))):

@@ -15,7 +15,7 @@ from ..core.lobes.stack import LAYOUTS, stack_representation
 from ..core.progress import Progress, Steps
 from ..files.atomic import check_target
 from ..files.fits import read_fit
-from ..files.kinds.lobe_stack import PROFILES, profiles, to_map_set
+from ..files.kinds.lobe_stack import in_turn
 from ..files.map_set import write_map_set
 from ..host.version import software
 from .brdfs import load_brdf
@@ -178,22 +178,15 @@ def _baked(
     light: Environment, fit: Fit, settings: StackSettings, output: Path, force: bool
 ) -> Steps[BakedStack]:
     baked = yield from bake_stack(light.radiance, fit, settings.layout, settings.size)
-    stack = baked.stack
+    size = baked.filtered.size
     if baked.interpolation > TOLD_INTERPOLATION:
         warnings.warn(
-            f"Lookups in maps of {stack.size} texels cost about {100.0 * baked.interpolation:.2g} %: choose "
+            f"Lookups in maps of {size} texels cost about {100.0 * baked.interpolation:.2g} %: choose "
             f"a larger size.",
             RsibrWarning,
             stacklevel=2,
         )
-    map_set = to_map_set(
-        stack,
-        light,
-        {"brdf": fit.brdf, "method": fit.method, PROFILES: profiles(fit)},
-        {"filter": baked.bound.tolist(), "interpolation": baked.interpolation},
-        {"layout": settings.layout, "size": stack.size, "half": settings.half},
-        software(),
-    )
+    stated = {"layout": settings.layout, "size": size, "half": settings.half}
     yield Progress(0, 1, f"writing {output.name}")
-    write_map_set(output, map_set, force, settings.half)
+    write_map_set(output, in_turn(baked, light, stated, software()), force, settings.half)
     return baked

@@ -52,7 +52,8 @@ def synthesise(
     grid = _grid(_ring_functions(harmonics, varying, rows, kernel), degree, kernel.width // 2 + 1)
     values = _interpolate(grid, theta * (rows / np.pi), phi * (rows / np.pi), kernel)
     mean = harmonics.by_order[0][0].real * np.sqrt(0.25 / np.pi)
-    found: Array = values.reshape(-1, slices, channels) + gains[:, 0, None] * mean
+    found: Array = values.reshape(-1, slices, channels)
+    found += gains[:, 0, None] * mean
     return found
 
 

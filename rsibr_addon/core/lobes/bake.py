@@ -14,7 +14,7 @@ from ..progress import Progress, Steps
 from ..ties import TIE
 from ..zonal import TOLERANCE, ZonalSeries, expand
 from .bank import SHARPEST, KernelBank, octaves
-from .filtered_bank import FilteredBank, stack_from_bank
+from .filtered_bank import FilteredBank, bound_from_bank, stack_from_bank
 from .fit import Fit
 from .stack import LobeStack, stack_representation
 
@@ -32,22 +32,31 @@ _SHARPEST_BY_TEXELS = 0.25
 
 @dataclass(frozen=True)
 class BakedStack:
-    """A stack, and how near it is to what its fit promises.
+    """What a stack is summed from, and how near it is to what its fit promises.
 
     Attributes
     ----------
-    stack : LobeStack
-    bound : ndarray, shape (3,)
-        No texel is further than this from the sum over all texels of the environment, and rounding to
-        float32.
+    filtered : FilteredBank
+        Of the kernels that the fit uses; all maps of the stack together can take many times as much.
+    fit : Fit
     interpolation : float
         What bilinear lookups between texels are expected to cost on a sphere: relative
         root-mean-square error.
     """
 
-    stack: LobeStack
-    bound: Array
+    filtered: FilteredBank
+    fit: Fit
     interpolation: float
+
+    @property
+    def stack(self) -> LobeStack:
+        """The stack, with all maps at once."""
+        return stack_from_bank(self.filtered, self.fit)[0]
+
+    @property
+    def bound(self) -> Array:
+        """No texel is further from the sum over all texels, and rounding to float32; shape (3,)."""
+        return bound_from_bank(self.filtered, self.fit)
 
 
 @dataclass(frozen=True)
@@ -173,7 +182,7 @@ def bake_stack(radiance: Array, fit: Fit, layout: str, size: int | None = None) 
         filtered = _filtered(harmonics, bank, series, layout, size)
     except RangeError as error:
         raise RangeError(f"The fit has lobes that this environment is too coarse for. {error}") from error
-    return BakedStack(*stack_from_bank(filtered, fit), _interpolation(curvature, layout, size))
+    return BakedStack(filtered, fit, _interpolation(curvature, layout, size))
 
 
 def _expanded(bank: KernelBank) -> list[ZonalSeries]:

@@ -1,5 +1,6 @@
 """An environment filtered with every kernel of a bank: the stack of any BRDF is a small matrix times that."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -64,6 +65,10 @@ class FilteredBank:
         return self.bank.concentrations[-1]
 
 
+AT_ONCE = 2**26
+"""Bytes of maps in double precision that are summed together."""
+
+
 def stack_from_bank(filtered: FilteredBank, fit: Fit) -> tuple[LobeStack, Array]:
     """Sum the maps of a fit's lobes: filtering is linear, and so the sum of lobes is that of maps.
 
@@ -85,23 +90,64 @@ def stack_from_bank(filtered: FilteredBank, fit: Fit) -> tuple[LobeStack, Array]
     RangeError
         A kernel is not in the bank.
     """
-    used = np.flatnonzero(np.any(fit.weights, axis=(0, 1, 3)))
+    lobes, profiles = fit.weights.shape[:2]
+    maps = np.empty((lobes * profiles, *filtered.maps.shape[1:]), dtype=np.float32)
+    for target, made in zip(maps, maps_from_bank(filtered, fit), strict=True):
+        target[...] = made
+    maps = maps.reshape(lobes, profiles, *maps.shape[1:])
+    stack = LobeStack(filtered.layout, fit.mu, maps, fit.scale, fit.offsets, fit.taps, fit.albedo)
+    return stack, bound_from_bank(filtered, fit)
+
+
+def bound_from_bank(filtered: FilteredBank, fit: Fit) -> Array:
+    """What a bank promises, carried over to a fit's maps: see `stack_from_bank`."""
+    bound: Array = np.einsum(
+        "lpkc,kc->lpc", np.abs(fit.weights[:, :, fit.used]), filtered.bound[_picked(filtered, fit)]
+    ).max(axis=(0, 1))
+    return bound
+
+
+def maps_from_bank(filtered: FilteredBank, fit: Fit) -> Iterator[Array]:
+    """The maps of `stack_from_bank`, a few at a time: lobe by lobe, and of each elevation by elevation.
+
+    Parameters
+    ----------
+    filtered, fit
+        As there.
+
+    Yields
+    ------
+    ndarray, shape (sheets, size, size, 3), float32
+
+    Raises
+    ------
+    RangeError
+        A kernel is not in the bank.
+    """
+    picked = _picked(filtered, fit)
+    weights = fit.weights[:, :, fit.used].reshape(-1, len(picked), 3).astype(filtered.maps.dtype)
+    every = picked == list(range(len(filtered.bank)))
+    of_kernels = filtered.maps if every else filtered.maps[picked]
+    channels = [
+        np.ascontiguousarray(of_kernels[..., channel].reshape(len(picked), -1)) for channel in range(3)
+    ]
+    step = max(1, AT_ONCE // channels[0][0].nbytes)
+    for start in range(0, len(weights), step):
+        part = weights[start : start + step]
+        maps = np.empty((len(part), *filtered.maps.shape[1:]), dtype=np.float32)
+        for channel, of_channel in enumerate(channels):
+            # A product of matrices, which is much faster than a sum over indices
+            maps[..., channel] = (part[..., channel] @ of_channel).reshape(maps.shape[:-1])
+        yield from maps
+
+
+def _picked(filtered: FilteredBank, fit: Fit) -> list[int]:
+    """Numbers, in the bank, of the kernels that a fit uses."""
     numbers = {kappa: number for number, kappa in enumerate(filtered.bank.concentrations)}
-    wanted = [fit.bank.concentrations[kernel] for kernel in used]
+    wanted = [fit.bank.concentrations[kernel] for kernel in fit.used]
     if missing := [kappa for kappa in wanted if kappa not in numbers]:
         raise RangeError(
             f"The fit has a kernel of concentration {missing[0]:g}, and the bank none: fit with the bank's "
             f"kernels, or bake a larger bank."
         )
-    picked = [numbers[kappa] for kappa in wanted]
-    weights = fit.weights[:, :, used]
-    lobes, profiles = weights.shape[:2]
-    maps = np.empty((lobes, profiles, *filtered.maps.shape[1:]), dtype=np.float32)
-    for channel in range(3):
-        # A product of matrices, which is much faster than a sum over indices
-        of_kernels = filtered.maps[picked, ..., channel].reshape(len(picked), -1)
-        matrix = weights[..., channel].reshape(lobes * profiles, -1).astype(of_kernels.dtype)
-        maps[..., channel] = (matrix @ of_kernels).reshape(maps.shape[:-1])
-    bound = np.einsum("lpkc,kc->lpc", np.abs(weights), filtered.bound[picked]).max(axis=(0, 1))
-    stack = LobeStack(filtered.layout, fit.mu, maps, fit.scale, fit.offsets, fit.taps, fit.albedo)
-    return stack, bound
+    return [numbers[kappa] for kappa in wanted]

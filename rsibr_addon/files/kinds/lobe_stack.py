@@ -1,7 +1,8 @@
 """Map sets of kind `lobe_stack`."""
 
 from collections import defaultdict
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from itertools import chain
 from pathlib import Path
 from typing import Annotated, Any, TypedDict
 
@@ -10,11 +11,13 @@ import numpy as np
 from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.errors import MapSetError, RangeError, SchemaError, ShapeError
+from ...core.lobes.bake import BakedStack
 from ...core.lobes.bank import KernelBank
+from ...core.lobes.filtered_bank import maps_from_bank
 from ...core.lobes.fit import Fit
 from ...core.lobes.stack import LobeStack, stack_representation
 from ...core.schema import array, decode, length
-from ..map_set import MapSet
+from ..map_set import MapSet, MapsInTurn
 from ..map_set_header import ENVIRONMENT, MOST_KERNELS, Colour, Tap, make_header
 from .sheets import sheets_from_strip, strip_from_sheets
 
@@ -54,28 +57,70 @@ def to_map_set(
     -------
     MapSet
     """
-    maps = {ENVIRONMENT: environment.radiance}
-    parts: list[dict[str, Any]] = [{"name": ENVIRONMENT, "role": ENVIRONMENT}]
-    for lobe, lobe_maps in enumerate(stack.maps):
-        elevations = [_elevation(stack, lobe, number) for number in range(len(stack.mu))]
-        shared = len(lobe_maps) == 1
-        for number, sheets in enumerate(lobe_maps):
-            name = f"lobe{lobe:02d}.slice{number:03d}"
-            maps[name] = strip_from_sheets(sheets)
-            served = elevations if shared else [elevations[number]]
-            parts.append({"name": name, "role": "prefiltered", "lobe": lobe, "elevations": served})
     header = make_header(
         layout=stack.layout,
         size=(stack.size, stack.size * stack.maps.shape[2]),
         environment=environment,
         embedded=True,
         material=material,
-        parts=parts,
+        parts=_parts(stack, stack.maps.shape[1]),
         error_bound=error_bound,
         settings=settings,
         software=software,
     )
-    return MapSet(KIND, maps, header)
+    maps = _maps(environment, (sheets for lobe in stack.maps for sheets in lobe))
+    return MapSet(KIND, dict(zip((part["name"] for part in header["parts"]), maps, strict=True)), header)
+
+
+def in_turn(
+    baked: BakedStack, environment: Environment, settings: dict[str, Any], software: str
+) -> MapsInTurn:
+    """A baked stack as a map set is to hold it, its maps summed one after another.
+
+    Parameters
+    ----------
+    baked : BakedStack
+    environment : Environment
+        What it was made of; embedded.
+    settings, software
+        See docs/map-set-format.md.
+
+    Returns
+    -------
+    MapsInTurn
+    """
+    fit, filtered = baked.fit, baked.filtered
+    size = filtered.size, filtered.size * filtered.maps.shape[1]
+    header = make_header(
+        layout=filtered.layout,
+        size=size,
+        environment=environment,
+        embedded=True,
+        material={"brdf": fit.brdf, "method": fit.method, PROFILES: profiles(fit)},
+        parts=_parts(fit, fit.weights.shape[1]),
+        error_bound={"filter": baked.bound.tolist(), "interpolation": baked.interpolation},
+        settings=settings,
+        software=software,
+    )
+    shapes = {part["name"]: size[::-1] for part in header["parts"]}
+    shapes[ENVIRONMENT] = environment.radiance.shape[:2]
+    return MapsInTurn(KIND, shapes, _maps(environment, maps_from_bank(filtered, fit)), header)
+
+
+def _parts(lobes: Fit | LobeStack, map_count: int) -> list[dict[str, Any]]:
+    """What the header lists, of so many maps for each lobe."""
+    parts: list[dict[str, Any]] = [{"name": ENVIRONMENT, "role": ENVIRONMENT}]
+    for lobe in range(len(lobes.scale)):
+        elevations = [_elevation(lobes, lobe, number) for number in range(len(lobes.mu))]
+        for number in range(map_count):
+            name = f"lobe{lobe:02d}.slice{number:03d}"
+            served = elevations if map_count == 1 else [elevations[number]]
+            parts.append({"name": name, "role": "prefiltered", "lobe": lobe, "elevations": served})
+    return parts
+
+
+def _maps(environment: Environment, sheets: Iterable[Array]) -> Iterable[Array]:
+    return chain([environment.radiance], map(strip_from_sheets, sheets))
 
 
 def profiles(fit: Fit) -> dict[str, Any]:
@@ -210,16 +255,16 @@ def _taps(tables: list[list[dict[str, Any]]]) -> Array:
     )
 
 
-def _elevation(stack: LobeStack, lobe: int, number: int) -> dict[str, Any]:
-    offsets, weights = stack.offsets[lobe, number], stack.taps[lobe, number]
+def _elevation(lobes: Fit | LobeStack, lobe: int, number: int) -> dict[str, Any]:
+    offsets, weights = lobes.offsets[lobe, number], lobes.taps[lobe, number]
     return {
-        "mu": float(stack.mu[number]),
+        "mu": float(lobes.mu[number]),
         "taps": [
             dict(zip(Tap.__annotations__, (*offset, weight), strict=True))
             for offset, weight in zip(offsets.tolist(), weights.tolist(), strict=True)
         ],
-        "scale": stack.scale[lobe, number].tolist(),
-        "albedo": stack.albedo[lobe, number].tolist(),
+        "scale": lobes.scale[lobe, number].tolist(),
+        "albedo": lobes.albedo[lobe, number].tolist(),
     }
 
 

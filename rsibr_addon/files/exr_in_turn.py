@@ -1,0 +1,114 @@
+"""An OpenEXR file of many parts, written one after another, so that never more than one need be in memory.
+
+The package wants all parts at once. Each is packed as a file of its own instead: that has the same header,
+but for the number of its chunks, and the same chunks, but for the number of their part before them.
+"""
+
+import itertools
+import struct
+from collections.abc import Mapping
+from typing import BinaryIO
+
+import numpy as np
+
+from ..core.conventions import Array
+from .exr import MAGIC, Part, packed
+
+_VERSION = struct.pack("<I", 2 | 1 << 12)
+"""Two, of several parts."""
+
+_ROWS = 16
+"""Of a chunk with ZIP compression."""
+
+
+class PartsInTurn:
+    """A file that is being written; its bytes are those that `exr.write_parts` would write.
+
+    Parameters
+    ----------
+    stream : BinaryIO
+        At its begin.
+    shapes : mapping of str to (int, int)
+        Height and width of every part by its name, in order; each has the channels R, G and B.
+    attribute, text : str
+        Name of an attribute that the first part has, and a text as long as it will be.
+    """
+
+    def __init__(
+        self, stream: BinaryIO, shapes: Mapping[str, tuple[int, int]], attribute: str, text: str
+    ) -> None:
+        self._stream, self._attribute, self._text = stream, attribute, text
+        self._largest = np.max(list(shapes.values()), axis=0).tolist()
+        self._headers: list[dict[bytes, bytes]] = []
+        self._offsets: list[int] = []
+        # A part of one texel has a header as long
+        texel = np.zeros((1, 1, 3), np.float32)
+        headers = [self._packed(name, texel, number == 0)[0] for number, name in enumerate(shapes)]
+        chunks = sum(_chunk_count(height) for height, _ in shapes.values())
+        stream.seek(len(_headers_as_bytes(headers)) + 8 * chunks)
+
+    def add(self, name: str, pixels: Array) -> None:
+        """Write the next part.
+
+        Parameters
+        ----------
+        name : str
+        pixels : ndarray, shape (height, width, 3), float32 or float16
+            Row 0 at the bottom.
+
+        Raises
+        ------
+        OSError
+            The disk is full.
+        """
+        header, chunks = self._packed(name, pixels, not self._headers)
+        for chunk in chunks:
+            self._offsets.append(self._stream.tell())
+            self._stream.write(struct.pack("<i", len(self._headers)))
+            self._stream.write(chunk)
+        self._headers.append(header)
+
+    def finish(self, text: str) -> None:
+        """Write what stands before all parts, when they are there.
+
+        Parameters
+        ----------
+        text : str
+            The first part's attribute, as long as it was announced to be.
+
+        Raises
+        ------
+        OSError
+            The disk is full.
+        """
+        encoded = text.encode()
+        self._headers[0][self._attribute.encode()] = b"string\0" + struct.pack("<i", len(encoded)) + encoded
+        self._stream.seek(0)
+        self._stream.write(_headers_as_bytes(self._headers))
+        self._stream.write(np.array(self._offsets, "<u8").tobytes())
+
+    def _packed(self, name: str, pixels: Array, first: bool) -> tuple[dict[bytes, bytes], list[memoryview]]:
+        """A part's attributes by name, each with its type and size before it, and its chunks."""
+        channels = {channel: pixels[..., i] for i, channel in enumerate("RGB")}
+        file = packed(Part(name, channels, {self._attribute: self._text} if first else {}), self._largest)
+        header, at = {}, len(MAGIC + _VERSION)
+        while file[at]:
+            end_of_name = file.index(0, at)
+            end_of_type = file.index(0, end_of_name + 1)
+            end = end_of_type + 5 + int.from_bytes(file[end_of_type + 1 : end_of_type + 5], "little")
+            header[file[at:end_of_name]] = file[end_of_name + 1 : end]
+            at = end
+        count = _chunk_count(len(pixels))
+        header[b"chunkCount"] = b"int\0" + struct.pack("<ii", 4, count)
+        starts = [*struct.unpack_from(f"<{count}Q", file, at + 1), len(file)]
+        return header, [memoryview(file)[start:end] for start, end in itertools.pairwise(starts)]
+
+
+def _chunk_count(height: int) -> int:
+    return -(-height // _ROWS)
+
+
+def _headers_as_bytes(headers: list[dict[bytes, bytes]]) -> bytes:
+    """All that stands before the offsets of chunks; attributes are in the order of their names."""
+    ended = [b"".join(name + b"\0" + header[name] for name in sorted(header)) + b"\0" for header in headers]
+    return MAGIC + _VERSION + b"".join(ended) + b"\0"

@@ -128,11 +128,11 @@ def steps_held(most: float = math.inf) -> Iterator[list[str]]:
     stepwise = importlib.import_module(ROOT + ".operators.stepwise").Stepwise
     step, taken = stepwise._step, []
 
-    def held(operator: bpy.types.Operator, context: bpy.types.Context) -> set[str]:
+    def held(operator: bpy.types.Operator, *rest: object) -> set[str]:
         if len(taken) >= most:
             return {"RUNNING_MODAL"}
         taken.append(operator.bl_idname)
-        return step(operator, context)
+        return step(operator, *rest)
 
     stepwise._step = held
     try:

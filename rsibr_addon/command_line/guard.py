@@ -14,11 +14,15 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import NoReturn
 
+from ..files.memory import address_limit
 from ..files.staging import remove_own, staging_folder
 from . import endings
 
 PATIENCE_SECONDS = 0.6
 """Until a process that was asked to end is killed: a little longer than it takes itself."""
+
+BLENDER_ADDRESSES = 1.6e9
+"""Bytes of addresses that Blender takes before any work, most of which it never uses."""
 
 PR_SET_PDEATHSIG = 1
 """Of Linux's prctl: a signal for this process when its parent ends."""
@@ -110,4 +114,10 @@ def _crash(number: int) -> str:
     name = signal.Signals(number).name
     if number == signal.SIGKILL:
         return f"The system ended the process ({name}), as it does when memory is short: ask for less."
+    limit = address_limit()
+    if limit < BLENDER_ADDRESSES:
+        return (
+            f"Blender crashed ({name}), as it needs {BLENDER_ADDRESSES / 1e9:.1f} GB of addresses, and the "
+            f"limit is {limit / 1e9:.1f} GB: raise it (ulimit -v)."
+        )
     return f"Blender crashed ({name}): --verbose shows what it said."

@@ -23,6 +23,9 @@ from .maps import equirect
 from .ties import TIE
 from .zonal import ZonalLobe, ZonalSeries
 
+BYTES_BESIDES = 2e8
+"""Memory for harmonics and their grid, and for maps that are on their way into a file."""
+
 _CUT_SHARE = 0.5
 _LEAKAGE_SHARE = 0.25
 _TEXELS_ACROSS = 3.0
@@ -59,6 +62,23 @@ def analysis_degree(series: Sequence[ZonalSeries]) -> int:
 def resolved_width(height: int) -> float:
     """Width [rad] of the narrowest lobe that a map of so many rows is filtered with: three texels."""
     return _TEXELS_ACROSS * np.pi / height
+
+
+def bytes_needed(slices: int, points: int) -> float:
+    """Memory that it takes to filter three channels.
+
+    Parameters
+    ----------
+    slices, points : int
+        Numbers of lobes and of directions.
+
+    Returns
+    -------
+    float
+        For the maps, those of a few lobes once more, and the directions with their angles; what does not
+        depend on the points, `BYTES_BESIDES`, left out.
+    """
+    return 8.0 * points * (3 * slices + 3 * min(slices, 4) + 8)
 
 
 def prefilter(

@@ -9,7 +9,7 @@ from pathlib import Path
 from ..core.errors import RangeError
 
 
-def check_memory(needed: float, what: str, size: tuple[int, int]) -> None:
+def check_memory(needed: float, what: str, size: tuple[int, int], besides: float = 0.0) -> None:
     """Refuse work that this machine has not the memory for, before it begins.
 
     Parameters
@@ -20,13 +20,15 @@ def check_memory(needed: float, what: str, size: tuple[int, int]) -> None:
         What takes them, the subject of the sentence.
     size : tuple of int
         Width and height of the picture, in texels.
+    besides : float
+        Bytes that are needed whatever the size.
 
     Raises
     ------
     RangeError
         It does not fit; says which size does.
     """
-    left = memory_left()
+    left = max(0.0, memory_left() - besides)
     if needed > left:
         scale = math.sqrt(left / needed)
         fitting = "x".join(str(max(1, math.floor(side * scale))) for side in size)
@@ -58,16 +60,19 @@ def _machine() -> float:
     return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
 
 
-def _address_space() -> float:
+def address_limit() -> float:
+    """Bytes of addresses that a process may have, used or not; infinite where there is no limit."""
     if sys.platform == "win32":
         return math.inf
     import resource
 
     limit = resource.getrlimit(resource.RLIMIT_AS)[0]
+    return math.inf if limit == resource.RLIM_INFINITY else float(limit)
+
+
+def _address_space() -> float:
     pages = _lines(Path("/proc/self/statm"))
-    if limit == resource.RLIM_INFINITY or not pages:
-        return math.inf
-    return float(limit - int(pages[0].split()[0]) * os.sysconf("SC_PAGE_SIZE"))
+    return address_limit() - int(pages[0].split()[0]) * os.sysconf("SC_PAGE_SIZE") if pages else math.inf
 
 
 def _control_groups() -> Iterator[float]:

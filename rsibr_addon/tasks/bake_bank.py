@@ -5,10 +5,12 @@ from pathlib import Path
 
 from ..core.lobes.bake import BakedBank, bake_bank
 from ..core.lobes.stack import LAYOUTS, stack_representation
+from ..core.prefilter import BYTES_BESIDES
 from ..core.progress import Progress, Steps
 from ..files.atomic import check_target
 from ..files.kinds.kernel_bank import to_map_set
 from ..files.map_set import write_map_set
+from ..files.memory import check_memory
 from ..host.version import software
 from .environments import load_environment
 
@@ -72,7 +74,7 @@ def bake_environment(
     ------
     InputFileError, OutputFileError, SceneError, RenderError
     RangeError
-        The environment resolves no kernel.
+        The environment resolves no kernel, or the maps are too large for this machine's memory.
 
     Warns
     -----
@@ -82,7 +84,11 @@ def bake_environment(
     check_target(output, force)
     yield Progress(0, 1, "reading the environment")
     light = load_environment(environment, clamp)
-    baked = yield from bake_bank(light.radiance, settings.layout, settings.size)
+
+    def afford(needed: float, size: int) -> None:
+        check_memory(needed, str(output), (size, size), BYTES_BESIDES)
+
+    baked = yield from bake_bank(light.radiance, settings.layout, settings.size, afford)
     stated = {"layout": settings.layout, "size": settings.size}
     yield Progress(0, 1, f"writing {output.name}")
     write_map_set(output, to_map_set(baked, light, stated, software()), force)

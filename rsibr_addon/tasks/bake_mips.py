@@ -14,16 +14,21 @@ from ..core.maps.representation import representation
 from ..core.mip_chain import MipChain, check_roughness, check_size
 from ..core.mips.ggx import ROUGHNESS_RULES, ggx_mips
 from ..core.mips.texture_space import box_halved, filtered_mips, tent_halved
+from ..core.prefilter import BYTES_BESIDES, bytes_needed
 from ..core.progress import Progress, Steps
 from ..core.resample import resample
 from ..files.atomic import check_target
 from ..files.kinds.mip_chain import to_map_set
 from ..files.map_set import write_map_set
+from ..files.memory import check_memory
 from ..host.version import software
 from .environments import load_environment
 
 TEXTURE_SPACE = {"box": box_halved, "bordered": tent_halved}
 """Name of a filter that knows texels only -> how it halves a cube map."""
+
+MIPS_OF_TEXEL = 16
+"""Bytes of memory for each texel of the first mip: all mips in single precision."""
 
 FILTERS = (*TEXTURE_SPACE, "ggx")
 
@@ -109,7 +114,8 @@ def bake_mips(
     ------
     InputFileError, OutputFileError, SceneError, RenderError
     RangeError
-        A mip's lobe is narrower than the environment resolves.
+        A mip's lobe is narrower than the environment resolves, or the mips are too large for this machine's
+        memory.
 
     Warns
     -----
@@ -117,6 +123,13 @@ def bake_mips(
         See `core.environment.usable_radiance`.
     """
     check_target(output, force)
+    texels = 6 * settings.size**2
+    check_memory(
+        bytes_needed(1, texels) + MIPS_OF_TEXEL * texels,
+        str(output),
+        (settings.size, settings.size),
+        BYTES_BESIDES,
+    )
     total = settings.size.bit_length() + 2
     yield Progress(0, total, "reading the environment")
     light = load_environment(environment, clamp)

@@ -12,11 +12,13 @@ from ..core.lobes.accuracy import fit_errors
 from ..core.lobes.bake import BakedStack, bake_stack, sharpest_resolved
 from ..core.lobes.fit import Fit
 from ..core.lobes.stack import LAYOUTS, stack_representation
+from ..core.prefilter import BYTES_BESIDES
 from ..core.progress import Progress, Steps
 from ..files.atomic import check_target
 from ..files.fits import read_fit
 from ..files.kinds.lobe_stack import in_turn
 from ..files.map_set import write_map_set
+from ..files.memory import check_memory
 from ..host.version import software
 from .brdfs import load_brdf
 from .environments import load_environment
@@ -93,8 +95,8 @@ def bake_brdf(
     ------
     InputFileError, OutputFileError, SceneError, RenderError
     RangeError
-        The text describes no model; the environment resolves no kernel at all, or light is too bright for
-        half floats.
+        The text describes no model; the environment resolves no kernel at all, light is too bright for half
+        floats, or the maps are too large for this machine's memory.
 
     Warns
     -----
@@ -141,7 +143,8 @@ def bake_fit(
     ------
     InputFileError, OutputFileError, SceneError, RenderError
     RangeError
-        A lobe is narrower than the environment resolves, or light too bright for half floats.
+        A lobe is narrower than the environment resolves, light too bright for half floats, or the maps too
+        large for this machine's memory.
 
     Warns
     -----
@@ -177,7 +180,10 @@ def _resolved_fit(brdf: Brdf, fitting: FitSettings, light: Environment) -> Steps
 def _baked(
     light: Environment, fit: Fit, settings: StackSettings, output: Path, force: bool
 ) -> Steps[BakedStack]:
-    baked = yield from bake_stack(light.radiance, fit, settings.layout, settings.size)
+    def afford(needed: float, size: int) -> None:
+        check_memory(needed, str(output), (size, size), BYTES_BESIDES)
+
+    baked = yield from bake_stack(light.radiance, fit, settings.layout, settings.size, afford)
     size = baked.filtered.size
     if baked.interpolation > TOLD_INTERPOLATION:
         warnings.warn(

@@ -4,16 +4,21 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ..core.prefilter import BYTES_BESIDES, bytes_needed
 from ..core.progress import Progress, Steps
-from ..core.tables.bake import TableSizes, bake_tables
+from ..core.tables.bake import TableSizes, bake_tables, largest_rows
 from ..core.tables.material import material_from_texts
 from ..core.tables.weights import warn_of_table_gain
 from ..files.atomic import check_target
 from ..files.brdfs import read_measured
 from ..files.kinds.reflection_tables import to_map_set
 from ..files.map_set import write_map_set
+from ..files.memory import check_memory
 from ..host.version import software
 from .environments import load_environment
+
+TABLE_OF_TEXEL = 12
+"""Bytes of memory for each texel of a table in single precision."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +73,8 @@ def bake_table_set(
     ------
     InputFileError, OutputFileError, SceneError
     RangeError
-        The material is none, or a lobe narrower than the environment resolves.
+        The material is none, a lobe narrower than the environment resolves, or a table too large for this
+        machine's memory.
 
     Warns
     -----
@@ -80,6 +86,10 @@ def bake_table_set(
     warn_of_table_gain(material)
     yield Progress(0, 1, "reading the environment")
     light = load_environment(environment, clamp)
+    rows = largest_rows(material, settings.sizes, len(light.radiance))
+    texels = 2 * rows**2
+    needed = bytes_needed(1, texels) + TABLE_OF_TEXEL * len(material.roles) * texels
+    check_memory(needed, str(output), (2 * rows, rows), BYTES_BESIDES)
     baked = yield from bake_tables(light.radiance, material, settings.sizes, settings.exact)
     map_set = to_map_set(
         baked.tables,

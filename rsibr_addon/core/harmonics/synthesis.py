@@ -14,6 +14,7 @@ OVERSAMPLING = 1.2
 
 _RINGS_AT_ONCE = 8
 _GATHERED_BYTES = 2**20
+_POINTS_AT_ONCE = 2**16
 
 
 def grid_rows(degree: int) -> int:
@@ -50,7 +51,10 @@ def synthesise(
     varying = gains.copy()
     varying[:, 0] = 0.0
     grid = _grid(_ring_functions(harmonics, varying, rows, kernel), degree, kernel.width // 2 + 1)
-    values = _interpolate(grid, theta * (rows / np.pi), phi * (rows / np.pi), kernel)
+    values = np.empty((len(theta), slices * channels))
+    for start in range(0, len(theta), _POINTS_AT_ONCE):
+        part = slice(start, start + _POINTS_AT_ONCE)
+        _interpolate(grid, theta[part] * (rows / np.pi), phi[part] * (rows / np.pi), kernel, values[part])
     mean = harmonics.by_order[0][0].real * np.sqrt(0.25 / np.pi)
     found: Array = values.reshape(-1, slices, channels)
     found += gains[:, 0, None] * mean
@@ -184,8 +188,8 @@ def _grid(functions: Complex, degree: int, border: int) -> Array:
     return grid
 
 
-def _interpolate(grid: Array, row: Array, column: Array, kernel: Kernel) -> Array:
-    """Sum of grid points weighted with the kernel.
+def _interpolate(grid: Array, row: Array, column: Array, kernel: Kernel, values: Array) -> None:
+    """Sum grid points weighted with the kernel.
 
     Parameters
     ----------
@@ -194,10 +198,8 @@ def _interpolate(grid: Array, row: Array, column: Array, kernel: Kernel) -> Arra
     row, column : ndarray, shape (points,)
         Colatitude and longitude in grid steps.
     kernel : Kernel
-
-    Returns
-    -------
-    ndarray, shape (points, columns)
+    values : ndarray, shape (points, columns)
+        Receives the sums.
     """
     width = kernel.width
     border = width // 2 + 1
@@ -207,7 +209,6 @@ def _interpolate(grid: Array, row: Array, column: Array, kernel: Kernel) -> Arra
     corner = (first_row + border) * grid.shape[1] + first_column + border
     neighbours = (taps[:, None] * grid.shape[1] + taps).ravel()
     points = grid.reshape(-1, grid.shape[-1])
-    values = np.empty((len(row), grid.shape[-1]))
     chunk = max(1, _GATHERED_BYTES // (8 * width**2 * grid.shape[-1]))
     gathered = np.empty((chunk, width**2, grid.shape[-1]))
     for start in range(0, len(row), chunk):
@@ -217,7 +218,6 @@ def _interpolate(grid: Array, row: Array, column: Array, kernel: Kernel) -> Arra
         # The indices are within the grid; mode "clip" only spares take a copy.
         np.take(points, corner[part, None] + neighbours, axis=0, out=gathered[:count], mode="clip")
         np.matmul(weights.reshape(count, 1, -1), gathered[:count], out=values[part, None])
-    return values
 
 
 def _taps(position: Array, kernel: Kernel) -> tuple[Indices, Array]:

@@ -1,6 +1,6 @@
 """From an environment to a bank of maps, one for each kernel; and to a fit's stack, summed from one."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,7 +9,7 @@ from ..conventions import Array
 from ..errors import RangeError
 from ..harmonics.analysis import analyse_environment
 from ..harmonics.coefficients import EnvironmentHarmonics
-from ..prefilter import analysis_degree, prefilter, resolved_width
+from ..prefilter import analysis_degree, bytes_needed, prefilter, resolved_width
 from ..progress import Progress, Steps
 from ..ties import TIE
 from ..zonal import TOLERANCE, ZonalSeries, expand
@@ -28,6 +28,13 @@ ALLOWED_OF_A_KERNEL = 0.05
 """What they may cost a bank's sharpest kernel: in a material's lobes it is the small tip of the peak."""
 
 _SHARPEST_BY_TEXELS = 0.25
+
+Afford = Callable[[float, int], None]
+"""Told, before maps are made, how many bytes of memory that takes, and their width; raises to prevent it."""
+
+
+def _at_any_cost(needed: float, size: int) -> None:
+    pass
 
 
 @dataclass(frozen=True)
@@ -101,7 +108,7 @@ def sharpest_resolved(height: int) -> float:
     return resolved[-1]
 
 
-def bake_bank(radiance: Array, layout: str, size: int) -> Steps[BakedBank]:
+def bake_bank(radiance: Array, layout: str, size: int, afford: Afford = _at_any_cost) -> Steps[BakedBank]:
     """Filter an environment with every kernel that environment and maps resolve.
 
     Parameters
@@ -112,6 +119,8 @@ def bake_bank(radiance: Array, layout: str, size: int) -> Steps[BakedBank]:
         One of `stack.LAYOUTS`.
     size : int
         Width of the maps in texels.
+    afford : callable
+        See `Afford`.
 
     Yields
     ------
@@ -134,12 +143,15 @@ def bake_bank(radiance: Array, layout: str, size: int) -> Steps[BakedBank]:
     harmonics = analyse_environment(radiance, analysis_degree(series))
     costs = [_interpolation(_curvature_of_kernel(lobe, harmonics), layout, size) for lobe in series]
     count = max(sum(cost <= ALLOWED_OF_A_KERNEL for cost in costs), 1)
+    afford(_bytes(count, layout, size), size)
     yield Progress(1, 2, f"filtering {count} maps of {size} texels")
     bank = KernelBank(bank.concentrations[:count])
     return BakedBank(_filtered(harmonics, bank, series[:count], layout, size), tuple(costs[:count]))
 
 
-def bake_stack(radiance: Array, fit: Fit, layout: str, size: int | None = None) -> Steps[BakedStack]:
+def bake_stack(
+    radiance: Array, fit: Fit, layout: str, size: int | None = None, afford: Afford = _at_any_cost
+) -> Steps[BakedStack]:
     """Filter an environment with every lobe of a fit.
 
     Parameters
@@ -152,6 +164,8 @@ def bake_stack(radiance: Array, fit: Fit, layout: str, size: int | None = None) 
     size : int, optional
         Width of the maps in texels; by default the first of `SIZES` that `ALLOWED_INTERPOLATION` allows,
         or else the last.
+    afford : callable
+        See `Afford`.
 
     Yields
     ------
@@ -177,12 +191,19 @@ def bake_stack(radiance: Array, fit: Fit, layout: str, size: int | None = None) 
         size = next(
             (n for n in SIZES if _interpolation(curvature, layout, n) <= ALLOWED_INTERPOLATION), SIZES[-1]
         )
+    afford(_bytes(len(bank), layout, size), size)
     yield Progress(1, 2, f"filtering {fit.weights.shape[0] * fit.weights.shape[1]} maps of {size} texels")
     try:
         filtered = _filtered(harmonics, bank, series, layout, size)
     except RangeError as error:
         raise RangeError(f"The fit has lobes that this environment is too coarse for. {error}") from error
     return BakedStack(filtered, fit, _interpolation(curvature, layout, size))
+
+
+def _bytes(kernels: int, layout: str, size: int) -> float:
+    """Memory for a filtered bank, also in single precision as it is written."""
+    texels = int(np.prod(stack_representation(layout, size).shape(size)))
+    return bytes_needed(kernels, texels) + 12.0 * kernels * texels
 
 
 def _expanded(bank: KernelBank) -> list[ZonalSeries]:

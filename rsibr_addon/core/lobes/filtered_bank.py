@@ -65,7 +65,7 @@ class FilteredBank:
         return self.bank.concentrations[-1]
 
 
-AT_ONCE = 2**26
+AT_ONCE = 2**24
 """Bytes of maps in double precision that are summed together."""
 
 
@@ -131,9 +131,9 @@ def maps_from_bank(filtered: FilteredBank, fit: Fit) -> Iterator[Array]:
     channels = [
         np.ascontiguousarray(of_kernels[..., channel].reshape(len(picked), -1)) for channel in range(3)
     ]
-    step = max(1, AT_ONCE // channels[0][0].nbytes)
-    for start in range(0, len(weights), step):
-        part = weights[start : start + step]
+    # Not one by one, because a row alone is summed in another order
+    step = max(2, AT_ONCE // channels[0][0].nbytes)
+    for part in np.array_split(weights, max(1, len(weights) // step)):
         maps = np.empty((len(part), *filtered.maps.shape[1:]), dtype=np.float32)
         for channel, of_channel in enumerate(channels):
             # A product of matrices, which is much faster than a sum over indices

@@ -100,6 +100,17 @@ def lobe_rows(n: float, environment_rows: int) -> int:
     return min(max(rows, DIFFUSE_ROWS), max(environment_rows, DIFFUSE_ROWS))
 
 
+def largest_rows(material: TableMaterial, sizes: TableSizes, environment_rows: int) -> int:
+    """Of all tables of a material."""
+    rows = [sizes.diffuse] if Role.DIFFUSE in material.roles else []
+    for model in material.lobes.values():
+        if isinstance(model, MirrorTable):
+            rows.append(sizes.others or environment_rows)
+        else:
+            rows.append(sizes.others or lobe_rows(model.n, environment_rows))
+    return max(rows)
+
+
 def bake_tables(
     radiance: Array, material: TableMaterial, sizes: TableSizes, exact: bool = False
 ) -> Steps[BakedTables]:

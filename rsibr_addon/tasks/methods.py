@@ -12,6 +12,7 @@ from ..core.brdf.lambert import Lambert
 from ..core.brdf.spec import MEASURED, brdf_from_spec
 from ..core.errors import InputFileError
 from ..core.lobes.bake import SIZES
+from ..core.prefilter import BYTES_BESIDES, bytes_needed
 
 BLENDER_MEMORY = 350e6
 """Bytes that a background Blender takes with a small file, before any work."""
@@ -33,6 +34,9 @@ RGB = 3 * 4
 
 TEXELS_BY_ALPHA = 38.0
 """Width of a map times its lobe's width alpha, as bakes choose it: of Blender's `forest`."""
+
+KERNELS = 12
+"""That the lobes of a fit are sums of."""
 
 LOBE_SIZE = 128
 """Of a map, where nothing is known of the lobes."""
@@ -189,7 +193,7 @@ class Lobes:
         stored = 0.2 if self.half else STORED
         return Cost(
             BLENDER_SECONDS + measuring + fitting + filtering,
-            BLENDER_MEMORY + 100e6 + 4 * maps,
+            BLENDER_MEMORY + BYTES_BESIDES + bytes_needed(KERNELS, 2 * (self.size or size) ** 2),
             stored * maps + STORED * ENVIRONMENT_TEXELS * RGB,
         )
 
@@ -238,7 +242,7 @@ class Tables:
         diffuse = 3e-4 * self.diffuse_rows**2
         return Cost(
             BLENDER_SECONDS + 0.5 + diffuse + 1.5e-7 * maps,
-            BLENDER_MEMORY + 200e6 + 4 * maps,
+            BLENDER_MEMORY + BYTES_BESIDES + bytes_needed(1, 2 * (self.rows or 512) ** 2) + maps,
             STORED * (maps + ENVIRONMENT_TEXELS * RGB),
         )
 
@@ -277,7 +281,7 @@ class Mips:
         filtering = 1.0 + 5e-8 * maps if self.filter == "ggx" else 0.5
         return Cost(
             BLENDER_SECONDS + filtering,
-            BLENDER_MEMORY + 200e6 + 6 * maps,
+            BLENDER_MEMORY + BYTES_BESIDES + bytes_needed(1, 6 * self.size**2) + maps,
             STORED * (maps + ENVIRONMENT_TEXELS * RGB),
         )
 
@@ -307,10 +311,11 @@ class Bank:
 
     def cost(self) -> Cost:
         """See `Method`; two paraboloids for each kernel, two kernels more when maps are twice as wide."""
-        maps = 2 * log2(self.size) * 2 * self.size**2 * RGB
+        kernels, texels = int(2 * log2(self.size)), 2 * self.size**2
+        maps = kernels * texels * RGB
         return Cost(
             BLENDER_SECONDS + 0.5 + 1e-7 * maps,
-            BLENDER_MEMORY + 100e6 + 6 * maps,
+            BLENDER_MEMORY + BYTES_BESIDES + bytes_needed(kernels, texels) + maps,
             STORED * (maps + ENVIRONMENT_TEXELS * RGB),
         )
 

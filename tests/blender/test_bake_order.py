@@ -71,7 +71,8 @@ def test_better_costs_more(kind: str) -> None:
         costs.append(order().method.cost())
     for less, more in itertools.pairwise(costs):
         assert less.processor_seconds < more.processor_seconds
-        assert less.memory < more.memory
+        # More maps of a lobe stack take no more: they are made one after another
+        assert less.memory < more.memory or (kind == "lobe_stack" and less.memory == more.memory)
         assert less.disk < more.disk
 
 

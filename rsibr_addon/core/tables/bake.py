@@ -151,7 +151,7 @@ def bake_tables(
     for role, model in material.lobes.items():
         yield Progress(len(maps) + 1, count, f"making the {role} table")
         if isinstance(model, MirrorTable):
-            maps[role] = _mirror_table(radiance, model, sizes.others).astype(np.float32)
+            maps[role] = _mirror_table(radiance, model, sizes.others)
             continue
         rows = sizes.others or lobe_rows(model.n, len(radiance))
         try:
@@ -186,7 +186,8 @@ def _mirror_table(radiance: Array, model: MirrorTable, rows: int | None) -> Arra
     if rows is not None and rows != len(radiance):
         layout = representation("equirect")
         radiance = resample(radiance[None], layout, layout, 2 * rows)[0]
-    table: Array = model.gain * radiance
+    # As large as the environment: not in double precision
+    table: Array = np.multiply(radiance, model.gain, dtype=np.float32, casting="same_kind")
     return table
 
 

@@ -52,6 +52,8 @@ def told(blender: Blender, job: Path) -> Callable[[str], dict]:
     for source, folder in (("in_window.py", job), ("xshot.py", job), ("held.py", scripts)):
         shutil.copy(here / source, folder)
     (job / "hold").unlink(missing_ok=True)
+    for left in list(job.glob("user/**/*.partial")):  # holds count the views of all captures
+        shutil.rmtree(left)
 
     def run(scenario: str) -> dict:
         script = (

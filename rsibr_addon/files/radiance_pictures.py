@@ -12,7 +12,7 @@ from .picture_facts import PictureFacts
 from .pictures import describe_exr, read_exr, split_layer
 from .reading import opened
 
-NEITHER = "is neither OpenEXR nor Radiance HDR: convert it to one of them."
+NEITHER = "is neither OpenEXR nor Radiance HDR: give one, or make light of photographs by rsibr illuminate."
 
 
 def holds_radiance(path: str | Path) -> bool:

@@ -46,7 +46,7 @@ def test_the_content_tells_the_format(tmp_path: Path, name: str) -> None:
 def test_what_is_no_picture_of_radiance_is_refused(tmp_path: Path, content: bytes) -> None:
     path = tmp_path / "a.exr"
     path.write_bytes(content)
-    with pytest.raises(InputFileError, match=r"a\.exr is neither OpenEXR nor Radiance HDR: give one of"):
+    with pytest.raises(InputFileError, match=r"a\.exr is neither OpenEXR nor Radiance HDR: give one"):
         read_environment(path)
 
 

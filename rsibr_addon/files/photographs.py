@@ -1,6 +1,7 @@
 """Pictures that are not radiance yet, JPEG, PNG and others: the one module that knows OpenImageIO."""
 
 import contextlib
+import functools
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -8,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import OpenImageIO  # type: ignore[import-not-found, unused-ignore]  # checked where it is installed
 
 from ..core.conventions import Array
 from ..core.errors import InputFileError, RsibrWarning
@@ -138,7 +138,7 @@ def read_photograph(path: str | Path) -> Photograph:
         _tell_of_the_unused(path, notes, head)
         numbers = spec.nchannels * spec.channel_bytes() + BYTES_OF_LIGHT
         check_memory(float(spec.width * spec.height * numbers), str(path), (spec.width, spec.height))
-        kind = {OpenImageIO.UINT8: "uint8", OpenImageIO.UINT16: "uint16"}
+        kind = {_library().UINT8: "uint8", _library().UINT16: "uint16"}
         pixels = source.read_image(0, 0, 0, spec.nchannels, kind.get(spec.format.basetype, "float"))
         if pixels is None or source.has_error:
             raise InputFileError(
@@ -188,12 +188,12 @@ def _picture(
     if Path(path).suffix.lower() in RAW:
         raise InputFileError(f"{path} is a camera's raw file: {DEVELOP}")
     with opened(path):
-        hints = OpenImageIO.ImageSpec()
+        hints = _library().ImageSpec()
         hints.attribute("oiio:UnassociatedAlpha", 1)  # colours as they are stored
         with unheard():
-            source = OpenImageIO.ImageInput.open(str(path), hints)
+            source = _library().ImageInput.open(str(path), hints)
             if source is None or source.format_name() not in formats:
-                reason = _reason(OpenImageIO.geterror()) if source is None else source.format_name()
+                reason = _reason(_library().geterror()) if source is None else source.format_name()
                 raise InputFileError(
                     f"{path} cannot be read as a picture ({reason}): check the file, or save it as PNG."
                 )
@@ -234,7 +234,7 @@ def _encoding(path: str | Path, spec: Any, notes: dict[str, Any], head: bytes) -
                 f"sRGB."
             )
             return named_encoding("srgb_rec709")
-    floats = spec.format.basetype in (OpenImageIO.HALF, OpenImageIO.FLOAT, OpenImageIO.DOUBLE)
+    floats = spec.format.basetype in (_library().HALF, _library().FLOAT, _library().DOUBLE)
     name = notes.get("oiio:ColorSpace", "lin_rec709" if floats else "srgb_rec709")
     if name.startswith(("pq_", "hlg_")):
         raise InputFileError(f"{path} is encoded for HDR displays ({name}): save it as OpenEXR.")
@@ -269,3 +269,11 @@ def _tell_of_the_unused(path: str | Path, notes: dict[str, Any], head: bytes) ->
 
 def _warn(sentence: str) -> None:
     warnings.warn(sentence, RsibrWarning, stacklevel=4)
+
+
+@functools.cache
+def _library() -> Any:
+    """OpenImageIO: it takes a tenth of a second to import, which pictures of radiance need not wait for."""
+    import OpenImageIO  # type: ignore[import-not-found, unused-ignore]  # checked where it is installed
+
+    return OpenImageIO

@@ -97,13 +97,13 @@ def test_a_module_stays_readable(path: Path) -> None:
     assert "utils" not in "".join(dotted_name(path))
 
 
-def test_everything_but_blenders_layers_imports_without_blender() -> None:
+def test_everything_but_blenders_layers_imports_without_blender_and_photographs() -> None:
     modules = [
         ".".join(("rsibr", *dotted_name(path))).removesuffix(".__init__")
         for path in MODULES
         if layer_of(dotted_name(path)) in {"core", "job", "files", "command_line", "registration", "__init__"}
     ]
-    hidden = "import sys; sys.modules.update(bpy=None, gpu=None, mathutils=None)\n"
+    hidden = "import sys; sys.modules.update(bpy=None, gpu=None, mathutils=None, OpenImageIO=None)\n"
     script = hidden + "".join(f"import {module}\n" for module in modules)
     run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stderr

@@ -25,7 +25,7 @@ from rsibr.rsibr_addon.core.lobes.target import elevation_slices, target_slices
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.brdfs import brdf_from_spec
 from rsibr.rsibr_addon.files.plots import Curve, line_plot
-from rsibr.rsibr_addon.tasks.fit_plots import lobe_plot
+from rsibr.rsibr_addon.tasks.reflectance.fit_plots import lobe_plot
 
 COPPER = "ggx:alpha=0.3,eta=0.2/0.924/1.102,k=3.912/2.452/2.142"
 WARD = "ward:alpha=0.04,ks=0.8"

@@ -13,29 +13,29 @@ import numpy as np
 from docs_table import write_table
 from rsibr.rsibr_addon.core.brdf.model import Brdf
 from rsibr.rsibr_addon.core.conventions import Array, texel_centres
-from rsibr.rsibr_addon.core.directions import camera_frame, dot, reflect
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import RsibrWarning
-from rsibr.rsibr_addon.core.geodesic import geodesic_sphere
-from rsibr.rsibr_addon.core.harmonics.analysis import analyse_environment
-from rsibr.rsibr_addon.core.lit_sphere import environment_about, lit_spheres, ring_radiance
+from rsibr.rsibr_addon.core.filtering.harmonics.analysis import analyse_environment
+from rsibr.rsibr_addon.core.filtering.prefilter import analysis_degree, prefilter
+from rsibr.rsibr_addon.core.filtering.zonal import expand
+from rsibr.rsibr_addon.core.geometry.directions import camera_frame, dot, reflect
+from rsibr.rsibr_addon.core.geometry.geodesic import geodesic_sphere
+from rsibr.rsibr_addon.core.geometry.lit_sphere import environment_about, lit_spheres, ring_radiance
+from rsibr.rsibr_addon.core.kinds.lobe_stack.shading import StackLook
+from rsibr.rsibr_addon.core.kinds.lobe_stack.stack import LAYOUTS, LobeStack
+from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Warping, views_fragment
+from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
 from rsibr.rsibr_addon.core.lobes.bake import bake_stack
 from rsibr.rsibr_addon.core.lobes.fit import Fit, lobe_axes
 from rsibr.rsibr_addon.core.lobes.layers import layered_fit
-from rsibr.rsibr_addon.core.lobes.stack import LAYOUTS, LobeStack
 from rsibr.rsibr_addon.core.lobes.target import elevation_slices
 from rsibr.rsibr_addon.core.maps import sphere_map
-from rsibr.rsibr_addon.core.prefilter import analysis_degree, prefilter
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.core.radiance_views import RadianceViews
-from rsibr.rsibr_addon.core.shading.lobe_stack import StackLook
-from rsibr.rsibr_addon.core.shading.radiance_views import Warping, views_fragment
-from rsibr.rsibr_addon.core.zonal import expand
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.context import ensure_context
-from rsibr.rsibr_addon.device.lobe_stack import elevation_texels, map_texels
+from rsibr.rsibr_addon.device.kinds.lobe_stack import elevation_texels, map_texels
 from rsibr.rsibr_addon.files.brdfs import brdf_from_spec
-from rsibr.rsibr_addon.tasks.environments import load_environment
+from rsibr.rsibr_addon.tasks.light.environments import load_environment
 from rsibr.tests.glsl.evaluation import evaluate
 from split_sum import split_sum
 

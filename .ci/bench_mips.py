@@ -16,11 +16,11 @@ import OpenEXR
 from bench_prefilter import cpu_seconds, environment
 from docs_table import write_table
 from rsibr.rsibr_addon.core.conventions import Array, texel_centres
+from rsibr.rsibr_addon.core.filtering.prefilter import prefilter_exact
+from rsibr.rsibr_addon.core.filtering.radial_lobes import ggx_n_dot_l_lobe
+from rsibr.rsibr_addon.core.kinds.mip_chain.ggx import ggx_mips, linear_roughness, quadratic_roughness
 from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.core.maps.representation import representation
-from rsibr.rsibr_addon.core.mips.ggx import ggx_mips, linear_roughness, quadratic_roughness
-from rsibr.rsibr_addon.core.prefilter import prefilter_exact
-from rsibr.rsibr_addon.core.radial_lobes import ggx_n_dot_l_lobe
 
 SIZE = 256
 ROUGHNESS = quadratic_roughness(5)

@@ -18,12 +18,17 @@ from pathlib import Path
 import numpy as np
 from docs_table import write_table
 from rsibr.rsibr_addon.core.conventions import Array
-from rsibr.rsibr_addon.core.harmonics.analysis import analyse_environment
-from rsibr.rsibr_addon.core.irradiance import irradiance_exact
+from rsibr.rsibr_addon.core.filtering.harmonics.analysis import analyse_environment
+from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_exact
+from rsibr.rsibr_addon.core.filtering.prefilter import (
+    Prefiltered,
+    analysis_degree,
+    prefilter,
+    prefilter_exact,
+)
+from rsibr.rsibr_addon.core.filtering.radial_lobes import ggx_lobe
+from rsibr.rsibr_addon.core.filtering.zonal import ZonalLobe, expand
 from rsibr.rsibr_addon.core.maps.representation import representation
-from rsibr.rsibr_addon.core.prefilter import Prefiltered, analysis_degree, prefilter, prefilter_exact
-from rsibr.rsibr_addon.core.radial_lobes import ggx_lobe
-from rsibr.rsibr_addon.core.zonal import ZonalLobe, expand
 from rsibr.rsibr_addon.files.environments import read_environment
 
 ENVIRONMENT = "interior"

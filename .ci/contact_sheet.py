@@ -5,7 +5,7 @@ from pathlib import Path
 
 from rsibr.rsibr_addon.files.pictures import read_exr
 from rsibr.rsibr_addon.host.pictures import save_png
-from rsibr.rsibr_addon.tasks.contact_sheet import contact_sheet
+from rsibr.rsibr_addon.tasks.compare.contact_sheet import contact_sheet
 
 output, columns, stops, *previews = sys.argv[1:]
 sheet = contact_sheet([read_exr(preview) for preview in previews], int(columns))

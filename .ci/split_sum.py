@@ -9,12 +9,12 @@ from rsibr.rsibr_addon.core.brdf.albedo import directional_albedo
 from rsibr.rsibr_addon.core.brdf.lambert import Lambert
 from rsibr.rsibr_addon.core.brdf.model import Brdf
 from rsibr.rsibr_addon.core.conventions import Array
-from rsibr.rsibr_addon.core.directions import dot, reflect
-from rsibr.rsibr_addon.core.harmonics.analysis import analyse_environment
-from rsibr.rsibr_addon.core.irradiance import irradiance_exact
-from rsibr.rsibr_addon.core.prefilter import analysis_degree, prefilter
-from rsibr.rsibr_addon.core.radial_lobes import ggx_n_dot_l_lobe
-from rsibr.rsibr_addon.core.zonal import expand
+from rsibr.rsibr_addon.core.filtering.harmonics.analysis import analyse_environment
+from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_exact
+from rsibr.rsibr_addon.core.filtering.prefilter import analysis_degree, prefilter
+from rsibr.rsibr_addon.core.filtering.radial_lobes import ggx_n_dot_l_lobe
+from rsibr.rsibr_addon.core.filtering.zonal import expand
+from rsibr.rsibr_addon.core.geometry.directions import dot, reflect
 
 ELEVATIONS = np.linspace(0.005, 1.0, 200)
 TOLERANCE = 1e-4

@@ -1,4 +1,4 @@
-// Twin of core/shading/environment.py `mirrored_environment`.
+// Twin of core/kinds/environment.py `mirrored_environment`.
 #include "lib/directions_lib.glsl"
 #include "lib/draw_lib.glsl"
 #include "lib/footprint_lib.glsl"

@@ -1,4 +1,4 @@
-// Twin of core/shading/lobe_stack.py `stack_radiance`.
+// Twin of core/kinds/lobe_stack/shading.py `stack_radiance`.
 #include "lib/draw_lib.glsl"
 #include "lib/lobe_stack_lib.glsl"
 

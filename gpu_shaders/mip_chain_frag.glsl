@@ -1,4 +1,4 @@
-// Twin of core/shading/mip_chain.py `mip_chain_radiance`: [Kautz2004] Eq. 8 in one pass. LIVE: the
+// Twin of core/kinds/mip_chain/shading.py `mip_chain_radiance`: [Kautz2004] Eq. 8 in one pass. LIVE: the
 // harmonics lie on the GPU, where they were summed.
 #include "lib/directions_lib.glsl"
 #include "lib/draw_lib.glsl"

@@ -1,4 +1,4 @@
-// Twin of core/shading/reflection_tables.py `reflect_tables`.
+// Twin of core/kinds/reflection_tables/shading.py `reflect_tables`.
 #include "lib/directions_lib.glsl"
 #include "lib/draw_lib.glsl"
 #include "lib/footprint_lib.glsl"

@@ -1,4 +1,4 @@
-// Twin of core/shading `destination_lookup`: shades from the sphere map of one view.
+// Twin of core/kinds `destination_lookup`: shades from the sphere map of one view.
 #include "lib/draw_lib.glsl"
 #include "lib/footprint_lib.glsl"
 #include "lib/radiance_views_lib.glsl"

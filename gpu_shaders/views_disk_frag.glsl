@@ -1,4 +1,4 @@
-// Twin of core/shading `destination_by_mesh`, second half: the sources blended at the places
+// Twin of core/kinds `destination_by_mesh`, second half: the sources blended at the places
 // interpolated over the disk.
 #include "lib/radiance_views_lib.glsl"
 

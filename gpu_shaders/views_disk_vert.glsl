@@ -1,4 +1,4 @@
-// Twin of core/shading `destination_by_mesh`, first half: at each vertex of the tessellated disk,
+// Twin of core/kinds `destination_by_mesh`, first half: at each vertex of the tessellated disk,
 // where every source shows its central direction, and at which cosine. The sources are the same at all.
 #include "lib/geodesic_lib.glsl"
 #include "lib/radiance_views_lib.glsl"

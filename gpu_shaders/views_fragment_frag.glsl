@@ -1,4 +1,4 @@
-// Twin of core/shading `views_fragment`: every fragment finds and blends its own three views.
+// Twin of core/kinds `views_fragment`: every fragment finds and blends its own three views.
 #include "lib/draw_lib.glsl"
 #include "lib/footprint_lib.glsl"
 #include "lib/geodesic_lib.glsl"

@@ -1,4 +1,4 @@
-// Twin of core/shading `destination_by_texel`: the destination map, warped per texel.
+// Twin of core/kinds `destination_by_texel`: the destination map, warped per texel.
 #include "lib/geodesic_lib.glsl"
 #include "lib/radiance_views_lib.glsl"
 

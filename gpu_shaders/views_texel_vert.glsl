@@ -1,4 +1,4 @@
-// Twin of core/shading `destination_by_texel`, what it does once: one triangle that holds the whole map,
+// Twin of core/kinds `destination_by_texel`, what it does once: one triangle that holds the whole map,
 // and the three sources around the view.
 #include "lib/geodesic_lib.glsl"
 

@@ -3,7 +3,7 @@
 import bpy
 
 from ..rsibr_addon.host.map_sets import remember_content
-from ..rsibr_addon.tasks.viewport import previews
+from ..rsibr_addon.tasks.viewport.previews import previews
 
 
 class RSIBR_OT_accept(bpy.types.Operator):

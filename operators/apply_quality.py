@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..rsibr_addon.tasks.methods import QUALITIES
+from ..rsibr_addon.tasks.methods.methods import QUALITIES
 
 
 class RSIBR_OT_apply_quality(bpy.types.Operator):

@@ -6,7 +6,7 @@ import bpy
 
 from ..rsibr_addon.core.progress import Steps
 from ..rsibr_addon.files.map_pictures import layout
-from ..rsibr_addon.tasks.illuminate_faces import illuminate_from_faces
+from ..rsibr_addon.tasks.light.faces import illuminate_from_faces
 from .from_pictures import EnvironmentSize, FromPictures
 
 

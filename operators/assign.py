@@ -5,7 +5,7 @@ from pathlib import Path
 import bpy
 
 from ..rsibr_addon.host.map_sets import stored_path
-from ..rsibr_addon.tasks.kinds import kind_of
+from ..rsibr_addon.tasks.methods.kinds import kind_of
 from .reporting import reporting
 
 

@@ -6,9 +6,9 @@ import bpy
 
 from ..rsibr_addon.host.bake_settings import assign
 from ..rsibr_addon.host.sidebars import redraw_sidebars
-from ..rsibr_addon.tasks.background import BakeQueue, State
-from ..rsibr_addon.tasks.bake_order import ObjectBake, is_baked
-from ..rsibr_addon.tasks.viewport import previews
+from ..rsibr_addon.tasks.queue.background import BakeQueue, State
+from ..rsibr_addon.tasks.queue.bake_request import ObjectBake, is_baked
+from ..rsibr_addon.tasks.viewport.previews import previews
 
 SECONDS = 0.2
 """Between two looks."""

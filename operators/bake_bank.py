@@ -5,7 +5,7 @@ from pathlib import Path
 import bpy
 
 from ..rsibr_addon.core.progress import drain
-from ..rsibr_addon.tasks.bake_bank import BankSettings, bake_environment
+from ..rsibr_addon.tasks.methods.kernel_bank import BankSettings, bake_environment
 from .reporting import reporting
 
 

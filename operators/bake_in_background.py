@@ -4,8 +4,8 @@ import bpy
 
 from ..rsibr_addon.core.errors import RsibrError
 from ..rsibr_addon.host.bake_settings import assign
-from ..rsibr_addon.tasks.bake_order import bake_of, is_baked, order_for, output_for
-from ..rsibr_addon.tasks.map_set_facts import map_set_content
+from ..rsibr_addon.tasks.queue.bake_request import bake_of, is_baked, order_for, output_for
+from ..rsibr_addon.tasks.report.facts import map_set_content
 from . import background
 from .reporting import reporting
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import bpy
 
 from ..rsibr_addon.core.progress import drain
-from ..rsibr_addon.tasks.bake_mips import MipSettings, bake_mips
+from ..rsibr_addon.tasks.methods.mip_chain import MipSettings, bake_mips
 from .reporting import reporting
 
 

@@ -5,8 +5,8 @@ from pathlib import Path
 import bpy
 
 from ..rsibr_addon.core.progress import drain
-from ..rsibr_addon.tasks.bake_stack import StackSettings, bake_brdf
-from ..rsibr_addon.tasks.fit_lobes import FitSettings
+from ..rsibr_addon.tasks.methods.lobe_stack import StackSettings, bake_brdf
+from ..rsibr_addon.tasks.reflectance.fit_lobes import FitSettings
 from .reporting import reporting
 
 

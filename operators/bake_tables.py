@@ -4,10 +4,10 @@ from pathlib import Path
 
 import bpy
 
+from ..rsibr_addon.core.kinds.reflection_tables.bake import DIFFUSE_ROWS, LARGEST, TableSizes
+from ..rsibr_addon.core.kinds.reflection_tables.material import PARTS, PRESETS, preset
 from ..rsibr_addon.core.progress import drain
-from ..rsibr_addon.core.tables.bake import DIFFUSE_ROWS, LARGEST, TableSizes
-from ..rsibr_addon.core.tables.material import PARTS, PRESETS, preset
-from ..rsibr_addon.tasks.bake_tables import TableSettings, bake_table_set
+from ..rsibr_addon.tasks.methods.reflection_tables import TableSettings, bake_table_set
 from .reporting import reporting
 
 NO_PRESET = "none"

@@ -6,8 +6,8 @@ import bpy
 
 from ..rsibr_addon.core.errors import SceneError
 from ..rsibr_addon.core.progress import Steps
-from ..rsibr_addon.tasks.illuminate_scene import LARGEST, SMALLEST, SceneLight, illuminate_from_scene
-from ..rsibr_addon.tasks.illuminate_world import illuminate_from_world
+from ..rsibr_addon.tasks.light.scene import LARGEST, SMALLEST, SceneLight, illuminate_from_scene
+from ..rsibr_addon.tasks.light.world import illuminate_from_world
 from .stepwise import Stepwise
 from .taking import take_picture
 

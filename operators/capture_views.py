@@ -7,7 +7,7 @@ import bpy
 from ..rsibr_addon.core.errors import SceneError
 from ..rsibr_addon.core.progress import Steps
 from ..rsibr_addon.job import CaptureJob
-from ..rsibr_addon.tasks.capture import capture
+from ..rsibr_addon.tasks.methods.radiance_views import capture
 from .stepwise import Stepwise
 
 

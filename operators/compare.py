@@ -4,7 +4,7 @@ import bpy
 
 from ..rsibr_addon.core.errors import RsibrError
 from ..rsibr_addon.host.map_sets import written_path
-from ..rsibr_addon.tasks.bake_order import check_comparable, comparison_of
+from ..rsibr_addon.tasks.queue.bake_request import check_comparable, comparison_of
 from . import background
 from .reporting import reporting
 

@@ -7,7 +7,7 @@ import bpy
 
 from ..rsibr_addon.core.errors import SceneError
 from ..rsibr_addon.core.progress import Steps
-from ..rsibr_addon.tasks.fit_lobes import FitSettings, fit_lobes
+from ..rsibr_addon.tasks.reflectance.fit_lobes import FitSettings, fit_lobes
 from .stepwise import Stepwise
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import bpy
 
 from ..rsibr_addon.core.errors import InputFileError
-from ..rsibr_addon.tasks.illuminate_scene import LARGEST, SMALLEST
+from ..rsibr_addon.tasks.light.scene import LARGEST, SMALLEST
 from .stepwise import Stepwise
 from .taking import take_picture
 

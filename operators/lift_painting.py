@@ -7,7 +7,7 @@ import bpy
 from ..rsibr_addon.core.maps.representation import REPRESENTATIONS
 from ..rsibr_addon.core.progress import Steps
 from ..rsibr_addon.files.map_pictures import CUBES, layout
-from ..rsibr_addon.tasks.illuminate_painted import PaintedSettings, illuminate_from_painting
+from ..rsibr_addon.tasks.light.painted import PaintedSettings, illuminate_from_painting
 from .from_pictures import EnvironmentSize, FromPictures
 
 LAYOUTS = (*(name for name in REPRESENTATIONS if name != "cube_map"), *CUBES)

@@ -7,7 +7,7 @@ import bpy
 from ..rsibr_addon.core.errors import RangeError
 from ..rsibr_addon.core.progress import Steps
 from ..rsibr_addon.files.exposure_times import exposure_time
-from ..rsibr_addon.tasks.brackets import BracketSettings, Curve, illuminate_from_brackets
+from ..rsibr_addon.tasks.light.brackets import BracketSettings, Curve, illuminate_from_brackets
 from .from_pictures import FromSeveralPictures
 
 

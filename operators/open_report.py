@@ -4,9 +4,9 @@ import bpy
 
 from ..rsibr_addon.core.errors import SceneError
 from ..rsibr_addon.core.progress import drain
+from ..rsibr_addon.files.output_paths import page_beside
 from ..rsibr_addon.host.map_sets import written_path
-from ..rsibr_addon.tasks.beside import page_beside
-from ..rsibr_addon.tasks.map_set_page import map_set_page
+from ..rsibr_addon.tasks.report.page import map_set_page
 from .reporting import reporting
 
 

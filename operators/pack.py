@@ -3,7 +3,7 @@
 import bpy
 
 from ..rsibr_addon.host.map_sets import is_packed, pack, written_path
-from ..rsibr_addon.tasks.kinds import open_map_set
+from ..rsibr_addon.tasks.methods.kinds import open_map_set
 from .reporting import reporting
 
 

@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..rsibr_addon.tasks.viewport import previews
+from ..rsibr_addon.tasks.viewport.previews import previews
 
 
 class RSIBR_OT_reload_map_sets(bpy.types.Operator):

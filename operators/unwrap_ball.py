@@ -8,8 +8,8 @@ import bpy
 
 from ..rsibr_addon.core.errors import RangeError
 from ..rsibr_addon.core.progress import Steps
-from ..rsibr_addon.tasks.brackets import BracketSettings
-from ..rsibr_addon.tasks.illuminate_ball import BallSettings, SideSettings, illuminate_from_ball
+from ..rsibr_addon.tasks.light.ball import BallSettings, SideSettings, illuminate_from_ball
+from ..rsibr_addon.tasks.light.brackets import BracketSettings
 from .from_pictures import EnvironmentSize, FromSeveralPictures
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from .core.errors import InputFileError, RangeError, SchemaError
-from .core.geodesic import VERTEX_COUNTS
+from .core.geometry.geodesic import VERTEX_COUNTS
 from .core.schema import decode, loads
 
 FORMAT = 1

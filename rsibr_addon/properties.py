@@ -15,7 +15,7 @@ def _notice(group: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
 
 
 class RSIBR_PG_radiance_views(bpy.types.PropertyGroup):
-    """The fields of `core.shading.radiance_views.ViewsLook`; so with every kind of map set."""
+    """The fields of `core.kinds.radiance_views.shading.ViewsLook`; so with every kind of map set."""
 
     mode = bpy.props.EnumProperty(
         name="Mode",
@@ -53,7 +53,7 @@ def _weight(name: str, description: str) -> float:
 
 
 class RSIBR_PG_reflection_tables(bpy.types.PropertyGroup):
-    """The fields of `core.shading.reflection_tables.TablesLook`."""
+    """The fields of `core.kinds.reflection_tables.shading.TablesLook`."""
 
     shown = bpy.props.EnumProperty(
         name="Tables",
@@ -82,7 +82,7 @@ class RSIBR_PG_reflection_tables(bpy.types.PropertyGroup):
 
 
 class RSIBR_PG_lobe_stack(bpy.types.PropertyGroup):
-    """The fields of `core.shading.lobe_stack.StackLook`."""
+    """The fields of `core.kinds.lobe_stack.shading.StackLook`."""
 
     use_lobes = bpy.props.BoolProperty(
         name="Single Lobe", description="Show one of the lobes that the material is a sum of", update=_notice
@@ -99,7 +99,7 @@ class RSIBR_PG_lobe_stack(bpy.types.PropertyGroup):
 
 
 class RSIBR_PG_mip_chain(bpy.types.PropertyGroup):
-    """The fields of `core.shading.mip_chain.MipLook`."""
+    """The fields of `core.kinds.mip_chain.shading.MipLook`."""
 
     f_lambda = bpy.props.FloatVectorProperty(
         name="Reflectance",
@@ -152,7 +152,7 @@ class RSIBR_PG_mip_chain(bpy.types.PropertyGroup):
 
 
 class RSIBR_PG_environment(bpy.types.PropertyGroup):
-    """The fields of `core.shading.environment.EnvironmentLook`."""
+    """The fields of `core.kinds.environment.EnvironmentLook`."""
 
     f_lambda = bpy.props.FloatVectorProperty(
         name="Reflectance",
@@ -172,7 +172,7 @@ class RSIBR_PG_environment(bpy.types.PropertyGroup):
 
 
 class RSIBR_PG_kernel_bank(bpy.types.PropertyGroup):
-    """The fields of `core.shading.kernel_bank.BankLook`."""
+    """The fields of `core.kinds.kernel_bank.shading.BankLook`."""
 
     brdf = bpy.props.StringProperty(
         name="Model",

@@ -6,22 +6,22 @@ from functools import partial
 import numpy as np
 from rsibr.rsibr_addon.core.antialiased.footprint import footprint_or_point
 from rsibr.rsibr_addon.core.conventions import texel_centres
-from rsibr.rsibr_addon.core.directions import camera_frame, mirror_normal, normalize, reflect
-from rsibr.rsibr_addon.core.geodesic import geodesic_sphere
-from rsibr.rsibr_addon.core.lobes.stack import LobeStack, stack_representation
-from rsibr.rsibr_addon.core.maps import sphere_map
-from rsibr.rsibr_addon.core.maps.representation import representation
-from rsibr.rsibr_addon.core.mip_chain import MipChain
-from rsibr.rsibr_addon.core.mips.texture_space import filtered_mips, tent_halved
-from rsibr.rsibr_addon.core.radiance_views import RadianceViews
-from rsibr.rsibr_addon.core.shading.lobe_stack import StackLook, stack_radiance
-from rsibr.rsibr_addon.core.shading.mip_chain import Borders, glossy_mean
-from rsibr.rsibr_addon.core.shading.radiance_views import (
+from rsibr.rsibr_addon.core.geometry.directions import camera_frame, mirror_normal, normalize, reflect
+from rsibr.rsibr_addon.core.geometry.geodesic import geodesic_sphere
+from rsibr.rsibr_addon.core.kinds.lobe_stack.shading import StackLook, stack_radiance
+from rsibr.rsibr_addon.core.kinds.lobe_stack.stack import LobeStack, stack_representation
+from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
+from rsibr.rsibr_addon.core.kinds.mip_chain.shading import Borders, glossy_mean
+from rsibr.rsibr_addon.core.kinds.mip_chain.texture_space import filtered_mips, tent_halved
+from rsibr.rsibr_addon.core.kinds.radiance_views.shading import (
     Warping,
     destination_by_texel,
     destination_lookup,
     views_fragment,
 )
+from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
+from rsibr.rsibr_addon.core.maps import sphere_map
+from rsibr.rsibr_addon.core.maps.representation import representation
 from rsibr.tests.bumpy_sphere import EYE, footprints, supersampled
 
 TEXELS = 64

@@ -7,7 +7,7 @@ from rsibr.rsibr_addon.core.antialiased.footprint import footprint_box, pixel_fo
 from rsibr.rsibr_addon.core.antialiased.quadrilateral import quadrilateral_mean
 from rsibr.rsibr_addon.core.antialiased.recursive import recursive_mean, table_entry
 from rsibr.rsibr_addon.core.antialiased.summed_area import box_mean, summed_area_table
-from rsibr.rsibr_addon.core.directions import normalize, reflect
+from rsibr.rsibr_addon.core.geometry.directions import normalize, reflect
 
 EYE = np.array([0.0, -1.0, 0.0])
 HALF_FRAME = 0.85

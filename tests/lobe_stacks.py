@@ -1,9 +1,9 @@
 """Fits and lobe stacks that are known in closed form, or have no pattern at all."""
 
 import numpy as np
+from rsibr.rsibr_addon.core.kinds.lobe_stack.stack import LobeStack, stack_representation
 from rsibr.rsibr_addon.core.lobes.bank import KernelBank
 from rsibr.rsibr_addon.core.lobes.fit import Fit
-from rsibr.rsibr_addon.core.lobes.stack import LobeStack, stack_representation
 
 
 def random_stack(layout: str, size: int = 16, shared: bool = False, seed: int = 5) -> LobeStack:

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import numpy as np
 from rsibr.rsibr_addon.core.conventions import WORLD_AXES, texel_centres
-from rsibr.rsibr_addon.core.directions import camera_frame, reflect
 from rsibr.rsibr_addon.core.environment import Environment
-from rsibr.rsibr_addon.core.geodesic import geodesic_sphere
+from rsibr.rsibr_addon.core.geometry.directions import camera_frame, reflect
+from rsibr.rsibr_addon.core.geometry.geodesic import geodesic_sphere
 from rsibr.rsibr_addon.core.maps import equirect, sphere_map
 from rsibr.rsibr_addon.files.map_set import MapSet, write_map_set
 

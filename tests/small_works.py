@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 from rsibr.rsibr_addon.command_line.main import run
-from rsibr.rsibr_addon.core.ball_circle import Circle
-from rsibr.rsibr_addon.core.ball_photograph import BallSide
+from rsibr.rsibr_addon.core.light.ball_circle import Circle
+from rsibr.rsibr_addon.core.light.ball_photograph import BallSide
 from rsibr.rsibr_addon.core.maps.representation import representation
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.tests.synthetic_ball import ball_photograph, surroundings

@@ -1,8 +1,8 @@
 """Photographs of a mirrored ball in an environment in closed form."""
 
 import numpy as np
-from rsibr.rsibr_addon.core.ball_circle import Circle
-from rsibr.rsibr_addon.core.ball_photograph import BallSide
+from rsibr.rsibr_addon.core.light.ball_circle import Circle
+from rsibr.rsibr_addon.core.light.ball_photograph import BallSide
 
 RNG = np.random.default_rng(5)
 AXES = RNG.standard_normal((12, 3))

@@ -7,12 +7,12 @@ is known too: cosine-weighted integration scales its bands 0, 1 and 2 by pi, 2 p
 from collections.abc import Callable
 
 import numpy as np
-from rsibr.rsibr_addon.core.camera import Camera
 from rsibr.rsibr_addon.core.conventions import texel_centres
-from rsibr.rsibr_addon.core.directions import camera_frame, normalize, reflect
-from rsibr.rsibr_addon.core.geodesic import geodesic_sphere
+from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.geometry.directions import camera_frame, normalize, reflect
+from rsibr.rsibr_addon.core.geometry.geodesic import geodesic_sphere
+from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
 from rsibr.rsibr_addon.core.maps import sphere_map
-from rsibr.rsibr_addon.core.radiance_views import RadianceViews
 
 CONSTANT = np.array([1.0, 0.8, 0.9])
 SLOPES = np.array([[0.3, -0.4, 0.2], [0.5, 0.1, -0.2], [-0.1, 0.2, 0.6]])

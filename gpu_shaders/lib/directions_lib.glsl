@@ -1,4 +1,4 @@
-// Twin of rsibr_addon/core/directions.py.
+// Twin of rsibr_addon/core/geometry/directions.py.
 
 vec3 reflect_dir(vec3 view_dir, vec3 normal)
 {

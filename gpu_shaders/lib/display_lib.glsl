@@ -1,4 +1,4 @@
-// Twin of rsibr_addon/core/display.py.
+// Twin of rsibr_addon/core/pictures/display.py.
 
 const float TABLE_SIZE = 96.0;
 const float NODES_PER_STOP = 5.0;

@@ -1,4 +1,4 @@
-// Twin of rsibr_addon/core/false_colour.py.
+// Twin of rsibr_addon/core/pictures/false_colour.py.
 
 vec3 heat(float number)
 {

@@ -1,4 +1,4 @@
-// Twin of rsibr_addon/core/geodesic.py. The sphere comes as a texture (see device/radiance_views.py):
+// Twin of rsibr_addon/core/geometry/geodesic.py. The sphere comes as a texture (see device/kinds/radiance_views.py):
 // row 0 holds the vertices, row 1 the centres of the icosahedron's triangles, row 2 + k the triangles of
 // subdivision level k as three vertex indices.
 

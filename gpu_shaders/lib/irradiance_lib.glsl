@@ -1,4 +1,4 @@
-// Twin of rsibr_addon/core/irradiance.py.
+// Twin of rsibr_addon/core/filtering/irradiance.py.
 
 // [Ramamoorthi2001] Eq. 12: a quadratic form of the normal for each channel, `irradiance_matrix`.
 vec3 irradiance(mat4 red, mat4 green, mat4 blue, vec3 normal)

@@ -1,4 +1,4 @@
-// Twin of rsibr_addon/core/lit_sphere.py `LitSphere.at`.
+// Twin of rsibr_addon/core/geometry/lit_sphere.py `LitSphere.at`.
 // The texture (see device/lit_sphere.py) holds the rings, the outermost in row 0, with a column more on
 // either side: the one that lies there around the ring.
 

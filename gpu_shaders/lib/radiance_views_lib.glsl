@@ -1,4 +1,4 @@
-// Twin of the blending in rsibr_addon/core/shading/radiance_views.py: [Cabral1999] sections 3 and 4.
+// Twin of the blending in rsibr_addon/core/kinds/radiance_views/shading.py: [Cabral1999] sections 3 and 4.
 // Layer 2 i of the views' texture array is the diffuse map of view i, layer 2 i + 1 its glossy map.
 // Row 0 of the albedo texture is of the diffuse part, row 1 of the glossy part.
 #include "lib/reflection_warp_lib.glsl"

@@ -1,8 +1,8 @@
-// Twin of rsibr_addon/core/shading/reflection_tables.py: [Miller1984] sections 3, 7 and 9.
+// Twin of rsibr_addon/core/kinds/reflection_tables/shading.py: [Miller1984] sections 3, 7 and 9.
 #include "lib/equirect_lib.glsl"
 #include "lib/summed_area_lib.glsl"
 
-// Rows of the weights, in the order of core/reflection_tables.py `Role`.
+// Rows of the weights, in the order of core/kinds/reflection_tables/tables.py `Role`.
 #define TABLE_DIFFUSE 0
 #define TABLE_SPECULAR 1
 #define TABLE_COAT 2

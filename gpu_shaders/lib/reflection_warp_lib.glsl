@@ -1,4 +1,4 @@
-// Twin of rsibr_addon/core/reflection_warp.py: [Cabral1999] sections 3.2 and 3.3.
+// Twin of rsibr_addon/core/geometry/reflection_warp.py: [Cabral1999] sections 3.2 and 3.3.
 #include "lib/directions_lib.glsl"
 #include "lib/sphere_map_lib.glsl"
 

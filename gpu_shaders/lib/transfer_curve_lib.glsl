@@ -1,4 +1,4 @@
-// Twin of rsibr_addon/core/transfer_curve.py.
+// Twin of rsibr_addon/core/light/transfer_curve.py.
 
 vec3 linear_from_srgb(vec3 encoded)
 {

@@ -62,11 +62,11 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     Raises
     ------
     RsibrError
-        See `tasks.bake_stack`.
+        See `tasks.methods.lobe_stack`.
     """
     from ..core.errors import RangeError
-    from ..tasks.bake_stack import StackSettings, bake_brdf, bake_fit
-    from ..tasks.fit_lobes import FitSettings
+    from ..tasks.methods.lobe_stack import StackSettings, bake_brdf, bake_fit
+    from ..tasks.reflectance.fit_lobes import FitSettings
 
     given = {name: value for name, value in vars(arguments).items() if name in FITTING}
     settings = StackSettings(arguments.layout, arguments.size, arguments.half)

@@ -37,9 +37,9 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     Raises
     ------
     RsibrError
-        See `tasks.bake_bank`.
+        See `tasks.methods.kernel_bank`.
     """
-    from ..tasks.bake_bank import BankSettings, bake_environment
+    from ..tasks.methods.kernel_bank import BankSettings, bake_environment
 
     settings = BankSettings(arguments.layout, arguments.size)
     output = arguments.output

@@ -44,7 +44,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
         "map_set", the path of the file.
     """
     from ..job import CaptureJob
-    from ..tasks.capture import capture
+    from ..tasks.methods.radiance_views import capture
 
     job = CaptureJob(
         environment=arguments.environment,

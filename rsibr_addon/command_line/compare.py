@@ -7,7 +7,7 @@ from . import options
 from .report import Report
 
 if TYPE_CHECKING:
-    from ..tasks.comparison import Comparison
+    from ..tasks.compare.comparison import Comparison
 
 MODES = ["paper", "texel", "fragment"]
 WARPS = ["single", "split", "albedo"]
@@ -98,7 +98,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     Raises
     ------
     RsibrError
-        See `tasks.compare` and `tasks.compare_stack`.
+        See `tasks.compare.views` and `tasks.compare.stack`.
     """
     from ..core.errors import RangeError
     from ..files.map_set import read_map_set_header
@@ -126,9 +126,9 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
 def _compare_views(
     arguments: argparse.Namespace, scene: dict[str, Any], report: Report
 ) -> tuple["Comparison", str]:
-    from ..core.shading.radiance_views import Mode, Warping
-    from ..tasks.compare import compare
-    from ..tasks.comparison import ComparisonSettings, comparison_table
+    from ..core.kinds.radiance_views.shading import Mode, Warping
+    from ..tasks.compare.comparison import ComparisonSettings, comparison_table
+    from ..tasks.compare.views import compare
 
     given = vars(arguments)
     settings = ComparisonSettings(
@@ -147,8 +147,8 @@ def _compare_views(
 def _compare_stack(
     arguments: argparse.Namespace, scene: dict[str, Any], report: Report
 ) -> tuple["Comparison", str]:
-    from ..tasks.compare_stack import compare_stack
-    from ..tasks.comparison import StackComparisonSettings, stack_table
+    from ..tasks.compare.comparison import StackComparisonSettings, stack_table
+    from ..tasks.compare.stack import compare_stack
 
     given = vars(arguments)
     settings = StackComparisonSettings(**scene, rings=given.get("rings"))

@@ -75,9 +75,9 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     Raises
     ------
     RsibrError
-        See `tasks.convert`.
+        See `tasks.light.convert`.
     """
-    from ..tasks.convert import ConvertSettings, convert
+    from ..tasks.light.convert import ConvertSettings, convert
 
     settings = ConvertSettings(
         source=arguments.from_layout,

@@ -62,14 +62,14 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     Returns
     -------
     dict
-        "fit", the path of the file, and its figures: see `tasks.fit_lobes.FitResult`.
+        "fit", the path of the file, and its figures: see `tasks.reflectance.fit_lobes.FitResult`.
 
     Raises
     ------
     RsibrError
-        See `tasks.fit_lobes`.
+        See `tasks.reflectance.fit_lobes`.
     """
-    from ..tasks.fit_lobes import FitSettings, fit_lobes
+    from ..tasks.reflectance.fit_lobes import FitSettings, fit_lobes
 
     settings = FitSettings(
         method=arguments.method,

@@ -73,9 +73,9 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     Raises
     ------
     RsibrError
-        See `tasks.illuminate_ball`.
+        See `tasks.light.ball`.
     """
-    from ..tasks.illuminate_ball import BallSettings, SideSettings, illuminate_from_ball
+    from ..tasks.light.ball import BallSettings, SideSettings, illuminate_from_ball
 
     bracket = bracket_settings(arguments)
     sides = [SideSettings(bracket, arguments.circle)]

@@ -26,9 +26,9 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     Raises
     ------
     RsibrError
-        See `tasks.brackets`.
+        See `tasks.light.brackets`.
     """
-    from ..tasks.brackets import illuminate_from_brackets
+    from ..tasks.light.brackets import illuminate_from_brackets
 
     settings = bracket_settings(arguments)
     merged = report.steps(illuminate_from_brackets(settings, arguments.output, arguments.force))

@@ -39,9 +39,9 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     Raises
     ------
     RsibrError
-        See `tasks.illuminate_faces`.
+        See `tasks.light.faces`.
     """
-    from ..tasks.illuminate_faces import illuminate_from_faces
+    from ..tasks.light.faces import illuminate_from_faces
 
     target = arguments.output, arguments.balance, arguments.force, arguments.clamp
     gains = report.steps(illuminate_from_faces(arguments.source, arguments.size, *target))

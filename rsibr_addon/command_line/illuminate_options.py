@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from .options import add_output, positive
 
 if TYPE_CHECKING:  # for the help alone, neither numpy nor Blender is to be loaded
-    from ..tasks.brackets import BracketSettings
+    from ..tasks.light.brackets import BracketSettings
 
 
 def add_environment_output(parser: argparse.ArgumentParser) -> None:
@@ -54,7 +54,7 @@ def bracket_settings(arguments: argparse.Namespace) -> "BracketSettings":
         See `read_times` and `BracketSettings`.
     """
     from ..files.exposure_times import read_times
-    from ..tasks.brackets import BracketSettings, Curve
+    from ..tasks.light.brackets import BracketSettings, Curve
 
     times = arguments.times
     if arguments.times_file is not None:

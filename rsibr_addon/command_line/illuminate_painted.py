@@ -51,9 +51,9 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     Raises
     ------
     RsibrError
-        See `tasks.illuminate_painted`.
+        See `tasks.light.painted`.
     """
-    from ..tasks.illuminate_painted import PaintedSettings, illuminate_from_painting
+    from ..tasks.light.painted import PaintedSettings, illuminate_from_painting
 
     settings = PaintedSettings(arguments.source_layout, arguments.size, arguments.white, arguments.knee)
     output = report.steps(

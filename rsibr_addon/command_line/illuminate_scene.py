@@ -45,10 +45,10 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     Raises
     ------
     RsibrError
-        See `tasks.illuminate_scene`.
+        See `tasks.light.scene`.
     """
     from ..host.blend_files import open_blend
-    from ..tasks.illuminate_scene import SceneLight, illuminate_from_scene
+    from ..tasks.light.scene import SceneLight, illuminate_from_scene
 
     light = SceneLight(
         size=arguments.size,

@@ -28,10 +28,10 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     Raises
     ------
     RsibrError
-        See `tasks.illuminate_world`.
+        See `tasks.light.world`.
     """
     from ..host.blend_files import open_blend
-    from ..tasks.illuminate_world import illuminate_from_world
+    from ..tasks.light.world import illuminate_from_world
 
     open_blend(arguments.source)
     target = arguments.output, arguments.force, arguments.clamp

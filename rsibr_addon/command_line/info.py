@@ -25,8 +25,8 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     -------
     dict
         Of a map set "map_set", the path, and "header", the description as docs/map-set-format.md has it.
-        Of a picture "picture", the path; "light", the fields of `core.light_range.LightRange`; and of one of
-        radiance "facts", those of `files.picture_facts.PictureFacts`.
+        Of a picture "picture", the path; "light", the fields of `core.light.light_range.LightRange`; and of
+        one of radiance "facts", those of `files.picture_facts.PictureFacts`.
 
     Raises
     ------
@@ -100,7 +100,7 @@ def _exposure(path: str) -> str:
 
 
 def _light(picture: Any, report: Report) -> dict[str, Any]:
-    from ..core.light_range import light_range
+    from ..core.light.light_range import light_range
 
     light = light_range(picture)
     report.say(f"  light        peak {light.peak:.4g}, mean {light.mean:.4g}, dark end {light.dark_end:.4g}")

@@ -124,7 +124,7 @@ def look(arguments: argparse.Namespace, kind: str) -> Any:
     Returns
     -------
     object
-        Of the kind's own type, see `core.shading`.
+        Of the kind's own type, see `core.kinds`.
 
     Raises
     ------
@@ -132,7 +132,7 @@ def look(arguments: argparse.Namespace, kind: str) -> Any:
         An option is of another kind of map sets, or its value out of range.
     """
     from ..core.errors import RangeError
-    from ..tasks.kinds import KINDS
+    from ..tasks.methods.kinds import KINDS
 
     given = {name: value for name, value in vars(arguments).items() if name in KIND_OF}
     for name in given:

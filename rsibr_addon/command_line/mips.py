@@ -46,9 +46,9 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     Raises
     ------
     RsibrError
-        See `tasks.bake_mips`.
+        See `tasks.methods.mip_chain`.
     """
-    from ..tasks.bake_mips import MipSettings, bake_mips
+    from ..tasks.methods.mip_chain import MipSettings, bake_mips
 
     settings = MipSettings(arguments.filter, arguments.size, arguments.roughness)
     target = arguments.output, arguments.force

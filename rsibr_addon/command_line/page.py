@@ -37,10 +37,10 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     Raises
     ------
     RsibrError
-        See `tasks.map_set_page`.
+        See `tasks.report.page`.
     """
-    from ..tasks.beside import page_beside
-    from ..tasks.map_set_page import map_set_page
+    from ..files.output_paths import page_beside
+    from ..tasks.report.page import map_set_page
 
     output = arguments.output or page_beside(arguments.map_set)
     page = report.steps(map_set_page(arguments.map_set, output, arguments.force, arguments.brdf))

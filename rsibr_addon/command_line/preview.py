@@ -48,8 +48,8 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     RsibrError
         See `tasks.preview`.
     """
-    from ..core.camera import Camera
-    from ..tasks.kinds import kind_of
+    from ..core.geometry.camera import Camera
+    from ..tasks.methods.kinds import kind_of
     from ..tasks.preview import PreviewSettings, preview, turntable
 
     settings = PreviewSettings(

@@ -70,11 +70,11 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     Raises
     ------
     RsibrError
-        See `tasks.bake_tables`.
+        See `tasks.methods.reflection_tables`.
     """
-    from ..core.tables.bake import TableSizes
-    from ..core.tables.material import PARTS, preset
-    from ..tasks.bake_tables import TableSettings, bake_table_set
+    from ..core.kinds.reflection_tables.bake import TableSizes
+    from ..core.kinds.reflection_tables.material import PARTS, preset
+    from ..tasks.methods.reflection_tables import TableSettings, bake_table_set
 
     given = {part: text for part, text in vars(arguments).items() if part in PARTS}
     base = {} if arguments.material is None else preset(arguments.material)

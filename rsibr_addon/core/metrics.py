@@ -3,8 +3,8 @@
 import numpy as np
 
 from .conventions import Array, ArrayLike
-from .directions import dot
 from .errors import RangeError
+from .geometry.directions import dot
 
 
 def relative_rmse(ours: ArrayLike, reference: ArrayLike, weight: ArrayLike) -> float:

@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from .conventions import Array, ArrayLike, Indices
-from .deposit import BLOCK, Deposit
 from .errors import ShapeError
 from .maps.representation import Representation
+from .splat import BLOCK, Deposit
 
 type Wrap = Callable[[Indices, Indices, int, int], tuple[Indices, Indices]]
 """`wrap` of a map representation: texel indices beyond the edge to the texels they mean."""

@@ -19,7 +19,7 @@ class Draw:
     ----------
     model, view, projection : ndarray, shape (4, 4)
     eye : ndarray, shape (4,)
-        Homogeneous position of the eye in world space, as `core.camera.Camera.eye`.
+        Homogeneous position of the eye in world space, as `core.geometry.camera.Camera.eye`.
     view_dir : ndarray, shape (3,)
         Unit vector from the object to the eye: the view that destination maps are made for.
     turn : ndarray, shape (3, 3)
@@ -85,5 +85,5 @@ class OnDevice(Protocol):
         mesh : MeshOnDevice
         draw : Draw
         look : object
-            The look of this kind of map set: see `core.shading`.
+            The look of this kind of map set: see `core.kinds`.
         """

@@ -3,7 +3,7 @@
 import gpu
 import numpy as np
 
-from ..core.lit_sphere import LitSphere
+from ..core.geometry.lit_sphere import LitSphere
 from . import buffers
 from .drawing import Draw, MeshOnDevice
 from .shaders import build, kept_until_exit, mesh_interface
@@ -29,7 +29,7 @@ class LitSphereOnDevice:
         self._block = buffers.uniform_block(frame)
 
     def draw(self, mesh: MeshOnDevice, draw: Draw, look: None) -> None:
-        """See `OnDevice.draw`; there is one look. Reference: `core.lit_sphere.LitSphere.at`."""
+        """See `OnDevice.draw`; there is one look. Reference: `core.geometry.lit_sphere.LitSphere.at`."""
         shader = lit_sphere_shader()
         shader.bind()
         shader.uniform_block("sphere", self._block)

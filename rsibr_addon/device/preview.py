@@ -5,8 +5,8 @@ from typing import Any
 import gpu
 import numpy as np
 
-from ..core.camera import Camera
 from ..core.conventions import Array, Indices
+from ..core.geometry.camera import Camera
 from . import buffers
 from .drawing import Draw, MeshOnDevice, OnDevice
 
@@ -45,7 +45,7 @@ class PreviewRenderer:
         size : int
             Width and height of the picture in pixels.
         look : object
-            Of the subject's kind: see `core.shading`.
+            Of the subject's kind: see `core.kinds`.
 
         Returns
         -------

@@ -32,7 +32,7 @@ class SurroundingsCamera:
         space : bpy.types.SpaceView3D
             That which is being drawn.
         view, projection : ndarray, shape (4, 4)
-            See `core.live_environment.face_view` and `face_projection`.
+            See `core.kinds.live_environment.face_view` and `face_projection`.
 
         Returns
         -------

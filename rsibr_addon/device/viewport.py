@@ -106,7 +106,7 @@ class Stage:
         Parameters
         ----------
         display : GPUTexture
-            A display's colours, see `core.display`, from `buffers.table_texture`.
+            A display's colours, see `core.pictures.display`, from `buffers.table_texture`.
         scale : float
             What radiance is multiplied by.
         span : (float, float)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core.conventions import Array, ArrayLike
-from ..core.transfer_curve import linear_from_srgb
+from ..core.light.transfer_curve import linear_from_srgb
 from .chromaticities import REC_709, rec709_from
 
 type Curve = Callable[[ArrayLike], Array]

@@ -13,7 +13,7 @@ from typing import Annotated, Any, NotRequired, TypedDict
 from ..core.conventions import WORLD_AXES
 from ..core.environment import Environment
 from ..core.errors import MapSetError, SchemaError
-from ..core.geodesic import VERTEX_COUNTS
+from ..core.geometry.geodesic import VERTEX_COUNTS
 from ..core.schema import Rule, between, decode, length
 
 FORMAT = 1

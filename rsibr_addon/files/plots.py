@@ -8,7 +8,7 @@ from xml.sax.saxutils import escape
 import numpy as np
 
 from ..core.conventions import Array
-from ..core.line_drawing import line_coverage
+from ..core.pictures.line_drawing import line_coverage
 
 COLORS = ("#1b1b1b", "#d1495b", "#2e6fba", "#3a8f5c", "#c98a1b", "#7b4fa3", "#3aa6a6")
 

@@ -47,7 +47,7 @@ def chosen_environment(scene: bpy.types.Scene) -> str | None:
     Returns
     -------
     str or None
-        As `tasks.environments.load_environment` takes it.
+        As `tasks.light.environments.load_environment` takes it.
 
     Raises
     ------

@@ -4,8 +4,8 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from ..core.camera import Camera
 from ..core.conventions import Array, ArrayLike
+from ..core.geometry.camera import Camera
 from ..core.maps.cube_map import FACES
 
 CLOSE = 1e-4
@@ -20,7 +20,7 @@ def add_camera(scene: bpy.types.Scene, camera: Camera) -> bpy.types.Object:
     scene : bpy.types.Scene
         Its active camera becomes the new one.
     camera : Camera
-        Fills square frames as `core.camera` says; the scene's resolution should be square.
+        Fills square frames as `core.geometry.camera` says; the scene's resolution should be square.
 
     Returns
     -------

@@ -3,9 +3,9 @@
 import bpy
 import numpy as np
 
-from ..core.camera import Camera
 from ..core.conventions import Array
 from ..core.environment import Environment
+from ..core.geometry.camera import Camera
 from .cameras import add_camera
 from .cycles import RenderSettings, render_view
 from .worlds import light_with

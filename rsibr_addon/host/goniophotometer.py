@@ -9,9 +9,9 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from ..core.camera import Camera
 from ..core.conventions import Array
-from ..core.directions import camera_frame, dot
+from ..core.geometry.camera import Camera
+from ..core.geometry.directions import camera_frame, dot
 from .cameras import add_camera
 from .rendering import configure_cycles, render_passes
 from .working_space import rec709_from_working

@@ -7,10 +7,10 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from ..core.camera import Camera
 from ..core.conventions import Array, ArrayLike, texel_centres
-from ..core.directions import normalize
-from ..core.lamps import angular_width, directions_in_cap
+from ..core.geometry.camera import Camera
+from ..core.geometry.directions import normalize
+from ..core.light.lamps import angular_width, directions_in_cap
 from .cameras import add_camera, closeness
 from .clear_shell import show_to_camera_only
 from .rendering import configure_cycles, render_passes

@@ -9,8 +9,8 @@ import numpy as np
 
 from ..core.conventions import WORLD_AXES, Array
 from ..core.errors import OutputFileError, RangeError
+from ..core.kinds.mip_chain.chain import MipChain
 from ..core.maps.representation import representation
-from ..core.mip_chain import MipChain
 from ..core.progress import Progress, Steps
 from ..files.atomic import check_target
 from ..files.kinds import mip_chain

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from ..core.camera import Camera
 from ..core.conventions import Array
 from ..core.errors import OutputFileError, RangeError
+from ..core.geometry.camera import Camera
 from ..core.progress import Progress, Steps
 from ..device.preview import PreviewRenderer
 from ..files.atomic import check_target, written_aside
@@ -19,8 +19,8 @@ from ..files.temporary import temporary_folder
 from ..host.meshes import TriangleMesh, load_mesh
 from ..host.movies import save_movie
 from ..host.pictures import save_png
-from .contact_sheet import contact_sheet
-from .kinds import KINDS, open_map_set
+from .compare.contact_sheet import contact_sheet
+from .methods.kinds import KINDS, open_map_set
 
 LARGEST = 2048
 """Width and height of the largest picture: drawn at four times that, it takes 1 GiB."""
@@ -41,9 +41,9 @@ class PreviewSettings:
     size : int
         Width and height in pixels, 1 to `LARGEST`.
     look : object, optional
-        Of the map set's kind, see `core.shading`; by default that kind's own.
+        Of the map set's kind, see `core.kinds`; by default that kind's own.
     clamp : float, optional
-        Of an environment's picture: see `tasks.kinds.open_map_set`.
+        Of an environment's picture: see `tasks.methods.kinds.open_map_set`.
 
     Raises
     ------

@@ -4,8 +4,8 @@ import bpy
 
 from ...operators.background import queue
 from ..core.errors import RsibrError
-from ..tasks.background import Bake, State
-from ..tasks.bake_order import order_for
+from ..tasks.queue.background import Bake, State
+from ..tasks.queue.bake_request import order_for
 from .sentences import amount, capital, duration, tell
 
 

@@ -3,19 +3,19 @@
 import bpy
 
 from ..core.brdf.gallery import GALLERY
-from ..core.tables.material import PRESETS as TABLE_PRESETS
+from ..core.kinds.reflection_tables.material import PRESETS as TABLE_PRESETS
 from ..host.bake_settings import chosen_picture, use_picture
 from ..host.presets import PRESETS
 from ..host.worlds import studio_environments
 from ..properties import keep_in_overrides
-from ..tasks.methods import MEASURED_FORMATS
+from ..tasks.methods.methods import MEASURED_FORMATS
 from .map_pictures import Item
 
 _OWN_SOURCE = ("OWN", "Object's Own", "The active object's active material, whatever its nodes")
 
 
 class RSIBR_PG_bake_views(bpy.types.PropertyGroup):
-    """The fields of `tasks.methods.Views`; and so with every method."""
+    """The fields of `tasks.methods.methods.Views`; and so with every method."""
 
     source = bpy.props.EnumProperty(
         name="Material",
@@ -52,7 +52,7 @@ class RSIBR_PG_bake_views(bpy.types.PropertyGroup):
 
 
 class RSIBR_PG_bake_stack(bpy.types.PropertyGroup):
-    """The fields of `tasks.methods.Lobes`."""
+    """The fields of `tasks.methods.methods.Lobes`."""
 
     source = bpy.props.EnumProperty(
         name="Material",
@@ -94,7 +94,7 @@ class RSIBR_PG_bake_stack(bpy.types.PropertyGroup):
 
 
 class RSIBR_PG_bake_tables(bpy.types.PropertyGroup):
-    """The fields of `tasks.methods.Tables`."""
+    """The fields of `tasks.methods.methods.Tables`."""
 
     preset = bpy.props.EnumProperty(
         name="Material",
@@ -124,7 +124,7 @@ class RSIBR_PG_bake_tables(bpy.types.PropertyGroup):
 
 
 class RSIBR_PG_bake_mips(bpy.types.PropertyGroup):
-    """The fields of `tasks.methods.Mips`."""
+    """The fields of `tasks.methods.methods.Mips`."""
 
     filter = bpy.props.EnumProperty(
         name="Filter",
@@ -152,7 +152,7 @@ class RSIBR_PG_bake_mips(bpy.types.PropertyGroup):
 
 
 class RSIBR_PG_bake_bank(bpy.types.PropertyGroup):
-    """The fields of `tasks.methods.Bank`."""
+    """The fields of `tasks.methods.methods.Bank`."""
 
     size = bpy.props.EnumProperty(
         name="Size",

@@ -7,7 +7,7 @@ import bpy
 
 from ..core.errors import RsibrError
 from ..host.bake_settings import chosen_environment
-from ..tasks.light_pictures import light_remarks
+from ..tasks.light.light_pictures import light_remarks
 from .sentences import tell
 
 THUMBNAIL_SCALE = 4.0

@@ -13,9 +13,9 @@ from ..core.errors import MapSetError
 from ..core.lobes.fit import Fit
 from ..host.icons import add_icon
 from ..host.sidebars import redraw_sidebars
-from ..tasks.fit_plots import lobe_picture
-from ..tasks.map_set_facts import file_stamp
-from ..tasks.map_set_pictures import MapPicture, map_set_pictures
+from ..tasks.reflectance.fit_plots import lobe_picture
+from ..tasks.report.facts import file_stamp
+from ..tasks.report.pictures import MapPicture, map_set_pictures
 
 SECONDS = 0.1
 """Between two looks at whether a file has been read."""

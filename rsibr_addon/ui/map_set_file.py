@@ -5,7 +5,7 @@ from pathlib import Path
 import bpy
 
 from ..host.map_sets import is_packed
-from ..tasks.map_set_facts import map_set_content
+from ..tasks.report.facts import map_set_content
 from .sentences import tell
 
 

@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..tasks.methods import QUALITIES
+from ..tasks.methods.methods import QUALITIES
 
 
 class RSIBR_PT_method(bpy.types.Panel):

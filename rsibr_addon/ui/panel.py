@@ -3,7 +3,7 @@
 import bpy
 
 from ..host.world_light import world_light
-from ..tasks.viewport import previews
+from ..tasks.viewport.previews import previews
 from .sentences import tell
 
 NOT_FOLLOWED = (

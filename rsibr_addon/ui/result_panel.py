@@ -6,8 +6,8 @@ import bpy
 
 from ..core.errors import RsibrError
 from ..host.map_sets import written_path
-from ..tasks.map_set_facts import is_picture, map_set_facts, map_set_fit
-from ..tasks.measured_error import measured_facts
+from ..tasks.compare.measured_error import measured_facts
+from ..tasks.report.facts import is_picture, map_set_facts, map_set_fit
 from .map_pictures import map_pictures
 from .map_set_file import draw_file, draw_remedies
 from .sentences import tell

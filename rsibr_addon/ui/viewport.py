@@ -9,8 +9,8 @@ from bpy.app.handlers import persistent
 
 from ..device.shaders import release_programs
 from ..host.viewport import current_view
-from ..tasks.viewport import previews
-from ..tasks.workshop import workshop
+from ..tasks.methods.latest_request_worker import workshop
+from ..tasks.viewport.previews import previews
 
 RETRY_SECONDS = 0.5
 """While a render goes on, no data may come and go for the display's table."""

@@ -12,9 +12,9 @@ import rsibr
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError, RsibrError, SceneError
 from rsibr.rsibr_addon.host.bake_settings import baked_folder
-from rsibr.rsibr_addon.tasks.bake_order import order_for
-from rsibr.rsibr_addon.tasks.kinds import KINDS
-from rsibr.rsibr_addon.tasks.viewport import _look_settings
+from rsibr.rsibr_addon.tasks.methods.kinds import KINDS
+from rsibr.rsibr_addon.tasks.queue.bake_request import order_for
+from rsibr.rsibr_addon.tasks.viewport.previews import _look_settings
 
 
 @pytest.fixture(autouse=True)

@@ -18,9 +18,16 @@ from rsibr.rsibr_addon.files.exr import Part, write_parts
 from rsibr.rsibr_addon.files.staging import is_staging_folder
 from rsibr.rsibr_addon.host.bake_settings import apply_settings, plain_settings
 from rsibr.rsibr_addon.job import BakeJob
-from rsibr.rsibr_addon.tasks.bake_order import Order, bake_of, comparison_of, is_baked, order_for, output_for
-from rsibr.rsibr_addon.tasks.light_pictures import NO_RADIANCE, light_remarks
-from rsibr.rsibr_addon.tasks.methods import QUALITIES
+from rsibr.rsibr_addon.tasks.light.light_pictures import NO_RADIANCE, light_remarks
+from rsibr.rsibr_addon.tasks.methods.methods import QUALITIES
+from rsibr.rsibr_addon.tasks.queue.bake_request import (
+    Order,
+    bake_of,
+    comparison_of,
+    is_baked,
+    order_for,
+    output_for,
+)
 from rsibr.rsibr_addon.ui.environment_panel import RSIBR_PT_environment
 from rsibr.tests.flat_capture import write_flat_capture
 from rsibr.tests.open_file import open_file_state
@@ -28,8 +35,8 @@ from rsibr.tests.open_file import open_file_state
 
 @pytest.fixture(autouse=True)
 def _registered(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[None]:
-    monkeypatch.setattr("rsibr.rsibr_addon.tasks.bake_order.baked_folder", lambda: tmp_path)
-    monkeypatch.setattr("rsibr.rsibr_addon.tasks.environments.WORLD_HEIGHT", 16)
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.queue.bake_request.baked_folder", lambda: tmp_path)
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.light.environments.WORLD_HEIGHT", 16)
     rsibr.register()
     yield
     rsibr.unregister()
@@ -203,7 +210,7 @@ def test_a_picture_that_is_no_radiance_is_told_of(tmp_path: Path) -> None:
 
 
 def test_a_bake_gets_a_copy_of_the_file_as_it_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("rsibr.rsibr_addon.tasks.bake_order.blender_program", lambda: "blender")
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.queue.bake_request.blender_program", lambda: "blender")
     bpy.context.scene.rsibr_bake.radiance_views.samples = 5
     before = open_file_state()
     bake = bake_of(order(), bpy.context.object, tmp_path / "out.rsibr.exr")
@@ -284,7 +291,7 @@ def test_folders_that_cannot_be_made_are_named(tmp_path: Path) -> None:
 
 
 def test_a_comparison_is_a_job_with_a_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("rsibr.rsibr_addon.tasks.bake_order.blender_program", lambda: "blender")
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.queue.bake_request.blender_program", lambda: "blender")
     path = tmp_path / "flat.rsibr.exr"
     write_flat_capture(path, (0.5, 0.0, 0.5))
     comparison = comparison_of(bpy.context.object, path)

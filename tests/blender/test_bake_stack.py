@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.brdf.albedo import directional_albedo
-from rsibr.rsibr_addon.core.lobes.stack import LobeStack
-from rsibr.rsibr_addon.core.shading.lobe_stack import StackLook, stack_radiance
+from rsibr.rsibr_addon.core.kinds.lobe_stack.shading import StackLook, stack_radiance
+from rsibr.rsibr_addon.core.kinds.lobe_stack.stack import LobeStack
 from rsibr.rsibr_addon.files.brdfs import brdf_from_spec
 from rsibr.rsibr_addon.files.kinds.lobe_stack import from_map_set
 from rsibr.rsibr_addon.files.map_set import read_map_set

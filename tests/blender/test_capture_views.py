@@ -8,7 +8,7 @@ import pytest
 import rsibr
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.job import CaptureJob
-from rsibr.rsibr_addon.tasks.capture import capture
+from rsibr.rsibr_addon.tasks.methods.radiance_views import capture
 from rsibr.tests.open_file import open_file_state
 
 pytestmark = pytest.mark.needs("cycles")
@@ -16,7 +16,7 @@ pytestmark = pytest.mark.needs("cycles")
 
 @pytest.fixture(autouse=True)
 def _registered(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    monkeypatch.setattr("rsibr.rsibr_addon.tasks.environments.WORLD_HEIGHT", 16)
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.light.environments.WORLD_HEIGHT", 16)
     rsibr.register()
     yield
     rsibr.unregister()

@@ -11,7 +11,7 @@ import rsibr
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError
 from rsibr.rsibr_addon.files.fits import read_fit
-from rsibr.rsibr_addon.tasks.fit_lobes import FitSettings, fit_lobes
+from rsibr.rsibr_addon.tasks.reflectance.fit_lobes import FitSettings, fit_lobes
 
 COMMAND = ["fit", "--brdf", "phong:n=40,ks=0.5", "--slices", "3", "--lobes", "2"]
 

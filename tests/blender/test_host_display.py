@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.display import displayed, table_radiance
+from rsibr.rsibr_addon.core.pictures.display import displayed, table_radiance
 from rsibr.rsibr_addon.host.display import display_of, displayed_colours, scale_before_display
 
 VIEWS = ["Standard", "AgX", "Filmic", "Raw", "Khronos PBR Neutral"]

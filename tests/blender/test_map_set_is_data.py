@@ -11,20 +11,20 @@ import rsibr
 from rsibr.rsibr_addon.core.brdf.lambert import Lambert
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import InputFileError, RangeError
+from rsibr.rsibr_addon.core.kinds.lobe_stack.stack import LobeStack
 from rsibr.rsibr_addon.core.lobes.bank import KernelBank
-from rsibr.rsibr_addon.core.lobes.stack import LobeStack
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files import brdfs as readers
 from rsibr.rsibr_addon.files.kinds.lobe_stack import PROFILES, profiles, to_map_set
 from rsibr.rsibr_addon.files.map_set import MapSet, read_map_set, write_map_set
 from rsibr.rsibr_addon.host import materials
 from rsibr.rsibr_addon.job import BakeJob
-from rsibr.rsibr_addon.tasks.bake_order import comparison_of
-from rsibr.rsibr_addon.tasks.brdfs import check_told_brdf, told_brdf
-from rsibr.rsibr_addon.tasks.compare import compare
-from rsibr.rsibr_addon.tasks.compare_stack import compare_stack
-from rsibr.rsibr_addon.tasks.comparison import ComparisonSettings, StackComparisonSettings
-from rsibr.rsibr_addon.tasks.map_set_page import map_set_page
+from rsibr.rsibr_addon.tasks.compare.comparison import ComparisonSettings, StackComparisonSettings
+from rsibr.rsibr_addon.tasks.compare.stack import compare_stack
+from rsibr.rsibr_addon.tasks.compare.views import compare
+from rsibr.rsibr_addon.tasks.queue.bake_request import comparison_of
+from rsibr.rsibr_addon.tasks.reflectance.brdfs import check_told_brdf, told_brdf
+from rsibr.rsibr_addon.tasks.report.page import map_set_page
 from rsibr.tests.flat_capture import write_flat_capture
 from rsibr.tests.lobe_stacks import random_fit, random_stack
 
@@ -134,7 +134,7 @@ def _registered() -> Iterator[None]:
 def test_the_panel_names_the_file_that_its_artist_chose(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("rsibr.rsibr_addon.tasks.bake_order.blender_program", lambda: "blender")
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.queue.bake_request.blender_program", lambda: "blender")
     path, item = write_stack(tmp_path / "a.rsibr.exr", ELSEWHERE[0]), bpy.context.object
     gold = tmp_path / "gold.binary"
     gold.touch()

@@ -11,8 +11,8 @@ from rsibr.rsibr_addon.core.errors import MapSetError, OutputFileError
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.map_set import read_map_set_header
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
-from rsibr.rsibr_addon.tasks.bake_mips import MipSettings, bake_mips
-from rsibr.rsibr_addon.tasks.map_set_page import map_set_page
+from rsibr.rsibr_addon.tasks.methods.mip_chain import MipSettings, bake_mips
+from rsibr.rsibr_addon.tasks.report.page import map_set_page
 
 pytestmark = pytest.mark.needs("gl")
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.command_line.main import run
-from rsibr.rsibr_addon.core import prefilter
+from rsibr.rsibr_addon.core.filtering import prefilter
 from rsibr.rsibr_addon.files import memory
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 

@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 import rsibr
 from rsibr.rsibr_addon.command_line.main import run
-from rsibr.rsibr_addon.core.camera import Camera
 from rsibr.rsibr_addon.core.conventions import texel_centres
-from rsibr.rsibr_addon.core.directions import reflect
-from rsibr.rsibr_addon.core.irradiance import irradiance_from_harmonics
+from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_from_harmonics
+from rsibr.rsibr_addon.core.filtering.prefilter import prefilter_exact
+from rsibr.rsibr_addon.core.filtering.radial_lobes import ggx_n_dot_l_lobe
+from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.geometry.directions import reflect
+from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
 from rsibr.rsibr_addon.core.maps import equirect, sphere_map
 from rsibr.rsibr_addon.core.maps.representation import representation
-from rsibr.rsibr_addon.core.mip_chain import MipChain
-from rsibr.rsibr_addon.core.prefilter import prefilter_exact
-from rsibr.rsibr_addon.core.radial_lobes import ggx_n_dot_l_lobe
 from rsibr.rsibr_addon.files.kinds.mip_chain import from_map_set
 from rsibr.rsibr_addon.files.map_set import read_map_set
 from rsibr.rsibr_addon.files.pictures import read_exr
@@ -159,7 +159,7 @@ def test_the_operator_writes_what_the_command_writes(light: np.ndarray) -> None:
 @pytest.mark.needs("cycles")
 @pytest.mark.usefixtures("_registered")
 def test_the_operator_takes_the_world(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("rsibr.rsibr_addon.tasks.environments.WORLD_HEIGHT", 16)
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.light.environments.WORLD_HEIGHT", 16)
     path = tmp_path / "world.rsibr.exr"
     bpy.context.scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.1, 0.2, 0.3, 1.0)
     assert bpy.ops.rsibr.bake_mips(filepath=str(path), filter="box", size="64") == {"FINISHED"}

@@ -10,13 +10,13 @@ import rsibr
 from rsibr.operators.lift_painting import LAYOUTS
 from rsibr.rsibr_addon.command_line import convert
 from rsibr.rsibr_addon.command_line.main import run
-from rsibr.rsibr_addon.core.ball_circle import Circle
-from rsibr.rsibr_addon.core.ball_photograph import BallSide
+from rsibr.rsibr_addon.core.light.ball_circle import Circle
+from rsibr.rsibr_addon.core.light.ball_photograph import BallSide
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.map_pictures import layout, write_map
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
-from rsibr.rsibr_addon.tasks.brackets import BracketSettings
-from rsibr.rsibr_addon.tasks.illuminate_ball import BallSettings, SideSettings, illuminate_from_ball
+from rsibr.rsibr_addon.tasks.light.ball import BallSettings, SideSettings, illuminate_from_ball
+from rsibr.rsibr_addon.tasks.light.brackets import BracketSettings
 from rsibr.tests.open_file import open_file_state
 from rsibr.tests.synthetic_ball import ball_photograph
 from rsibr.tests.written_pictures import write_png

@@ -5,14 +5,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.camera import Camera
 from rsibr.rsibr_addon.core.conventions import texel_centres
-from rsibr.rsibr_addon.core.directions import reflect
 from rsibr.rsibr_addon.core.errors import InputFileError, MapSetError, OutputFileError, RangeError
+from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.geometry.directions import reflect
+from rsibr.rsibr_addon.core.kinds.environment import EnvironmentLook
+from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, ViewsLook, Warping
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.core.shading.environment import EnvironmentLook
-from rsibr.rsibr_addon.core.shading.radiance_views import Mode, ViewsLook, Warping
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.files.pictures import read_exr
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 import rsibr
 from rsibr.rsibr_addon.command_line.main import run
-from rsibr.rsibr_addon.core.camera import Camera
 from rsibr.rsibr_addon.core.conventions import texel_centres
-from rsibr.rsibr_addon.core.irradiance import irradiance_exact
+from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_exact
+from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.kinds.reflection_tables.material import PRESETS
+from rsibr.rsibr_addon.core.kinds.reflection_tables.shading import TablesLook, reflect_tables
+from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTables, Role
 from rsibr.rsibr_addon.core.maps import equirect, sphere_map
-from rsibr.rsibr_addon.core.reflection_tables import ReflectionTables, Role
-from rsibr.rsibr_addon.core.shading.reflection_tables import TablesLook, reflect_tables
-from rsibr.rsibr_addon.core.tables.material import PRESETS
 from rsibr.rsibr_addon.files.kinds.reflection_tables import from_map_set
 from rsibr.rsibr_addon.files.map_set import read_map_set
 from rsibr.rsibr_addon.files.pictures import read_exr
@@ -171,7 +171,7 @@ def test_the_operator_writes_what_the_command_writes(light: np.ndarray) -> None:
 @pytest.mark.needs("cycles")
 @pytest.mark.usefixtures("_registered")
 def test_the_operator_takes_the_world(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("rsibr.rsibr_addon.tasks.environments.WORLD_HEIGHT", 16)
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.light.environments.WORLD_HEIGHT", 16)
     path = tmp_path / "world.rsibr.exr"
     assert bpy.ops.rsibr.bake_tables(filepath=str(path), preset="matte") == {"FINISHED"}
     tables = from_map_set(path, read_map_set(path))

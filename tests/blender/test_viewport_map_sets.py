@@ -3,8 +3,8 @@
 from pathlib import Path
 
 import pytest
-from rsibr.rsibr_addon.tasks import viewport_map_sets
-from rsibr.rsibr_addon.tasks.viewport_map_sets import UnusedMapSets, UploadedMapSet, stamp_of
+from rsibr.rsibr_addon.tasks.viewport import map_sets as viewport_map_sets
+from rsibr.rsibr_addon.tasks.viewport.map_sets import UnusedMapSets, UploadedMapSet, stamp_of
 
 
 class Nothing:

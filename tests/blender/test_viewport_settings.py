@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import rsibr
 from rsibr.rsibr_addon.host.viewport import is_wanted, map_set_of, surfaces
-from rsibr.rsibr_addon.tasks.kinds import KINDS
-from rsibr.rsibr_addon.tasks.viewport import _look_settings, _settings
+from rsibr.rsibr_addon.tasks.methods.kinds import KINDS
+from rsibr.rsibr_addon.tasks.viewport.previews import _look_settings, _settings
 
 
 @pytest.fixture(autouse=True)

@@ -6,9 +6,9 @@ from rsibr.rsibr_addon.core.antialiased.footprint import footprint_box, pixel_fo
 from rsibr.rsibr_addon.core.antialiased.quadrilateral import quadrilateral_mean
 from rsibr.rsibr_addon.core.antialiased.recursive import recursive_mean, table_entry
 from rsibr.rsibr_addon.core.antialiased.summed_area import box_mean, summed_area_table
-from rsibr.rsibr_addon.core.directions import normalize
 from rsibr.rsibr_addon.core.errors import RangeError
-from rsibr.rsibr_addon.core.geodesic import spherical_excess
+from rsibr.rsibr_addon.core.geometry.directions import normalize
+from rsibr.rsibr_addon.core.geometry.geodesic import spherical_excess
 from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.core.resample import bilinear
 

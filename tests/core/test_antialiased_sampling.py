@@ -8,8 +8,8 @@ from rsibr.rsibr_addon.core.antialiased.footprint import (
     parallelogram,
 )
 from rsibr.rsibr_addon.core.antialiased.sampling import MOST, sample_counts, samples
-from rsibr.rsibr_addon.core.directions import normalize
-from rsibr.rsibr_addon.core.lobes.stack import LAYOUTS
+from rsibr.rsibr_addon.core.geometry.directions import normalize
+from rsibr.rsibr_addon.core.kinds.lobe_stack.stack import LAYOUTS
 from rsibr.rsibr_addon.core.maps import cube_map, sphere_map
 from rsibr.rsibr_addon.core.maps.representation import representation
 from rsibr.tests.lobe_stacks import random_stack

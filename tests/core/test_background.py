@@ -10,8 +10,8 @@ from types import SimpleNamespace
 
 import pytest
 from rsibr.rsibr_addon.core.progress import Progress
-from rsibr.rsibr_addon.tasks import background
-from rsibr.rsibr_addon.tasks.background import Bake, BakeQueue, State, blender_command
+from rsibr.rsibr_addon.tasks.queue import background
+from rsibr.rsibr_addon.tasks.queue.background import Bake, BakeQueue, State, blender_command
 
 
 def bake(script: str, title: str = "bake") -> Bake:

@@ -2,14 +2,14 @@
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.ball_circle import Circle, find_circle
-from rsibr.rsibr_addon.core.ball_photograph import (
+from rsibr.rsibr_addon.core.errors import RangeError
+from rsibr.rsibr_addon.core.light.ball_circle import Circle, find_circle
+from rsibr.rsibr_addon.core.light.ball_photograph import (
     BallSide,
     cut_ball,
     distance_from_view,
     environment_from_balls,
 )
-from rsibr.rsibr_addon.core.errors import RangeError
 from rsibr.rsibr_addon.core.maps.representation import representation
 from rsibr.tests.synthetic_ball import ball_photograph, surroundings
 

@@ -13,7 +13,7 @@ from rsibr.rsibr_addon.core.brdf.measured_material import (
 from rsibr.rsibr_addon.core.brdf.model import BrdfFunction
 from rsibr.rsibr_addon.core.brdf.spec import spec_from_brdf
 from rsibr.rsibr_addon.core.brdf.tabulated import tabulate
-from rsibr.rsibr_addon.core.directions import dot, normalize
+from rsibr.rsibr_addon.core.geometry.directions import dot, normalize
 
 LEAST = 1e-3
 SPEC = "blend:red.blend:Paint"

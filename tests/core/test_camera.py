@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.camera import Camera
-from rsibr.rsibr_addon.core.directions import normalize
 from rsibr.rsibr_addon.core.errors import RangeError
+from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.geometry.directions import normalize
 
 VIEW_DIRS = [(0.3, -0.8, 0.45), (0.0, 0.0, 2.0), (0.0, 0.0, -1.0), (-5.0, 0.0, 0.0)]
 FIELDS_OF_VIEW = [None, *np.deg2rad([0.5, 20.0, 90.0, 150.0, 178.0])]

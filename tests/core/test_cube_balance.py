@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.cube_balance import balancing_gains, edge_pairs
 from rsibr.rsibr_addon.core.errors import RangeError
+from rsibr.rsibr_addon.core.light.cube_balance import balancing_gains, edge_pairs
 from rsibr.rsibr_addon.core.maps.representation import representation
 
 RNG = np.random.default_rng(0)

@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.directions import (
+from rsibr.rsibr_addon.core.errors import RangeError
+from rsibr.rsibr_addon.core.geometry.directions import (
     camera_frame,
     dot,
     mirror_normal,
@@ -11,7 +12,6 @@ from rsibr.rsibr_addon.core.directions import (
     refract,
     transformed_normal,
 )
-from rsibr.rsibr_addon.core.errors import RangeError
 
 RNG = np.random.default_rng(1)
 DIRECTIONS = normalize(RNG.normal(size=(500, 3)))

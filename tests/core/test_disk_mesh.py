@@ -1,7 +1,7 @@
 """The tessellated disk and the interpolation over it, against a search through all triangles."""
 
 import numpy as np
-from rsibr.rsibr_addon.core.disk_mesh import MARGIN, RINGS, SECTORS, disk_mesh, interpolate
+from rsibr.rsibr_addon.core.geometry.disk_mesh import MARGIN, RINGS, SECTORS, disk_mesh, interpolate
 
 RNG = np.random.default_rng(10)
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.display import (
+from rsibr.rsibr_addon.core.pictures.display import (
     KNEE,
     NODE_OF_ONE,
     NODES_PER_STOP,

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.conventions import texel_centres
-from rsibr.rsibr_addon.core.directions import normalize
+from rsibr.rsibr_addon.core.geometry.directions import normalize
 from rsibr.rsibr_addon.core.maps import equirect
 
 DIRECTIONS = normalize(np.random.default_rng(3).normal(size=(2000, 3)))

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import RangeError
-from rsibr.rsibr_addon.core.exposure.merge import certainty, merge_bracket
-from rsibr.rsibr_addon.core.exposure.motion import Motion, looked_up, motion_between, pixel_points
-from rsibr.rsibr_addon.core.exposure.response import linear_response, recover_response, srgb_response
-from rsibr.rsibr_addon.core.transfer_curve import linear_from_srgb
+from rsibr.rsibr_addon.core.light.exposure.merge import certainty, merge_bracket
+from rsibr.rsibr_addon.core.light.exposure.motion import Motion, looked_up, motion_between, pixel_points
+from rsibr.rsibr_addon.core.light.exposure.response import linear_response, recover_response, srgb_response
+from rsibr.rsibr_addon.core.light.transfer_curve import linear_from_srgb
 from rsibr.tests.synthetic_camera import exposure_of, photograph, scene
 
 POINTS = pixel_points(320, 240)

@@ -5,9 +5,9 @@ from collections import defaultdict
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.directions import dot, normalize
 from rsibr.rsibr_addon.core.errors import RangeError
-from rsibr.rsibr_addon.core.geodesic import (
+from rsibr.rsibr_addon.core.geometry.directions import dot, normalize
+from rsibr.rsibr_addon.core.geometry.geodesic import (
     VERTEX_COUNTS,
     GeodesicSphere,
     barycentric_weights,

@@ -4,18 +4,18 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.conventions import Array, texel_centres
 from rsibr.rsibr_addon.core.errors import RangeError, ShapeError
-from rsibr.rsibr_addon.core.harmonics.analysis import analyse_environment
-from rsibr.rsibr_addon.core.harmonics.coefficients import EnvironmentHarmonics
-from rsibr.rsibr_addon.core.harmonics.kernel import WIDEST, Kernel, kernels_for
-from rsibr.rsibr_addon.core.harmonics.legendre import MAX_DEGREE, legendre_panels
-from rsibr.rsibr_addon.core.harmonics.rings import (
+from rsibr.rsibr_addon.core.filtering.harmonics.analysis import analyse_environment
+from rsibr.rsibr_addon.core.filtering.harmonics.coefficients import EnvironmentHarmonics
+from rsibr.rsibr_addon.core.filtering.harmonics.kernel import WIDEST, Kernel, kernels_for
+from rsibr.rsibr_addon.core.filtering.harmonics.legendre import MAX_DEGREE, legendre_panels
+from rsibr.rsibr_addon.core.filtering.harmonics.rings import (
     fast_even,
     moment_matching_rings,
     ring_colatitudes,
     ring_resampler,
 )
-from rsibr.rsibr_addon.core.harmonics.synthesis import grid_rows, synthesise, synthesise_directly
-from rsibr.rsibr_addon.core.irradiance import real_harmonics
+from rsibr.rsibr_addon.core.filtering.harmonics.synthesis import grid_rows, synthesise, synthesise_directly
+from rsibr.rsibr_addon.core.filtering.irradiance import real_harmonics
 from rsibr.rsibr_addon.core.maps import equirect
 
 RNG = np.random.default_rng(11)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.conventions import Array, texel_centres
 from rsibr.rsibr_addon.core.errors import RangeError, ShapeError
-from rsibr.rsibr_addon.core.harmonics.analysis import analyse_environment
-from rsibr.rsibr_addon.core.irradiance import (
+from rsibr.rsibr_addon.core.filtering.harmonics.analysis import analyse_environment
+from rsibr.rsibr_addon.core.filtering.irradiance import (
     irradiance_exact,
     irradiance_from_harmonics,
     irradiance_matrix,

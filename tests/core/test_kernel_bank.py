@@ -5,20 +5,20 @@ import pytest
 from rsibr.rsibr_addon.core.brdf.model import Brdf
 from rsibr.rsibr_addon.core.brdf.spec import brdf_from_spec, with_alpha
 from rsibr.rsibr_addon.core.conventions import Array, texel_centres
-from rsibr.rsibr_addon.core.directions import dot, normalize
 from rsibr.rsibr_addon.core.errors import RangeError, ShapeError
+from rsibr.rsibr_addon.core.filtering.prefilter import prefilter_exact, resolved_width
+from rsibr.rsibr_addon.core.filtering.radial_lobes import von_mises_fisher_lobe
+from rsibr.rsibr_addon.core.filtering.zonal import expand
+from rsibr.rsibr_addon.core.geometry.directions import dot, normalize
+from rsibr.rsibr_addon.core.kinds.kernel_bank.filtered_bank import FilteredBank, stack_from_bank
+from rsibr.rsibr_addon.core.kinds.kernel_bank.shading import BankLook
+from rsibr.rsibr_addon.core.kinds.lobe_stack.stack import LAYOUTS
 from rsibr.rsibr_addon.core.lobes.bake import ALLOWED_OF_A_KERNEL, BakedBank, bake_bank, bake_stack
 from rsibr.rsibr_addon.core.lobes.bank import KernelBank
-from rsibr.rsibr_addon.core.lobes.filtered_bank import FilteredBank, stack_from_bank
 from rsibr.rsibr_addon.core.lobes.layers import layered_fit
-from rsibr.rsibr_addon.core.lobes.stack import LAYOUTS
 from rsibr.rsibr_addon.core.maps import equirect
-from rsibr.rsibr_addon.core.prefilter import prefilter_exact, resolved_width
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.core.radial_lobes import von_mises_fisher_lobe
 from rsibr.rsibr_addon.core.resample import lookup
-from rsibr.rsibr_addon.core.shading.kernel_bank import BankLook
-from rsibr.rsibr_addon.core.zonal import expand
 from rsibr.tests.lobe_stacks import random_fit
 
 HEIGHT = 64

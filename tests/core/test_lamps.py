@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import RangeError
-from rsibr.rsibr_addon.core.lamps import LampLight, add_lamps, angular_width, directions_in_cap
+from rsibr.rsibr_addon.core.light.lamps import LampLight, add_lamps, angular_width, directions_in_cap
 from rsibr.rsibr_addon.core.maps import equirect
 
 WIDTH, HEIGHT = 64, 32

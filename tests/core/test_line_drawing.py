@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.line_drawing import DASH, GAP, line_coverage
+from rsibr.rsibr_addon.core.pictures.line_drawing import DASH, GAP, line_coverage
 
 
 @pytest.mark.parametrize("width", [1.0, 2.0, 3.0])

@@ -6,10 +6,10 @@ from rsibr.rsibr_addon.core.brdf.albedo import directional_albedo
 from rsibr.rsibr_addon.core.brdf.lambert import Lambert
 from rsibr.rsibr_addon.core.brdf.spec import brdf_from_spec
 from rsibr.rsibr_addon.core.conventions import Array, texel_centres
-from rsibr.rsibr_addon.core.directions import camera_frame, normalize
 from rsibr.rsibr_addon.core.errors import RangeError, ShapeError
-from rsibr.rsibr_addon.core.irradiance import irradiance_exact
-from rsibr.rsibr_addon.core.lit_sphere import LitSphere, lit_spheres, ring_radiance
+from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_exact
+from rsibr.rsibr_addon.core.geometry.directions import camera_frame, normalize
+from rsibr.rsibr_addon.core.geometry.lit_sphere import LitSphere, lit_spheres, ring_radiance
 from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.core.progress import Progress, drain
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import RangeError
-from rsibr.rsibr_addon.core.irradiance import real_harmonics
-from rsibr.rsibr_addon.core.live_environment import (
+from rsibr.rsibr_addon.core.filtering.irradiance import real_harmonics
+from rsibr.rsibr_addon.core.kinds.live_environment import (
     chain_of_faces,
     face_projection,
     face_view,
@@ -14,9 +14,9 @@ from rsibr.rsibr_addon.core.live_environment import (
     near_distances,
     solid_angle_texels,
 )
+from rsibr.rsibr_addon.core.kinds.mip_chain.texture_space import box_halved, tent_halved
 from rsibr.rsibr_addon.core.maps import cube_map
 from rsibr.rsibr_addon.core.maps.representation import representation
-from rsibr.rsibr_addon.core.mips.texture_space import box_halved, tent_halved
 
 
 @pytest.mark.parametrize("size", [1, 4, 16])

@@ -4,16 +4,16 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.brdf.model import BrdfFunction
 from rsibr.rsibr_addon.core.conventions import Array, texel_centres
-from rsibr.rsibr_addon.core.directions import dot, normalize, reflect
 from rsibr.rsibr_addon.core.errors import RangeError, ShapeError
-from rsibr.rsibr_addon.core.lit_sphere import ring_radiance
+from rsibr.rsibr_addon.core.geometry.directions import dot, normalize, reflect
+from rsibr.rsibr_addon.core.geometry.lit_sphere import ring_radiance
+from rsibr.rsibr_addon.core.kinds.lobe_stack.shading import StackLook, facing_normal, stack_radiance
+from rsibr.rsibr_addon.core.kinds.lobe_stack.stack import LAYOUTS, LobeStack, stack_representation
 from rsibr.rsibr_addon.core.lobes.bake import ALLOWED_INTERPOLATION, SIZES, BakedStack, bake_stack
 from rsibr.rsibr_addon.core.lobes.bank import KernelBank
 from rsibr.rsibr_addon.core.lobes.fit import Fit
-from rsibr.rsibr_addon.core.lobes.stack import LAYOUTS, LobeStack, stack_representation
 from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.core.shading.lobe_stack import StackLook, facing_normal, stack_radiance
 from rsibr.tests.lobe_stacks import random_fit, random_stack
 
 BROAD = KernelBank((0.5, 2.0, 8.0))

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import RangeError
+from rsibr.rsibr_addon.core.filtering.zonal import ZonalLobe, zonal_coefficients
 from rsibr.rsibr_addon.core.lobes.bank import BROADEST, SHARPEST, KernelBank, octaves
-from rsibr.rsibr_addon.core.zonal import ZonalLobe, zonal_coefficients
 
 
 def sphere(nodes: int) -> tuple[np.ndarray, np.ndarray]:

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.directions import normalize
+from rsibr.rsibr_addon.core.geometry.directions import normalize
 from rsibr.rsibr_addon.core.maps import cube_map
 
 RNG = np.random.default_rng(0)

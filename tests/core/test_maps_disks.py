@@ -5,8 +5,8 @@ from functools import partial
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.directions import dot, normalize, reflect
 from rsibr.rsibr_addon.core.errors import RangeError
+from rsibr.rsibr_addon.core.geometry.directions import dot, normalize, reflect
 from rsibr.rsibr_addon.core.maps import angular_map, dual_paraboloid, mirror_ball, orthographic, sphere_map
 
 EPS = np.finfo(float).eps

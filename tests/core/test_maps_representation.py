@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.camera import Camera
-from rsibr.rsibr_addon.core.directions import normalize, reflect
 from rsibr.rsibr_addon.core.errors import RangeError
+from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.geometry.directions import normalize, reflect
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.maps.representation import (
     AHEAD,

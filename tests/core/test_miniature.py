@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.miniature import miniature
+from rsibr.rsibr_addon.core.pictures.thumbnail import miniature
 
 RNG = np.random.default_rng(3)
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.conventions import Array
 from rsibr.rsibr_addon.core.errors import RangeError
-from rsibr.rsibr_addon.core.maps import cube_map
-from rsibr.rsibr_addon.core.maps.representation import representation
-from rsibr.rsibr_addon.core.mips.ggx import (
+from rsibr.rsibr_addon.core.filtering.prefilter import prefilter_exact
+from rsibr.rsibr_addon.core.filtering.radial_lobes import ggx_n_dot_l_lobe
+from rsibr.rsibr_addon.core.kinds.mip_chain.ggx import (
     ROUGHNESS_RULES,
     TOLERANCE,
     environment_faces,
@@ -14,9 +14,14 @@ from rsibr.rsibr_addon.core.mips.ggx import (
     linear_roughness,
     quadratic_roughness,
 )
-from rsibr.rsibr_addon.core.mips.texture_space import box_halved, filtered_mips, tent_halved, with_borders
-from rsibr.rsibr_addon.core.prefilter import prefilter_exact
-from rsibr.rsibr_addon.core.radial_lobes import ggx_n_dot_l_lobe
+from rsibr.rsibr_addon.core.kinds.mip_chain.texture_space import (
+    box_halved,
+    filtered_mips,
+    tent_halved,
+    with_borders,
+)
+from rsibr.rsibr_addon.core.maps import cube_map
+from rsibr.rsibr_addon.core.maps.representation import representation
 from rsibr.rsibr_addon.core.resample import bilinear, lookup
 
 CUBE = representation("cube_map")

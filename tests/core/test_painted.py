@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import RangeError
-from rsibr.rsibr_addon.core.painted import lift_whites
+from rsibr.rsibr_addon.core.light.painted import lift_whites
 
 WHITE = (200.0, 120.0, 60.0)
 

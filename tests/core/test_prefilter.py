@@ -7,16 +7,21 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.conventions import Array, texel_centres
 from rsibr.rsibr_addon.core.errors import RangeError, ShapeError
-from rsibr.rsibr_addon.core.harmonics.analysis import analyse_environment
-from rsibr.rsibr_addon.core.maps import equirect
-from rsibr.rsibr_addon.core.prefilter import Prefiltered, analysis_degree, prefilter, prefilter_exact
-from rsibr.rsibr_addon.core.radial_lobes import (
+from rsibr.rsibr_addon.core.filtering.harmonics.analysis import analyse_environment
+from rsibr.rsibr_addon.core.filtering.prefilter import (
+    Prefiltered,
+    analysis_degree,
+    prefilter,
+    prefilter_exact,
+)
+from rsibr.rsibr_addon.core.filtering.radial_lobes import (
     cosine_lobe,
     ggx_lobe,
     ggx_n_dot_l_lobe,
     von_mises_fisher_lobe,
 )
-from rsibr.rsibr_addon.core.zonal import ZonalLobe, expand
+from rsibr.rsibr_addon.core.filtering.zonal import ZonalLobe, expand
+from rsibr.rsibr_addon.core.maps import equirect
 
 RNG = np.random.default_rng(21)
 LOBES = [ggx_lobe(0.1), von_mises_fisher_lobe(40.0), ggx_lobe(0.5), von_mises_fisher_lobe(300.0)]

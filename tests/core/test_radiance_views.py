@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.directions import camera_frame
 from rsibr.rsibr_addon.core.errors import RangeError, ShapeError
-from rsibr.rsibr_addon.core.geodesic import geodesic_sphere
-from rsibr.rsibr_addon.core.radiance_views import RadianceViews
+from rsibr.rsibr_addon.core.geometry.directions import camera_frame
+from rsibr.rsibr_addon.core.geometry.geodesic import geodesic_sphere
+from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
 from rsibr.tests.synthetic_views import random_views
 
 

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.conventions import texel_centres
-from rsibr.rsibr_addon.core.directions import camera_frame, dot, normalize, reflect
-from rsibr.rsibr_addon.core.maps import sphere_map
-from rsibr.rsibr_addon.core.reflection_warp import (
+from rsibr.rsibr_addon.core.geometry.directions import camera_frame, dot, normalize, reflect
+from rsibr.rsibr_addon.core.geometry.reflection_warp import (
     LEAST_CONFIDENCE,
     TRUSTED_COSINE,
     Warp,
@@ -13,6 +12,7 @@ from rsibr.rsibr_addon.core.reflection_warp import (
     source_cosine,
     source_uv,
 )
+from rsibr.rsibr_addon.core.maps import sphere_map
 
 RNG = np.random.default_rng(11)
 EPS = np.finfo(np.float64).eps

@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core import deposit
+from rsibr.rsibr_addon.core import splat as deposit
 from rsibr.rsibr_addon.core.conventions import texel_centres
-from rsibr.rsibr_addon.core.deposit import parts_beyond
-from rsibr.rsibr_addon.core.directions import normalize
 from rsibr.rsibr_addon.core.errors import RangeError, ShapeError
+from rsibr.rsibr_addon.core.geometry.directions import normalize
 from rsibr.rsibr_addon.core.maps.representation import REPRESENTATIONS, Representation, representation
 from rsibr.rsibr_addon.core.resample import lookup, resample
+from rsibr.rsibr_addon.core.splat import parts_beyond
 
 SIZES = {"equirect": 128, "cube_map": 64, "dual_paraboloid": 96, "orthographic": 96}
 """Width of a sheet of a map of some 10,000 texels; of the others, 128."""

@@ -5,13 +5,11 @@ from math import floor
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.camera import Camera
 from rsibr.rsibr_addon.core.conventions import texel_centres
-from rsibr.rsibr_addon.core.directions import camera_frame, dot, normalize
-from rsibr.rsibr_addon.core.geodesic import find_triangle
-from rsibr.rsibr_addon.core.maps import sphere_map
-from rsibr.rsibr_addon.core.radiance_views import RadianceViews
-from rsibr.rsibr_addon.core.shading.radiance_views import (
+from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.geometry.directions import camera_frame, dot, normalize
+from rsibr.rsibr_addon.core.geometry.geodesic import find_triangle
+from rsibr.rsibr_addon.core.kinds.radiance_views.shading import (
     LEAST_ALBEDO,
     Destination,
     Warping,
@@ -20,6 +18,8 @@ from rsibr.rsibr_addon.core.shading.radiance_views import (
     destination_lookup,
     views_fragment,
 )
+from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
+from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.tests.synthetic_views import (
     random_views,
     visible_points,

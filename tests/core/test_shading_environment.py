@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.antialiased.footprint import parallelogram, pixel_footprints
 from rsibr.rsibr_addon.core.conventions import texel_centres
-from rsibr.rsibr_addon.core.directions import dot, normalize, reflect
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import RangeError
+from rsibr.rsibr_addon.core.geometry.directions import dot, normalize, reflect
+from rsibr.rsibr_addon.core.kinds.environment import EnvironmentLook, mirrored_environment
 from rsibr.rsibr_addon.core.maps import equirect
-from rsibr.rsibr_addon.core.shading.environment import EnvironmentLook, mirrored_environment
 from rsibr.tests.mirror_capture import environment, radiance_from
 
 RNG = np.random.default_rng(61)

@@ -5,16 +5,13 @@ from functools import cache
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.camera import Camera
 from rsibr.rsibr_addon.core.conventions import texel_centres
-from rsibr.rsibr_addon.core.directions import camera_frame, dot, normalize, reflect
-from rsibr.rsibr_addon.core.disk_mesh import disk_mesh, interpolate
-from rsibr.rsibr_addon.core.geodesic import barycentric_weights, find_triangle, geodesic_sphere
-from rsibr.rsibr_addon.core.maps import sphere_map
-from rsibr.rsibr_addon.core.radiance_views import RadianceViews
-from rsibr.rsibr_addon.core.reflection_warp import Warp, confidence, source_cosine, source_uv
-from rsibr.rsibr_addon.core.resample import bilinear
-from rsibr.rsibr_addon.core.shading.radiance_views import (
+from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.geometry.directions import camera_frame, dot, normalize, reflect
+from rsibr.rsibr_addon.core.geometry.disk_mesh import disk_mesh, interpolate
+from rsibr.rsibr_addon.core.geometry.geodesic import barycentric_weights, find_triangle, geodesic_sphere
+from rsibr.rsibr_addon.core.geometry.reflection_warp import Warp, confidence, source_cosine, source_uv
+from rsibr.rsibr_addon.core.kinds.radiance_views.shading import (
     Destination,
     Warping,
     destination_by_mesh,
@@ -22,6 +19,9 @@ from rsibr.rsibr_addon.core.shading.radiance_views import (
     destination_lookup,
     views_fragment,
 )
+from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
+from rsibr.rsibr_addon.core.maps import sphere_map
+from rsibr.rsibr_addon.core.resample import bilinear
 from rsibr.tests.synthetic_views import (
     environment_radiance,
     interpolation_bound,

@@ -5,21 +5,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.conventions import Array
-from rsibr.rsibr_addon.core.directions import normalize, reflect
 from rsibr.rsibr_addon.core.errors import RangeError, ShapeError
-from rsibr.rsibr_addon.core.harmonics.analysis import analyse_environment
-from rsibr.rsibr_addon.core.irradiance import irradiance_exact
-from rsibr.rsibr_addon.core.maps import cube_map
-from rsibr.rsibr_addon.core.mip_chain import MipChain
-from rsibr.rsibr_addon.core.mips.ggx import environment_faces
-from rsibr.rsibr_addon.core.mips.texture_space import box_halved, filtered_mips, tent_halved
-from rsibr.rsibr_addon.core.shading.mip_chain import (
+from rsibr.rsibr_addon.core.filtering.harmonics.analysis import analyse_environment
+from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_exact
+from rsibr.rsibr_addon.core.geometry.directions import normalize, reflect
+from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
+from rsibr.rsibr_addon.core.kinds.mip_chain.ggx import environment_faces
+from rsibr.rsibr_addon.core.kinds.mip_chain.shading import (
     Borders,
     MipLook,
     diffuse_radiance,
     glossy_radiance,
     mip_chain_radiance,
 )
+from rsibr.rsibr_addon.core.kinds.mip_chain.texture_space import box_halved, filtered_mips, tent_halved
+from rsibr.rsibr_addon.core.maps import cube_map
 
 RNG = np.random.default_rng(31)
 NORMALS = normalize(RNG.normal(size=(500, 3)))

@@ -3,13 +3,17 @@
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.conventions import texel_centres
-from rsibr.rsibr_addon.core.directions import dot, normalize
 from rsibr.rsibr_addon.core.errors import RangeError
+from rsibr.rsibr_addon.core.filtering.radial_lobes import phong_lobe
+from rsibr.rsibr_addon.core.geometry.directions import dot, normalize
+from rsibr.rsibr_addon.core.kinds.reflection_tables.bake import LOOKUP_ERROR, lobe_rows
+from rsibr.rsibr_addon.core.kinds.reflection_tables.shading import (
+    TablesLook,
+    lookup_direction,
+    reflect_tables,
+)
+from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTables, Role
 from rsibr.rsibr_addon.core.maps import equirect
-from rsibr.rsibr_addon.core.radial_lobes import phong_lobe
-from rsibr.rsibr_addon.core.reflection_tables import ReflectionTables, Role
-from rsibr.rsibr_addon.core.shading.reflection_tables import TablesLook, lookup_direction, reflect_tables
-from rsibr.rsibr_addon.core.tables.bake import LOOKUP_ERROR, lobe_rows
 from rsibr.tests.synthetic_views import environment_radiance
 
 RNG = np.random.default_rng(31)

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.conventions import texel_centres
-from rsibr.rsibr_addon.core.directions import normalize, reflect
 from rsibr.rsibr_addon.core.errors import ShapeError
+from rsibr.rsibr_addon.core.geometry.directions import normalize, reflect
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.resample import bilinear
 

@@ -10,10 +10,7 @@ from rsibr.rsibr_addon.core.brdf.fresnel import fresnel_conductor
 from rsibr.rsibr_addon.core.brdf.spec import brdf_from_spec
 from rsibr.rsibr_addon.core.conventions import Array, texel_centres
 from rsibr.rsibr_addon.core.errors import RangeError, RsibrWarning, ShapeError
-from rsibr.rsibr_addon.core.maps import equirect
-from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.core.reflection_tables import ReflectionTables, Role
-from rsibr.rsibr_addon.core.tables.bake import (
+from rsibr.rsibr_addon.core.kinds.reflection_tables.bake import (
     DIFFUSE_ROWS,
     LOOKUP_ERROR,
     BakedTables,
@@ -21,14 +18,17 @@ from rsibr.rsibr_addon.core.tables.bake import (
     bake_tables,
     lobe_rows,
 )
-from rsibr.rsibr_addon.core.tables.material import PRESETS, material_from_texts
-from rsibr.rsibr_addon.core.tables.weights import (
+from rsibr.rsibr_addon.core.kinds.reflection_tables.material import PRESETS, material_from_texts
+from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTables, Role
+from rsibr.rsibr_addon.core.kinds.reflection_tables.weights import (
     COLUMNS,
     furnace,
     table_weights,
     warn_of_table_gain,
     weight_cosines,
 )
+from rsibr.rsibr_addon.core.maps import equirect
+from rsibr.rsibr_addon.core.progress import drain
 
 ROWS = 24
 SINGLE = 2.0**-24

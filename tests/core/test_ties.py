@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.exposure.merge import BLACK, merge_bracket
-from rsibr.rsibr_addon.core.exposure.response import linear_response
 from rsibr.rsibr_addon.core.half_floats import half_holds
-from rsibr.rsibr_addon.core.lamps import LampLight, add_lamps
+from rsibr.rsibr_addon.core.light.exposure.merge import BLACK, merge_bracket
+from rsibr.rsibr_addon.core.light.exposure.response import linear_response
+from rsibr.rsibr_addon.core.light.lamps import LampLight, add_lamps
 from rsibr.rsibr_addon.core.lobes.bank import octaves
 from rsibr.rsibr_addon.core.lobes.clustering import clustered
 from rsibr.rsibr_addon.core.lobes.kautz_mccool import Remainder, graded_angles

@@ -1,7 +1,7 @@
 """The sRGB curve, by the standard's own values."""
 
 import numpy as np
-from rsibr.rsibr_addon.core.transfer_curve import linear_from_srgb, srgb_from_linear
+from rsibr.rsibr_addon.core.light.transfer_curve import linear_from_srgb, srgb_from_linear
 
 
 def test_ends_middle_and_the_straight_piece() -> None:

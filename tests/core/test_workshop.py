@@ -4,7 +4,7 @@ import threading
 from collections.abc import Iterator
 
 import pytest
-from rsibr.rsibr_addon.tasks.workshop import Workshop
+from rsibr.rsibr_addon.tasks.methods.latest_request_worker import Workshop
 
 SECONDS = 20.0
 """After these a thread hangs."""

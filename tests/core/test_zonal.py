@@ -5,15 +5,15 @@ import dataclasses
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import RangeError
-from rsibr.rsibr_addon.core.harmonics.legendre import MAX_DEGREE
-from rsibr.rsibr_addon.core.radial_lobes import (
+from rsibr.rsibr_addon.core.filtering.harmonics.legendre import MAX_DEGREE
+from rsibr.rsibr_addon.core.filtering.radial_lobes import (
     cosine_lobe,
     ggx_lobe,
     ggx_n_dot_l_lobe,
     phong_lobe,
     von_mises_fisher_lobe,
 )
-from rsibr.rsibr_addon.core.zonal import ZonalLobe, expand, graded_knots, zonal_coefficients
+from rsibr.rsibr_addon.core.filtering.zonal import ZonalLobe, expand, graded_knots, zonal_coefficients
 
 # Quadrature rounds sums of a thousand terms that are at most the lobe's integral.
 ROUNDED = 1e-13

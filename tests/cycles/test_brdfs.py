@@ -12,7 +12,7 @@ from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.host.furnace import COSINES, directional_albedo
 from rsibr.rsibr_addon.host.materials import load_material
 from rsibr.rsibr_addon.host.scenes import temporary_scene
-from rsibr.rsibr_addon.tasks.brdfs import load_brdf
+from rsibr.rsibr_addon.tasks.reflectance.brdfs import load_brdf
 
 pytestmark = pytest.mark.needs("cycles")
 

@@ -12,7 +12,6 @@ import bpy
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.conventions import texel_centres
-from rsibr.rsibr_addon.core.directions import reflect
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import (
     InputFileError,
@@ -22,6 +21,7 @@ from rsibr.rsibr_addon.core.errors import (
     RsibrWarning,
     SceneError,
 )
+from rsibr.rsibr_addon.core.geometry.directions import reflect
 from rsibr.rsibr_addon.core.maps import equirect, sphere_map
 from rsibr.rsibr_addon.core.progress import Progress, drain
 from rsibr.rsibr_addon.files.map_set import read_map_set
@@ -29,10 +29,10 @@ from rsibr.rsibr_addon.files.pictures import write_exr
 from rsibr.rsibr_addon.host.cycles import render_view
 from rsibr.rsibr_addon.host.worlds import light_with
 from rsibr.rsibr_addon.job import CaptureJob
-from rsibr.rsibr_addon.tasks import capture as task
-from rsibr.rsibr_addon.tasks import environments
-from rsibr.rsibr_addon.tasks.capture import capture
-from rsibr.rsibr_addon.tasks.kinds import open_map_set
+from rsibr.rsibr_addon.tasks.light import environments
+from rsibr.rsibr_addon.tasks.methods import radiance_views as task
+from rsibr.rsibr_addon.tasks.methods.kinds import open_map_set
+from rsibr.rsibr_addon.tasks.methods.radiance_views import capture
 from rsibr.tests.open_file import open_file_state
 
 LIT = (12, 3)
@@ -152,7 +152,7 @@ def test_a_killed_capture_goes_on_bit_for_bit(job: CaptureJob, partial: Path, re
     script = (
         "import json, os, signal, sys\n"
         "from rsibr.rsibr_addon.job import CaptureJob\n"
-        "from rsibr.rsibr_addon.tasks.capture import capture\n"
+        "from rsibr.rsibr_addon.tasks.methods.radiance_views import capture\n"
         "for progress in capture(CaptureJob(**json.loads(sys.argv[1]))):\n"
         "    if progress.done == 6:\n"
         "        os.kill(os.getpid(), signal.SIGKILL)\n"

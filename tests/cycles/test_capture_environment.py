@@ -7,8 +7,8 @@ import bpy
 import pytest
 import rsibr
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.tasks.illuminate_scene import SceneLight, illuminate_from_scene
-from rsibr.rsibr_addon.tasks.illuminate_world import illuminate_from_world
+from rsibr.rsibr_addon.tasks.light.scene import SceneLight, illuminate_from_scene
+from rsibr.rsibr_addon.tasks.light.world import illuminate_from_world
 from rsibr.tests.open_file import open_file_state
 
 

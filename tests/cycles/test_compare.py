@@ -10,19 +10,19 @@ import bpy
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import InputFileError, MapSetError, OutputFileError, RangeError
+from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, Warping
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.core.shading.radiance_views import Mode, Warping
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.host.materials import fingerprint, load_material
 from rsibr.rsibr_addon.host.scenes import temporary_scene
-from rsibr.rsibr_addon.tasks.compare import compare
-from rsibr.rsibr_addon.tasks.comparison import (
+from rsibr.rsibr_addon.tasks.compare.comparison import (
     Comparison,
     ComparisonSettings,
     comparison_table,
     random_directions,
 )
-from rsibr.rsibr_addon.tasks.comparison_pictures import BRIGHTER, DARKER, difference_picture
+from rsibr.rsibr_addon.tasks.compare.pictures import BRIGHTER, DARKER, difference_picture
+from rsibr.rsibr_addon.tasks.compare.views import compare
 from rsibr.tests.mirror_capture import mirror_map_set
 
 pytestmark = pytest.mark.needs("gl")

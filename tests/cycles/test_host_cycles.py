@@ -6,11 +6,11 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.camera import Camera
 from rsibr.rsibr_addon.core.conventions import texel_centres
-from rsibr.rsibr_addon.core.directions import reflect
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import RangeError, RenderError
+from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.geometry.directions import reflect
 from rsibr.rsibr_addon.core.maps import equirect, sphere_map
 from rsibr.rsibr_addon.files.exr import read_parts
 from rsibr.rsibr_addon.host.cameras import add_camera

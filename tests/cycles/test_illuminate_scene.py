@@ -15,7 +15,7 @@ from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.radiance_pictures import read_radiance
 from rsibr.rsibr_addon.host.rendering import configure_cycles, render_passes
 from rsibr.rsibr_addon.host.scenes import temporary_copy
-from rsibr.rsibr_addon.tasks.illuminate_scene import SceneLight, illuminate_from_scene
+from rsibr.rsibr_addon.tasks.light.scene import SceneLight, illuminate_from_scene
 from rsibr.tests.open_file import open_file_state
 
 SIZE = 128
@@ -47,7 +47,7 @@ def add_lamp() -> AddLamp:
 
 @pytest.fixture(autouse=True)
 def _empty_scene(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("rsibr.rsibr_addon.tasks.illuminate_scene.PANORAMA_STEPS", 2)
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.light.scene.PANORAMA_STEPS", 2)
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.context.scene.cycles.max_bounces = bpy.context.scene.cycles.diffuse_bounces = 2
 

@@ -5,12 +5,12 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.conventions import texel_centres
-from rsibr.rsibr_addon.core.directions import reflect
-from rsibr.rsibr_addon.core.harmonics.analysis import analyse_environment
+from rsibr.rsibr_addon.core.filtering.harmonics.analysis import analyse_environment
+from rsibr.rsibr_addon.core.geometry.directions import reflect
+from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
+from rsibr.rsibr_addon.core.kinds.mip_chain.ggx import environment_faces
+from rsibr.rsibr_addon.core.kinds.mip_chain.shading import Borders, diffuse_radiance, glossy_radiance
 from rsibr.rsibr_addon.core.maps import sphere_map
-from rsibr.rsibr_addon.core.mip_chain import MipChain
-from rsibr.rsibr_addon.core.mips.ggx import environment_faces
-from rsibr.rsibr_addon.core.shading.mip_chain import Borders, diffuse_radiance, glossy_radiance
 from rsibr.tests.cycles.test_reflection_tables import CAMERA, FINE, SIZE, rendered, shader
 from rsibr.tests.mirror_capture import environment
 

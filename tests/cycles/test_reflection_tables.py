@@ -6,15 +6,15 @@ import bpy
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.antialiased.footprint import pixel_footprints
-from rsibr.rsibr_addon.core.camera import Camera
 from rsibr.rsibr_addon.core.conventions import texel_centres
-from rsibr.rsibr_addon.core.directions import reflect
+from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.geometry.directions import reflect
+from rsibr.rsibr_addon.core.kinds.environment import EnvironmentLook, mirrored_environment
+from rsibr.rsibr_addon.core.kinds.reflection_tables.bake import TableSizes, bake_tables
+from rsibr.rsibr_addon.core.kinds.reflection_tables.material import material_from_texts
+from rsibr.rsibr_addon.core.kinds.reflection_tables.shading import TablesLook, reflect_tables
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.core.shading.environment import EnvironmentLook, mirrored_environment
-from rsibr.rsibr_addon.core.shading.reflection_tables import TablesLook, reflect_tables
-from rsibr.rsibr_addon.core.tables.bake import TableSizes, bake_tables
-from rsibr.rsibr_addon.core.tables.material import material_from_texts
 from rsibr.rsibr_addon.files.brdfs import read_measured
 from rsibr.rsibr_addon.host.cameras import add_camera
 from rsibr.rsibr_addon.host.cycles import RenderSettings, render_view

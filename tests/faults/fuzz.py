@@ -30,15 +30,15 @@ from rsibr.rsibr_addon.files.exr import Part, read_parts, write_parts
 from rsibr.rsibr_addon.files.fits import read_fit
 from rsibr.rsibr_addon.files.map_set import ATTRIBUTE, read_map_set, read_map_set_header, write_map_set
 from rsibr.rsibr_addon.files.work_folder import work_folder
-from rsibr.rsibr_addon.tasks import map_set_page
-from rsibr.rsibr_addon.tasks.background import Bake
-from rsibr.rsibr_addon.tasks.brdfs import check_told_brdf
+from rsibr.rsibr_addon.tasks.compare.measured_error import measured_facts
 from rsibr.rsibr_addon.tasks.export import export
-from rsibr.rsibr_addon.tasks.fit_plots import lobe_picture
-from rsibr.rsibr_addon.tasks.kinds import open_map_set
-from rsibr.rsibr_addon.tasks.map_set_facts import map_set_content, map_set_facts, map_set_fit
-from rsibr.rsibr_addon.tasks.map_set_pictures import map_set_pictures
-from rsibr.rsibr_addon.tasks.measured_error import measured_facts
+from rsibr.rsibr_addon.tasks.methods.kinds import open_map_set
+from rsibr.rsibr_addon.tasks.queue.background import Bake
+from rsibr.rsibr_addon.tasks.reflectance.brdfs import check_told_brdf
+from rsibr.rsibr_addon.tasks.reflectance.fit_plots import lobe_picture
+from rsibr.rsibr_addon.tasks.report import page as map_set_page
+from rsibr.rsibr_addon.tasks.report.facts import map_set_content, map_set_facts, map_set_fit
+from rsibr.rsibr_addon.tasks.report.pictures import map_set_pictures
 from rsibr.tests.faults.mutations import damaged_bytes, damaged_json
 from rsibr.tests.faults.small_map_sets import json_files, map_sets
 

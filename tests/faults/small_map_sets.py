@@ -5,18 +5,18 @@ from pathlib import Path
 
 import numpy as np
 from rsibr.rsibr_addon.core.environment import Environment
+from rsibr.rsibr_addon.core.kinds.kernel_bank.filtered_bank import FilteredBank
+from rsibr.rsibr_addon.core.kinds.lobe_stack.stack import LobeStack, stack_representation
+from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
+from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, Warping
+from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTables, Role
 from rsibr.rsibr_addon.core.lobes.bake import BakedBank
 from rsibr.rsibr_addon.core.lobes.bank import KernelBank
-from rsibr.rsibr_addon.core.lobes.filtered_bank import FilteredBank
-from rsibr.rsibr_addon.core.lobes.stack import LobeStack, stack_representation
-from rsibr.rsibr_addon.core.mip_chain import MipChain
-from rsibr.rsibr_addon.core.reflection_tables import ReflectionTables, Role
-from rsibr.rsibr_addon.core.shading.radiance_views import Mode, Warping
 from rsibr.rsibr_addon.files.fits import write_fit
 from rsibr.rsibr_addon.files.kinds import kernel_bank, lobe_stack, mip_chain, reflection_tables
 from rsibr.rsibr_addon.files.map_set import MapSet
 from rsibr.rsibr_addon.job import BakeJob
-from rsibr.rsibr_addon.tasks.comparison import (
+from rsibr.rsibr_addon.tasks.compare.comparison import (
     Comparison,
     ComparisonSettings,
     StackComparisonSettings,

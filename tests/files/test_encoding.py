@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import RsibrWarning
-from rsibr.rsibr_addon.core.transfer_curve import linear_from_srgb
+from rsibr.rsibr_addon.core.light.transfer_curve import linear_from_srgb
 from rsibr.rsibr_addon.files.chromaticities import REC_709, rec709_from
 from rsibr.rsibr_addon.files.encoding import PRIMARIES, named_encoding, profile_encoding
 from rsibr.rsibr_addon.files.photographs import read_photograph

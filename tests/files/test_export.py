@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError
-from rsibr.rsibr_addon.core.irradiance import irradiance_from_harmonics
+from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_from_harmonics
+from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
+from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTables, Role
 from rsibr.rsibr_addon.core.maps.representation import representation
-from rsibr.rsibr_addon.core.mip_chain import MipChain
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.core.reflection_tables import ReflectionTables, Role
 from rsibr.rsibr_addon.core.resample import lookup
 from rsibr.rsibr_addon.files.kinds import mip_chain, reflection_tables
 from rsibr.rsibr_addon.files.ktx2 import Texture, write_ktx2

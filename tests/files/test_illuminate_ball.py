@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.command_line.main import run
-from rsibr.rsibr_addon.core.ball_circle import Circle
-from rsibr.rsibr_addon.core.ball_photograph import BallSide
+from rsibr.rsibr_addon.core.light.ball_circle import Circle
+from rsibr.rsibr_addon.core.light.ball_photograph import BallSide
+from rsibr.rsibr_addon.core.light.transfer_curve import srgb_from_linear
 from rsibr.rsibr_addon.core.maps.representation import representation
-from rsibr.rsibr_addon.core.transfer_curve import srgb_from_linear
 from rsibr.rsibr_addon.files.radiance_pictures import read_radiance, write_radiance
 from rsibr.tests.synthetic_ball import ball_photograph, surroundings
 from rsibr.tests.written_pictures import ORIENTATION, add_exif, write_png

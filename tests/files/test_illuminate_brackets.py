@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.command_line.main import run
-from rsibr.rsibr_addon.core.transfer_curve import srgb_from_linear
+from rsibr.rsibr_addon.core.light.transfer_curve import srgb_from_linear
 from rsibr.rsibr_addon.files.chromaticities import rec709_from
 from rsibr.rsibr_addon.files.encoding import PRIMARIES
 from rsibr.rsibr_addon.files.radiance_pictures import read_radiance, write_radiance

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.command_line.main import run
-from rsibr.rsibr_addon.core.transfer_curve import linear_from_srgb
+from rsibr.rsibr_addon.core.light.transfer_curve import linear_from_srgb
 from rsibr.rsibr_addon.files.radiance_pictures import read_radiance, write_radiance
 from rsibr.tests.measurements import measurement
 from rsibr.tests.written_pictures import write_png

@@ -8,7 +8,7 @@ import OpenEXR
 import OpenImageIO
 import pytest
 from rsibr.rsibr_addon.command_line.main import run
-from rsibr.rsibr_addon.core.light_range import light_range
+from rsibr.rsibr_addon.core.light.light_range import light_range
 from rsibr.tests.written_pictures import EXPOSURE_TIME, F_NUMBER, ISO, ORIENTATION, add_exif, write_png
 
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import MapSetError
+from rsibr.rsibr_addon.core.kinds.kernel_bank.filtered_bank import FilteredBank
+from rsibr.rsibr_addon.core.kinds.lobe_stack.stack import LAYOUTS, stack_representation
 from rsibr.rsibr_addon.core.lobes.bake import BakedBank
 from rsibr.rsibr_addon.core.lobes.bank import KernelBank
-from rsibr.rsibr_addon.core.lobes.filtered_bank import FilteredBank
-from rsibr.rsibr_addon.core.lobes.stack import LAYOUTS, stack_representation
 from rsibr.rsibr_addon.files.kinds.kernel_bank import from_map_set, to_map_set
 from rsibr.rsibr_addon.files.map_set import MapSet, read_map_set, write_map_set
 

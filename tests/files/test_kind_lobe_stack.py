@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import MapSetError
+from rsibr.rsibr_addon.core.kinds.lobe_stack.stack import LAYOUTS, LobeStack
 from rsibr.rsibr_addon.core.lobes.bank import KernelBank
 from rsibr.rsibr_addon.core.lobes.fit import Fit
-from rsibr.rsibr_addon.core.lobes.stack import LAYOUTS, LobeStack
 from rsibr.rsibr_addon.core.maps.representation import FRONT
 from rsibr.rsibr_addon.files.kinds.lobe_stack import PROFILES, fit_of, from_map_set, profiles, to_map_set
 from rsibr.rsibr_addon.files.map_set import MapSet, read_map_set, read_map_set_header, write_map_set

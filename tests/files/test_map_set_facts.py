@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import MapSetError
-from rsibr.rsibr_addon.core.shading.radiance_views import Mode, ViewsLook, Warping
+from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, ViewsLook, Warping
 from rsibr.rsibr_addon.files.map_set import read_map_set
-from rsibr.rsibr_addon.tasks import map_set_facts as facts
-from rsibr.rsibr_addon.tasks.comparison import Comparison, ComparisonSettings, Way, WayError
-from rsibr.rsibr_addon.tasks.map_set_pictures import map_set_pictures
-from rsibr.rsibr_addon.tasks.measured_error import measured_facts
+from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, ComparisonSettings, Way, WayError
+from rsibr.rsibr_addon.tasks.compare.measured_error import measured_facts
+from rsibr.rsibr_addon.tasks.report import facts as facts
+from rsibr.rsibr_addon.tasks.report.pictures import map_set_pictures
 from rsibr.tests.flat_capture import write_flat_capture
 
 

@@ -7,7 +7,7 @@ import OpenEXR
 import pytest
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import MapSetError
-from rsibr.rsibr_addon.core.mip_chain import MipChain
+from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
 from rsibr.rsibr_addon.files.kinds.mip_chain import from_map_set, to_map_set
 from rsibr.rsibr_addon.files.map_set import MapSet, read_map_set, write_map_set
 

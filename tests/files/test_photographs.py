@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import InputFileError, RsibrWarning
-from rsibr.rsibr_addon.core.transfer_curve import linear_from_srgb
+from rsibr.rsibr_addon.core.light.transfer_curve import linear_from_srgb
 from rsibr.rsibr_addon.files.orientation import ORIENTATIONS
 from rsibr.rsibr_addon.files.photographs import read_photograph
 from rsibr.rsibr_addon.files.radiance_pictures import read_radiance

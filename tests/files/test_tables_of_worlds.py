@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.environment import Environment
+from rsibr.rsibr_addon.core.kinds.reflection_tables.bake import BakedTables, TableSizes, bake_tables
+from rsibr.rsibr_addon.core.kinds.reflection_tables.material import material_from_texts
+from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import Role
 from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.core.reflection_tables import Role
-from rsibr.rsibr_addon.core.tables.bake import BakedTables, TableSizes, bake_tables
-from rsibr.rsibr_addon.core.tables.material import material_from_texts
 from rsibr.rsibr_addon.files.brdfs import read_measured
 from rsibr.rsibr_addon.files.environments import read_environment
 

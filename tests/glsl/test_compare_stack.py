@@ -15,8 +15,8 @@ from rsibr.rsibr_addon.core.lobes.target import elevation_slices
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.kinds.lobe_stack import to_map_set
 from rsibr.rsibr_addon.files.map_set import MapSet, write_map_set
-from rsibr.rsibr_addon.tasks.compare_stack import compare_stack
-from rsibr.rsibr_addon.tasks.comparison import Comparison, StackComparisonSettings, stack_table
+from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, StackComparisonSettings, stack_table
+from rsibr.rsibr_addon.tasks.compare.stack import compare_stack
 
 KD = 0.8
 LIGHT = np.random.default_rng(61).random((32, 64, 3), dtype=np.float32) ** 2

@@ -1,13 +1,13 @@
-"""Mirrors drawn on the GPU against core/shading/environment.py at every sample."""
+"""Mirrors drawn on the GPU against core/kinds/environment.py at every sample."""
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.camera import Camera
 from rsibr.rsibr_addon.core.environment import Environment
+from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.kinds.environment import EnvironmentLook, mirrored_environment
 from rsibr.rsibr_addon.core.maps import equirect
-from rsibr.rsibr_addon.core.shading.environment import EnvironmentLook, mirrored_environment
 from rsibr.rsibr_addon.device.context import ensure_context
-from rsibr.rsibr_addon.device.environment import EnvironmentOnDevice, environment_shader
+from rsibr.rsibr_addon.device.kinds.environment import EnvironmentOnDevice, environment_shader
 from rsibr.rsibr_addon.device.preview import SAMPLES_PER_AXIS, PreviewRenderer
 from rsibr.tests.glsl.test_preview_renderer import BY_CAMERA, SIZE, SPHERE, sample_footprints, samples
 from rsibr.tests.mirror_capture import environment

@@ -17,7 +17,7 @@ from rsibr.rsibr_addon.device.shaders import release_programs
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.host.map_sets import use_map_set
 from rsibr.rsibr_addon.host.viewport import View
-from rsibr.rsibr_addon.tasks.viewport import Previews
+from rsibr.rsibr_addon.tasks.viewport.previews import Previews
 from rsibr.rsibr_addon.ui import viewport as ui
 from rsibr.tests.faults.small_map_sets import map_sets
 

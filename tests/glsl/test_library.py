@@ -5,15 +5,15 @@ from functools import cache
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core import directions, geodesic
-from rsibr.rsibr_addon.core.directions import camera_frame, dot, normalize
+from rsibr.rsibr_addon.core.geometry import directions, geodesic
+from rsibr.rsibr_addon.core.geometry.directions import camera_frame, dot, normalize
+from rsibr.rsibr_addon.core.geometry.reflection_warp import Warp, confidence, source_cosine, source_uv
+from rsibr.rsibr_addon.core.kinds.radiance_views.shading import LEAST_ALBEDO, Warping, views_fragment
+from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
 from rsibr.rsibr_addon.core.maps import sphere_map
-from rsibr.rsibr_addon.core.radiance_views import RadianceViews
-from rsibr.rsibr_addon.core.reflection_warp import Warp, confidence, source_cosine, source_uv
 from rsibr.rsibr_addon.core.resample import bilinear
-from rsibr.rsibr_addon.core.shading.radiance_views import LEAST_ALBEDO, Warping, views_fragment
 from rsibr.rsibr_addon.device import buffers
-from rsibr.rsibr_addon.device.radiance_views import _albedo_texels, _layers
+from rsibr.rsibr_addon.device.kinds.radiance_views import _albedo_texels, _layers
 from rsibr.tests.glsl.evaluation import Samplers, evaluate
 from rsibr.tests.glsl.twins import (
     AXES,

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.display import TABLE_SIZE, displayed, node_from_radiance, node_radiance
-from rsibr.rsibr_addon.core.false_colour import heat
-from rsibr.rsibr_addon.core.transfer_curve import linear_from_srgb
+from rsibr.rsibr_addon.core.light.transfer_curve import linear_from_srgb
+from rsibr.rsibr_addon.core.pictures.display import TABLE_SIZE, displayed, node_from_radiance, node_radiance
+from rsibr.rsibr_addon.core.pictures.false_colour import heat
 from rsibr.rsibr_addon.device import buffers
 from rsibr.tests.glsl.evaluation import Samplers
 from rsibr.tests.glsl.twins import COUNT, ULP, Twin, check, single

@@ -4,11 +4,11 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core import geodesic
-from rsibr.rsibr_addon.core.directions import dot, normalize
-from rsibr.rsibr_addon.core.geodesic import VERTEX_COUNTS, geodesic_sphere
+from rsibr.rsibr_addon.core.geometry import geodesic
+from rsibr.rsibr_addon.core.geometry.directions import dot, normalize
+from rsibr.rsibr_addon.core.geometry.geodesic import VERTEX_COUNTS, geodesic_sphere
 from rsibr.rsibr_addon.device import buffers
-from rsibr.rsibr_addon.device.radiance_views import _geodesic_texels
+from rsibr.rsibr_addon.device.kinds.radiance_views import _geodesic_texels
 from rsibr.tests.glsl.evaluation import Samplers, evaluate
 from rsibr.tests.glsl.twins import AXES, COUNT, Twin, check, single, unit_vectors
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.camera import Camera
-from rsibr.rsibr_addon.core.directions import camera_frame, dot
-from rsibr.rsibr_addon.core.lit_sphere import LitSphere
+from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.geometry.directions import camera_frame, dot
+from rsibr.rsibr_addon.core.geometry.lit_sphere import LitSphere
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.lit_sphere import LitSphereOnDevice

@@ -2,14 +2,14 @@
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.irradiance import irradiance_from_harmonics, real_harmonics
-from rsibr.rsibr_addon.core.live_environment import harmonics_of_faces, solid_angle_texels
+from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_from_harmonics, real_harmonics
+from rsibr.rsibr_addon.core.kinds.live_environment import harmonics_of_faces, solid_angle_texels
+from rsibr.rsibr_addon.core.kinds.mip_chain import texture_space
+from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
+from rsibr.rsibr_addon.core.kinds.mip_chain.texture_space import filtered_mips, with_borders
 from rsibr.rsibr_addon.core.maps import cube_map
-from rsibr.rsibr_addon.core.mip_chain import MipChain
-from rsibr.rsibr_addon.core.mips import texture_space
-from rsibr.rsibr_addon.core.mips.texture_space import filtered_mips, with_borders
 from rsibr.rsibr_addon.device import buffers
-from rsibr.rsibr_addon.device.mip_chain import atlas_texels
+from rsibr.rsibr_addon.device.kinds.mip_chain import atlas_texels
 from rsibr.tests.glsl.evaluation import Samplers, evaluate
 from rsibr.tests.glsl.twins import AXES, COUNT, ULP, Twin, check, single, unit_vectors
 

@@ -2,14 +2,14 @@
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.directions import dot, normalize, reflect
+from rsibr.rsibr_addon.core.geometry.directions import dot, normalize, reflect
+from rsibr.rsibr_addon.core.kinds.lobe_stack.shading import StackLook, facing_normal, stack_radiance
+from rsibr.rsibr_addon.core.kinds.lobe_stack.stack import LAYOUTS, LobeStack, stack_representation
 from rsibr.rsibr_addon.core.lobes.fit import lobe_axes
-from rsibr.rsibr_addon.core.lobes.stack import LAYOUTS, LobeStack, stack_representation
 from rsibr.rsibr_addon.core.maps import octahedral
 from rsibr.rsibr_addon.core.resample import lookup
-from rsibr.rsibr_addon.core.shading.lobe_stack import StackLook, facing_normal, stack_radiance
 from rsibr.rsibr_addon.device import buffers
-from rsibr.rsibr_addon.device.lobe_stack import elevation_texels, map_texels
+from rsibr.rsibr_addon.device.kinds.lobe_stack import elevation_texels, map_texels
 from rsibr.tests.glsl.evaluation import Samplers, evaluate
 from rsibr.tests.glsl.twins import AXES, COUNT, ULP, Twin, check, single, unit_vectors
 from rsibr.tests.lobe_stacks import random_stack

@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.antialiased.footprint import parallelogram
 from rsibr.rsibr_addon.core.brdf.fresnel import fresnel_schlick
-from rsibr.rsibr_addon.core.directions import normalize
-from rsibr.rsibr_addon.core.irradiance import irradiance_from_harmonics, irradiance_matrix
+from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_from_harmonics, irradiance_matrix
+from rsibr.rsibr_addon.core.geometry.directions import normalize
+from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
+from rsibr.rsibr_addon.core.kinds.mip_chain.shading import Borders, glossy_mean, glossy_radiance
+from rsibr.rsibr_addon.core.kinds.mip_chain.texture_space import filtered_mips, tent_halved
 from rsibr.rsibr_addon.core.maps import cube_map
-from rsibr.rsibr_addon.core.mip_chain import MipChain
-from rsibr.rsibr_addon.core.mips.texture_space import filtered_mips, tent_halved
-from rsibr.rsibr_addon.core.shading.mip_chain import Borders, glossy_mean, glossy_radiance
 from rsibr.rsibr_addon.device import buffers
-from rsibr.rsibr_addon.device.mip_chain import atlas_texels
+from rsibr.rsibr_addon.device.kinds.mip_chain import atlas_texels
 from rsibr.tests.glsl.evaluation import Samplers, evaluate
 from rsibr.tests.glsl.twins import COUNT, ULP, Twin, check, single, unit_vectors
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.antialiased.summed_area import footprint_mean, summed_area_table
-from rsibr.rsibr_addon.core.directions import dot, normalize, refract
+from rsibr.rsibr_addon.core.geometry.directions import dot, normalize, refract
+from rsibr.rsibr_addon.core.kinds.reflection_tables.shading import TablesLook, reflect_tables
+from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTables, Role
 from rsibr.rsibr_addon.core.maps import equirect, sphere_map
-from rsibr.rsibr_addon.core.reflection_tables import ReflectionTables, Role
 from rsibr.rsibr_addon.core.resample import bilinear
-from rsibr.rsibr_addon.core.shading.reflection_tables import TablesLook, reflect_tables
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.equirect import bordered
 from rsibr.rsibr_addon.device.summed_area import summed_area_texture

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.antialiased.footprint import footprint_box
 from rsibr.rsibr_addon.core.antialiased.summed_area import box_mean, summed_area_table
-from rsibr.rsibr_addon.core.directions import normalize
 from rsibr.rsibr_addon.core.errors import ShapeError
+from rsibr.rsibr_addon.core.geometry.directions import normalize
 from rsibr.rsibr_addon.device.summed_area import summed_area_texture
 from rsibr.tests.glsl.evaluation import Samplers
 from rsibr.tests.glsl.twins import AXES, COUNT, ULP, Twin, check, single, unit_vectors

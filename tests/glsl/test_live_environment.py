@@ -1,19 +1,19 @@
-"""Changing light on the GPU against core/live_environment.py: harmonics, mips, and the pictures they make."""
+"""Changing light on the GPU against its reference in numpy: harmonics, mips, and the pictures they make."""
 
 import gpu
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.camera import Camera
 from rsibr.rsibr_addon.core.conventions import Array
 from rsibr.rsibr_addon.core.errors import RangeError
-from rsibr.rsibr_addon.core.live_environment import chain_of_faces
+from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.kinds.live_environment import chain_of_faces
+from rsibr.rsibr_addon.core.kinds.mip_chain.shading import MipLook
+from rsibr.rsibr_addon.core.kinds.mip_chain.texture_space import box_halved, tent_halved
 from rsibr.rsibr_addon.core.maps.representation import representation
-from rsibr.rsibr_addon.core.mips.texture_space import box_halved, tent_halved
-from rsibr.rsibr_addon.core.shading.mip_chain import MipLook
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.context import ensure_context
-from rsibr.rsibr_addon.device.live_environment import LiveEnvironmentOnDevice
-from rsibr.rsibr_addon.device.mip_chain import MipChainOnDevice, atlas_texels
+from rsibr.rsibr_addon.device.kinds.live_environment import LiveEnvironmentOnDevice
+from rsibr.rsibr_addon.device.kinds.mip_chain import MipChainOnDevice, atlas_texels
 from rsibr.rsibr_addon.device.preview import PreviewRenderer
 from rsibr.tests.glsl.test_preview_renderer import SIZE, SPHERE
 

@@ -5,21 +5,21 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.brdf.spec import brdf_from_spec
-from rsibr.rsibr_addon.core.camera import Camera
 from rsibr.rsibr_addon.core.errors import RangeError, RsibrWarning
+from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.kinds.kernel_bank.filtered_bank import FilteredBank
+from rsibr.rsibr_addon.core.kinds.kernel_bank.shading import BankLook
+from rsibr.rsibr_addon.core.kinds.lobe_stack.shading import StackLook
 from rsibr.rsibr_addon.core.lobes.bake import bake_bank, bake_stack
-from rsibr.rsibr_addon.core.lobes.filtered_bank import FilteredBank
 from rsibr.rsibr_addon.core.lobes.layers import layered_fit
 from rsibr.rsibr_addon.core.lobes.target import elevation_slices
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.core.shading.kernel_bank import BankLook
-from rsibr.rsibr_addon.core.shading.lobe_stack import StackLook
 from rsibr.rsibr_addon.device.context import ensure_context
-from rsibr.rsibr_addon.device.lobe_stack import LobeStackOnDevice
+from rsibr.rsibr_addon.device.kinds.lobe_stack import LobeStackOnDevice
 from rsibr.rsibr_addon.device.preview import PreviewRenderer
-from rsibr.rsibr_addon.tasks import live_materials
-from rsibr.rsibr_addon.tasks.live_materials import KEPT, SLICES, LiveMaterials
-from rsibr.rsibr_addon.tasks.workshop import Workshop
+from rsibr.rsibr_addon.tasks.methods import live_materials
+from rsibr.rsibr_addon.tasks.methods.latest_request_worker import Workshop
+from rsibr.rsibr_addon.tasks.methods.live_materials import KEPT, SLICES, LiveMaterials
 from rsibr.tests.core.test_workshop import wait_until_idle
 from rsibr.tests.glsl.test_preview_renderer import SPHERE
 

@@ -1,18 +1,18 @@
-"""Pictures drawn from lobe stacks against core/shading/lobe_stack.py at every sample."""
+"""Pictures drawn from lobe stacks against core/kinds/lobe_stack/shading.py at every sample."""
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.camera import Camera
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.errors import DeviceError, RangeError
+from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.kinds.lobe_stack.shading import StackLook, stack_radiance
+from rsibr.rsibr_addon.core.kinds.lobe_stack.stack import LAYOUTS, LobeStack
 from rsibr.rsibr_addon.core.lobes.bake import bake_stack
 from rsibr.rsibr_addon.core.lobes.bank import KernelBank
-from rsibr.rsibr_addon.core.lobes.stack import LAYOUTS, LobeStack
 from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.core.shading.lobe_stack import StackLook, stack_radiance
 from rsibr.rsibr_addon.device.context import ensure_context
-from rsibr.rsibr_addon.device.lobe_stack import LobeStackOnDevice
+from rsibr.rsibr_addon.device.kinds.lobe_stack import LobeStackOnDevice
 from rsibr.rsibr_addon.device.preview import SAMPLES_PER_AXIS, PreviewRenderer
 from rsibr.tests.glsl.test_preview_renderer import BY_CAMERA, SIZE, SPHERE, sample_footprints, samples
 from rsibr.tests.lobe_stacks import random_fit, random_stack

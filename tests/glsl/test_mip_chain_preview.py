@@ -1,17 +1,17 @@
-"""Pictures drawn from mip chains against core/shading/mip_chain.py at every sample."""
+"""Pictures drawn from mip chains against core/kinds/mip_chain/shading.py at every sample."""
 
 import gpu
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.camera import Camera
 from rsibr.rsibr_addon.core.errors import RangeError
+from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
+from rsibr.rsibr_addon.core.kinds.mip_chain.shading import Borders, MipLook, mip_chain_radiance
+from rsibr.rsibr_addon.core.kinds.mip_chain.texture_space import box_halved, filtered_mips, tent_halved
 from rsibr.rsibr_addon.core.maps.representation import representation
-from rsibr.rsibr_addon.core.mip_chain import MipChain
-from rsibr.rsibr_addon.core.mips.texture_space import box_halved, filtered_mips, tent_halved
-from rsibr.rsibr_addon.core.shading.mip_chain import Borders, MipLook, mip_chain_radiance
 from rsibr.rsibr_addon.device.context import ensure_context
-from rsibr.rsibr_addon.device.mip_chain import MipChainOnDevice, atlas_texels
-from rsibr.rsibr_addon.device.mip_chain_shaders import mip_chain_shader
+from rsibr.rsibr_addon.device.kinds.mip_chain import MipChainOnDevice, atlas_texels
+from rsibr.rsibr_addon.device.kinds.mip_chain_shaders import mip_chain_shader
 from rsibr.rsibr_addon.device.preview import SAMPLES_PER_AXIS, PreviewRenderer
 from rsibr.tests.glsl.test_preview_renderer import BY_CAMERA, SIZE, SPHERE, sample_footprints, samples
 

@@ -1,18 +1,18 @@
-"""Pictures drawn on the GPU, in every mode, against core/shading at every sample."""
+"""Pictures drawn on the GPU, in every mode, against core/kinds at every sample."""
 
 import gpu
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.antialiased.footprint import parallelogram
-from rsibr.rsibr_addon.core.camera import Camera
 from rsibr.rsibr_addon.core.conventions import texel_centres
-from rsibr.rsibr_addon.core.directions import dot, normalize, reflect
+from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.geometry.directions import dot, normalize, reflect
+from rsibr.rsibr_addon.core.kinds.radiance_views import shading as shading
+from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, ViewsLook, Warping
+from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
 from rsibr.rsibr_addon.core.maps import sphere_map
-from rsibr.rsibr_addon.core.radiance_views import RadianceViews
-from rsibr.rsibr_addon.core.shading import radiance_views as shading
-from rsibr.rsibr_addon.core.shading.radiance_views import Mode, ViewsLook, Warping
+from rsibr.rsibr_addon.device.kinds.radiance_views import RadianceViewsOnDevice
 from rsibr.rsibr_addon.device.preview import SAMPLES_PER_AXIS, PreviewRenderer
-from rsibr.rsibr_addon.device.radiance_views import RadianceViewsOnDevice
 from rsibr.tests.synthetic_views import random_views, smooth_views, with_random_albedo
 
 SIZE = 32
@@ -70,7 +70,7 @@ def sample_footprints(normal: np.ndarray, view_dir: np.ndarray) -> np.ndarray:
 def reference(
     views: RadianceViews, camera: Camera, mode: Mode, warping: Warping
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Radiance by core/shading, and the pixels all of whose samples see the sphere at n.v > 0.2."""
+    """Radiance by core/kinds, and the pixels all of whose samples see the sphere at n.v > 0.2."""
     normal, view_dir, cosine = samples(camera)
     footprint = sample_footprints(normal, view_dir)
     if mode is Mode.FRAGMENT:

@@ -1,15 +1,15 @@
-"""Pictures drawn from reflection tables against core/shading/reflection_tables.py at every sample."""
+"""Pictures drawn from reflection tables against core/kinds/reflection_tables/shading.py at every sample."""
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.camera import Camera
 from rsibr.rsibr_addon.core.conventions import texel_centres
+from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.kinds.reflection_tables.shading import TablesLook, reflect_tables
+from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTables, Role
 from rsibr.rsibr_addon.core.maps import equirect
-from rsibr.rsibr_addon.core.reflection_tables import ReflectionTables, Role
-from rsibr.rsibr_addon.core.shading.reflection_tables import TablesLook, reflect_tables
 from rsibr.rsibr_addon.device.context import ensure_context
+from rsibr.rsibr_addon.device.kinds.reflection_tables import ReflectionTablesOnDevice
 from rsibr.rsibr_addon.device.preview import SAMPLES_PER_AXIS, PreviewRenderer
-from rsibr.rsibr_addon.device.reflection_tables import ReflectionTablesOnDevice
 from rsibr.tests.glsl.test_preview_renderer import BY_CAMERA, SIZE, SPHERE, sample_footprints, samples
 from rsibr.tests.synthetic_views import environment_radiance
 

@@ -8,17 +8,16 @@ from pathlib import Path
 
 import pytest
 from rsibr.rsibr_addon.core.errors import DeviceError
-from rsibr.rsibr_addon.device import (
+from rsibr.rsibr_addon.device import shader_source as sources
+from rsibr.rsibr_addon.device import shaders, viewport_shaders
+from rsibr.rsibr_addon.device.context import ensure_context
+from rsibr.rsibr_addon.device.kinds import (
     environment,
     live_environment_shaders,
     lobe_stack_shaders,
     mip_chain_shaders,
     reflection_tables,
-    shaders,
-    viewport_shaders,
 )
-from rsibr.rsibr_addon.device import shader_source as sources
-from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.shader_source import SHADER_FOLDER, shader_source
 
 FILES = sorted(path.relative_to(SHADER_FOLDER).as_posix() for path in SHADER_FOLDER.rglob("*.*"))

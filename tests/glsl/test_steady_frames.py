@@ -8,23 +8,23 @@ import gpu
 import numpy as np
 import pytest
 from mathutils import Matrix
-from rsibr.rsibr_addon.core.camera import Camera
 from rsibr.rsibr_addon.core.environment import Environment
-from rsibr.rsibr_addon.core.mips.texture_space import tent_halved
-from rsibr.rsibr_addon.core.shading.environment import EnvironmentLook
-from rsibr.rsibr_addon.core.shading.lobe_stack import StackLook
-from rsibr.rsibr_addon.core.shading.mip_chain import MipLook
-from rsibr.rsibr_addon.core.shading.radiance_views import Mode, ViewsLook
-from rsibr.rsibr_addon.core.shading.reflection_tables import TablesLook
+from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.kinds.environment import EnvironmentLook
+from rsibr.rsibr_addon.core.kinds.lobe_stack.shading import StackLook
+from rsibr.rsibr_addon.core.kinds.mip_chain.shading import MipLook
+from rsibr.rsibr_addon.core.kinds.mip_chain.texture_space import tent_halved
+from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, ViewsLook
+from rsibr.rsibr_addon.core.kinds.reflection_tables.shading import TablesLook
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.drawing import MeshOnDevice, OnDevice
-from rsibr.rsibr_addon.device.environment import EnvironmentOnDevice
-from rsibr.rsibr_addon.device.live_environment import LiveEnvironmentOnDevice
-from rsibr.rsibr_addon.device.lobe_stack import LobeStackOnDevice
-from rsibr.rsibr_addon.device.mip_chain import MipChainOnDevice
-from rsibr.rsibr_addon.device.radiance_views import RadianceViewsOnDevice
-from rsibr.rsibr_addon.device.reflection_tables import ReflectionTablesOnDevice
+from rsibr.rsibr_addon.device.kinds.environment import EnvironmentOnDevice
+from rsibr.rsibr_addon.device.kinds.live_environment import LiveEnvironmentOnDevice
+from rsibr.rsibr_addon.device.kinds.lobe_stack import LobeStackOnDevice
+from rsibr.rsibr_addon.device.kinds.mip_chain import MipChainOnDevice
+from rsibr.rsibr_addon.device.kinds.radiance_views import RadianceViewsOnDevice
+from rsibr.rsibr_addon.device.kinds.reflection_tables import ReflectionTablesOnDevice
 from rsibr.rsibr_addon.device.viewport import Stage, current_sight
 from rsibr.tests.glsl.test_mip_chain_preview import smooth_chain
 from rsibr.tests.glsl.test_reflection_tables import smooth_tables

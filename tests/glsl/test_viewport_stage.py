@@ -7,15 +7,15 @@ import gpu
 import numpy as np
 import pytest
 from mathutils import Matrix
-from rsibr.rsibr_addon.core.camera import Camera
-from rsibr.rsibr_addon.core.display import TABLE_SIZE, displayed
-from rsibr.rsibr_addon.core.false_colour import heat
-from rsibr.rsibr_addon.core.shading.radiance_views import ViewsLook, views_fragment
-from rsibr.rsibr_addon.core.transfer_curve import linear_from_srgb
+from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.kinds.radiance_views.shading import ViewsLook, views_fragment
+from rsibr.rsibr_addon.core.light.transfer_curve import linear_from_srgb
+from rsibr.rsibr_addon.core.pictures.display import TABLE_SIZE, displayed
+from rsibr.rsibr_addon.core.pictures.false_colour import heat
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.drawing import MeshOnDevice
-from rsibr.rsibr_addon.device.radiance_views import RadianceViewsOnDevice
+from rsibr.rsibr_addon.device.kinds.radiance_views import RadianceViewsOnDevice
 from rsibr.rsibr_addon.device.viewport import Stage, current_sight, draw_occluder
 from rsibr.tests.synthetic_views import smooth_views, visible_points
 

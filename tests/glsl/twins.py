@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from rsibr.rsibr_addon.core.directions import normalize
+from rsibr.rsibr_addon.core.geometry.directions import normalize
 from rsibr.tests.glsl.evaluation import Samplers, evaluate
 
 COUNT = 100_000

@@ -22,7 +22,7 @@ import addon_utils, gc, gpu, threading
 DEVICE = tuple(kind for name, kind in vars(gpu.types).items() if name.startswith("GPU"))
 
 def previews():
-    return importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport").previews
+    return importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport.previews").previews
 
 def on_device():
     # How many objects of Blender's graphics Python holds: they are in no list, but whatever holds them is

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 SCENARIO = """
-importlib.import_module(ROOT + ".rsibr_addon.tasks.environments").WORLD_HEIGHT = 32
+importlib.import_module(ROOT + ".rsibr_addon.tasks.light.environments").WORLD_HEIGHT = 32
 OUTPUT = "/job/captured.rsibr.exr"
 
 def invoke():

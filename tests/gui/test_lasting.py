@@ -56,7 +56,8 @@ def scenario(told):
         bpy.ops.ed.undo_push(message="packed")
         yield from drawn()
         told["packed"] = [cube.rsibr.image.packed_file is not None, as_at_first()]
-        told["shaded as"] = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport").previews.kind(cube)
+        module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport.previews")
+        told["shaded as"] = module.previews.kind(cube)
         bpy.ops.ed.undo()
         yield from drawn()
         told["undone"] = [bpy.data.objects["Cube"].rsibr.image.packed_file is None, as_at_first()]
@@ -99,10 +100,10 @@ def scenario(told):
     with bpy.context.temp_override(window=window()):
         bpy.ops.wm.open_mainfile(filepath="/job/lasting/elsewhere/scene.blend")
     yield from looked_at()
-    module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport")
+    module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport.previews")
     told["missing library"] = [len(pixels()) > 0, module.previews.trouble]
     bpy.context.view_layer.objects.active = bpy.data.objects["Cube"]
-    order = importlib.import_module(ROOT + ".rsibr_addon.tasks.bake_order")
+    order = importlib.import_module(ROOT + ".rsibr_addon.tasks.queue.bake_request")
     try:
         order.order_for(bpy.context.scene, bpy.context.object)
     except order.SceneError as error:
@@ -111,8 +112,8 @@ def scenario(told):
 
 AGAIN = """
 background = importlib.import_module(ROOT + ".operators.background")
-module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport")
-orders = importlib.import_module(ROOT + ".rsibr_addon.tasks.bake_order")
+module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport.previews")
+orders = importlib.import_module(ROOT + ".rsibr_addon.tasks.queue.bake_request")
 
 def scenario(told):
     yield from looked_at()

@@ -6,7 +6,7 @@ type Told = Callable[[str], dict]
 
 PRELUDE = """
 from bpy_extras.view3d_utils import location_3d_to_region_2d
-previews = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport").previews
+previews = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport.previews").previews
 
 SIDES = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
 
@@ -131,7 +131,7 @@ def test_each_side_mirrors_the_wall_that_it_faces(told: Told) -> None:
 
 BUDGET = """
 import types
-live_light = importlib.import_module(ROOT + ".rsibr_addon.tasks.live_light")
+live_light = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport.live_light")
 
 def scenario(told):
     cube = mirror()

@@ -25,7 +25,7 @@ def _bank(job: Path) -> None:
 
 PRELUDE = """
 import threading
-module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport")
+module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport.previews")
 
 def workers():
     return [thread.name for thread in threading.enumerate() if thread.name.startswith("rsibr")]

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from rsibr.tests.gui.test_panel import PRELUDE
 
 PICTURES = """
-facts = importlib.import_module(ROOT + ".rsibr_addon.tasks.map_set_facts")
+facts = importlib.import_module(ROOT + ".rsibr_addon.tasks.report.facts")
 panels = importlib.import_module(ROOT + ".rsibr_addon.ui.map_pictures")
 
 def look():

@@ -10,7 +10,7 @@ from rsibr.tests.gui.test_panel import PRELUDE
 type Told = Callable[[str], dict]
 
 OTHER = """
-bake_order = importlib.import_module(ROOT + ".rsibr_addon.tasks.bake_order")
+bake_order = importlib.import_module(ROOT + ".rsibr_addon.tasks.queue.bake_request")
 
 def another_blender(cube):
     # A bake of the same that is in another Blender's queue

@@ -18,7 +18,7 @@ def _pictures(job: Path) -> None:
 
 
 SCENARIO = """
-module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport")
+module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport.previews")
 
 def purple():
     return int(like(pixels(), (188, 0, 188)).sum())

@@ -18,7 +18,7 @@ def _flat(job: Path) -> None:
 
 
 PRELUDE = """
-module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport")
+module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport.previews")
 
 def purple(number=0):
     return int(like(pixels(number), (188, 0, 188)).sum())

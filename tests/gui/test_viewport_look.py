@@ -138,7 +138,7 @@ def scenario(told):
     cube.rsibr.map_set = "/job/mirror.rsibr.exr"
     yield from drawn()
     yield from drawn()
-    module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport")
+    module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport.previews")
 
     def coverage():
         stage = module.previews._stage

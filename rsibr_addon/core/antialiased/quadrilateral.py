@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..conventions import Array, ArrayLike, Indices
-from ..directions import dot
+from ..geometry.directions import dot
 from ..maps import equirect
 from .recursive import recursive_mean
 

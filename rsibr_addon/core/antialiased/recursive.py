@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..conventions import Array, ArrayLike, Indices
-from ..directions import normalize
+from ..geometry.directions import normalize
 from ..maps import equirect
 
 SMALLEST = 0.5

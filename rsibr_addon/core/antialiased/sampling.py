@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..conventions import Array, ArrayLike, Indices
-from ..directions import normalize
+from ..geometry.directions import normalize
 
 MOST = 4
 """Lookups along each side of a pixel: sixteen at most, where a surface is wrinkled to the size of pixels."""

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from ..conventions import Array, ArrayLike
-from ..directions import dot
+from ..geometry.directions import dot
 from .parameters import Checked
 
 type BrdfFunction = Callable[[Array, Array], Array]

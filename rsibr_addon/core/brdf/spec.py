@@ -10,7 +10,7 @@ parentheses::
     sum:parts=(lambert:kd=0.2)+(phong:n=50,ks=0.5)
     merl:path=gold-metallic-paint.binary
 
-A material of Blender, ``blend:FILE.blend:NAME``, is measured first: see tasks/brdfs.py.
+A material of Blender, ``blend:FILE.blend:NAME``, is measured first: see tasks/reflectance/brdfs.py.
 """
 
 import dataclasses

@@ -7,16 +7,16 @@ import numpy as np
 
 from ..conventions import Array
 from ..errors import RangeError
-from ..harmonics.analysis import analyse_environment
-from ..harmonics.coefficients import EnvironmentHarmonics
-from ..prefilter import analysis_degree, bytes_needed, prefilter, resolved_width
+from ..filtering.harmonics.analysis import analyse_environment
+from ..filtering.harmonics.coefficients import EnvironmentHarmonics
+from ..filtering.prefilter import analysis_degree, bytes_needed, prefilter, resolved_width
+from ..filtering.zonal import TOLERANCE, ZonalSeries, expand
+from ..kinds.kernel_bank.filtered_bank import FilteredBank, bound_from_bank, stack_from_bank
+from ..kinds.lobe_stack.stack import LobeStack, stack_representation
 from ..progress import Progress, Steps
 from ..ties import TIE
-from ..zonal import TOLERANCE, ZonalSeries, expand
 from .bank import SHARPEST, KernelBank, octaves
-from .filtered_bank import FilteredBank, bound_from_bank, stack_from_bank
 from .fit import Fit
-from .stack import LobeStack, stack_representation
 
 SIZES = (16, 32, 64, 128, 256, 512)
 """Widths of maps to choose from."""

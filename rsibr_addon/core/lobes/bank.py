@@ -13,9 +13,9 @@ import numpy as np
 
 from ..conventions import Array
 from ..errors import RangeError
-from ..radial_lobes import von_mises_fisher_lobe
+from ..filtering.radial_lobes import von_mises_fisher_lobe
+from ..filtering.zonal import ZonalLobe, graded_knots
 from ..ties import TIE
-from ..zonal import ZonalLobe, graded_knots
 
 BROADEST = 0.5
 """Concentration of the broadest kernel: nearly uniform over the sphere."""

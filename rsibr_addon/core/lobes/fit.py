@@ -10,9 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..conventions import Array, ArrayLike, Indices
-from ..directions import dot
 from ..errors import RangeError, ShapeError
-from ..zonal import ZonalLobe
+from ..filtering.zonal import ZonalLobe
+from ..geometry.directions import dot
 from .bank import KernelBank
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..conventions import Array
-from ..directions import camera_frame, dot
+from ..geometry.directions import camera_frame, dot
 from .bank import KernelBank
 
 _SINGULAR = 1e-7

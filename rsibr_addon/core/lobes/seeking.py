@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..conventions import Array
-from ..directions import camera_frame
+from ..geometry.directions import camera_frame
 from ..ties import first_greatest, greatest_first
 from .bank import KernelBank
 from .kautz_mccool import Remainder, Seek

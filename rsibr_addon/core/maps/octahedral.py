@@ -7,7 +7,7 @@ corners -z: the upper half is the inner diamond, the lower half is folded outwar
 import numpy as np
 
 from ..conventions import Array, ArrayLike, Indices
-from ..directions import dot
+from ..geometry.directions import dot
 
 
 def direction_from_uv(uv: ArrayLike) -> Array:

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..conventions import Array, ArrayLike, Indices, texel_centres
-from ..directions import camera_frame
 from ..errors import RangeError
+from ..geometry.directions import camera_frame
 from . import (
     angular_map,
     cube_map,

@@ -7,10 +7,10 @@ import numpy as np
 
 from ...core.environment import Environment
 from ...core.errors import MapSetError, RangeError, ShapeError
+from ...core.kinds.kernel_bank.filtered_bank import FilteredBank
+from ...core.kinds.lobe_stack.stack import stack_representation
 from ...core.lobes.bake import BakedBank
 from ...core.lobes.bank import KernelBank
-from ...core.lobes.filtered_bank import FilteredBank
-from ...core.lobes.stack import stack_representation
 from ..map_set import MapSet
 from ..map_set_header import ENVIRONMENT, make_header
 from .sheets import sheets_from_strip, strip_from_sheets

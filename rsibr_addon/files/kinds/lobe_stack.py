@@ -11,11 +11,11 @@ import numpy as np
 from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.errors import MapSetError, RangeError, SchemaError, ShapeError
+from ...core.kinds.kernel_bank.filtered_bank import maps_from_bank
+from ...core.kinds.lobe_stack.stack import LobeStack, stack_representation
 from ...core.lobes.bake import BakedStack
 from ...core.lobes.bank import KernelBank
-from ...core.lobes.filtered_bank import maps_from_bank
 from ...core.lobes.fit import Fit
-from ...core.lobes.stack import LobeStack, stack_representation
 from ...core.schema import array, decode, length
 from ..map_set import MapSet, MapsInTurn
 from ..map_set_header import ENVIRONMENT, MOST_KERNELS, Colour, Tap, make_header

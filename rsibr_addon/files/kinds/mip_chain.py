@@ -8,7 +8,7 @@ import numpy as np
 from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.errors import MapSetError, RangeError, ShapeError
-from ...core.mip_chain import MipChain
+from ...core.kinds.mip_chain.chain import MipChain
 from ..map_set import MapSet
 from ..map_set_header import ENVIRONMENT, make_header
 

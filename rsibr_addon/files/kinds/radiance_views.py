@@ -6,7 +6,7 @@ import numpy as np
 
 from ...core.conventions import Array
 from ...core.errors import MapSetError, RangeError, ShapeError
-from ...core.radiance_views import RadianceViews
+from ...core.kinds.radiance_views.views import RadianceViews
 from ..map_set import MapSet
 
 

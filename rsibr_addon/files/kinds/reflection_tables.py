@@ -7,7 +7,7 @@ import numpy as np
 
 from ...core.environment import Environment
 from ...core.errors import MapSetError, RangeError, ShapeError
-from ...core.reflection_tables import ReflectionTables, Role
+from ...core.kinds.reflection_tables.tables import ReflectionTables, Role
 from ..map_set import MapSet
 from ..map_set_header import ENVIRONMENT, make_header
 

@@ -1,0 +1,1 @@
+"""Filtering of environments, by harmonics of the sphere."""

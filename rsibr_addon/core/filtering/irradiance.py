@@ -1,0 +1,217 @@
+"""Irradiance: from a few spherical harmonics, and exactly.
+
+Irradiance is the environment filtered with the cosine lobe. That lobe is so wide that harmonics up to
+degree 2, nine numbers for each channel, give it within a few per cent [Ramamoorthi2001], as
+[Kautz2004] section 4.1 uses them; degree 4 is closer still. The lobe's kink at the horizon keeps harmonics
+from ever being exact, so the exact sum over all texels is made otherwise.
+
+>>> harmonics = analyse_environment(environment.radiance, degree=2)
+>>> irradiance = irradiance_from_harmonics(harmonics.real(2), normals)
+"""
+
+import numpy as np
+
+from ..conventions import Array, ArrayLike
+from ..errors import ShapeError
+from ..geometry.directions import normalize
+from ..maps import equirect
+from .radial_lobes import cosine_lobe
+from .zonal import zonal_coefficients
+
+
+def real_harmonics(direction: ArrayLike, degree: int) -> Array:
+    """Real spherical harmonics.
+
+    Parameters
+    ----------
+    direction : array_like, shape (..., 3)
+        Unit vectors.
+    degree : int
+        Largest degree, at least 0; meant to be small.
+
+    Returns
+    -------
+    ndarray, shape (..., (degree + 1)**2), float64
+        Y_lm at l (l + 1) + m for m = -l ... l: 0.282095, then 0.488603 times y, z, x, then
+        1.092548 xy, 1.092548 yz, 0.315392 (3 z^2 - 1), 1.092548 xz, 0.546274 (x^2 - y^2), ...
+
+    Notes
+    -----
+    Orthonormal, without Condon-Shortley phase: [Ramamoorthi2001] Eq. 3. As lambda_lm / sin^m is a
+    polynomial in z and sin^m exp(i m phi) is (x + i y)^m, the poles are like any other direction.
+    """
+    direction = np.asarray(direction, dtype=np.float64)
+    x, y, z = direction[..., 0], direction[..., 1], direction[..., 2]
+    harmonics = np.empty((*z.shape, (degree + 1) ** 2))
+    power = np.ones(z.shape, dtype=np.complex128)
+    sectoral = np.sqrt(0.25 / np.pi)
+    for m in range(degree + 1):
+        before, last, a_before = np.zeros_like(z), np.full_like(z, sectoral), 1.0
+        for l in range(m, degree + 1):
+            if l > m:
+                a = np.sqrt((4.0 * l**2 - 1.0) / (l**2 - m**2))
+                before, last, a_before = last, a * (z * last - before / a_before), a
+            index = l * (l + 1)
+            if m == 0:
+                harmonics[..., index] = last
+            else:
+                harmonics[..., index + m] = np.sqrt(2.0) * last * power.real
+                harmonics[..., index - m] = np.sqrt(2.0) * last * power.imag
+        sectoral *= np.sqrt((2.0 * m + 3.0) / (2.0 * m + 2.0))
+        power = power * (x + 1j * y)
+    return harmonics
+
+
+def irradiance_from_harmonics(coefficients: ArrayLike, normal: ArrayLike) -> Array:
+    """Irradiance from spherical harmonic coefficients of the radiance.
+
+    Parameters
+    ----------
+    coefficients : array_like, shape ((degree + 1)**2, channels)
+        Of `real_harmonics`: nine for degree 2.
+    normal : array_like, shape (..., 3)
+        Unit vectors.
+
+    Returns
+    -------
+    ndarray, shape (..., channels), float64
+        Sum of A_l L_lm Y_lm: [Ramamoorthi2001] Eq. 7, [Kautz2004] Eq. 1. Not divided by pi; it may be
+        slightly negative opposite a strong light.
+
+    Raises
+    ------
+    ShapeError
+        The number of coefficients is not a square.
+    """
+    coefficients = np.asarray(coefficients, dtype=np.float64)
+    degree = round(np.sqrt(len(coefficients))) - 1
+    if (degree + 1) ** 2 != len(coefficients):
+        raise ShapeError(f"{len(coefficients)} coefficients are not those of any degree: give 9, or 25.")
+    a = np.repeat(zonal_coefficients(cosine_lobe(), degree), 2 * np.arange(degree + 1) + 1)
+    irradiance: Array = real_harmonics(normal, degree) @ (a[:, None] * coefficients)
+    return irradiance
+
+
+def irradiance_matrix(coefficients: ArrayLike) -> Array:
+    """The nine coefficients of degree 2 as quadratic forms of the normal.
+
+    Parameters
+    ----------
+    coefficients : array_like, shape (9, channels)
+        Of `real_harmonics`.
+
+    Returns
+    -------
+    ndarray, shape (channels, 4, 4), float64
+        Symmetric; n M n of n = (x, y, z, 1) is the irradiance of `irradiance_from_harmonics`.
+
+    Raises
+    ------
+    ShapeError
+        The coefficients are not nine.
+
+    Notes
+    -----
+    [Ramamoorthi2001] Eq. 12, which a shader evaluates with four products of a vector.
+    """
+    coefficients = np.asarray(coefficients, dtype=np.float64)
+    if len(coefficients) != 9:
+        raise ShapeError(f"{len(coefficients)} coefficients are not those of degree 2: give nine.")
+    a0, a1, a2 = zonal_coefficients(cosine_lobe(), 2)
+    l00, l1m1, l10, l11, l2m2, l2m1, l20, l21, l22 = coefficients
+    c1, c2 = a2 * np.sqrt(15.0 / (16.0 * np.pi)), a1 * np.sqrt(3.0 / (16.0 * np.pi))
+    c4, c5 = a0 * np.sqrt(1.0 / (4.0 * np.pi)), a2 * np.sqrt(5.0 / (16.0 * np.pi))
+    c3 = 3.0 * c5
+    rows = [
+        [c1 * l22, c1 * l2m2, c1 * l21, c2 * l11],
+        [c1 * l2m2, -c1 * l22, c1 * l2m1, c2 * l1m1],
+        [c1 * l21, c1 * l2m1, c3 * l20, c2 * l10],
+        [c2 * l11, c2 * l1m1, c2 * l10, c4 * l00 - c5 * l20],
+    ]
+    return np.moveaxis(np.array(rows), -1, 0)
+
+
+def turned_harmonics(coefficients: Array, rotation: Array) -> Array:
+    """The coefficients of radiance that has been turned.
+
+    Parameters
+    ----------
+    coefficients : ndarray, shape (9, channels)
+        Of `real_harmonics`.
+    rotation : ndarray, shape (3, 3)
+        New directions from old ones.
+
+    Returns
+    -------
+    ndarray, shape (9, channels), float64
+
+    Notes
+    -----
+    A turned harmonic is a sum of those of its own degree. So what nine functions say in more than nine
+    directions determines the new coefficients exactly.
+    """
+    direction = normalize(np.stack(np.meshgrid(*3 * [[-1.0, 0.3, 0.8]]), axis=-1).reshape(-1, 3))
+    radiance = real_harmonics(direction @ rotation, 2) @ coefficients
+    made: Array = np.linalg.lstsq(real_harmonics(direction, 2), radiance, rcond=None)[0]
+    return made
+
+
+def irradiance_exact(radiance: Array, normal: ArrayLike) -> Array:
+    """Irradiance as the sum over all texels of radiance, solid angle and cosine.
+
+    Parameters
+    ----------
+    radiance : ndarray, shape (height, width, channels)
+        Latitude-longitude map.
+    normal : array_like, shape (..., 3)
+        Of any positive length.
+
+    Returns
+    -------
+    ndarray, shape (..., channels), float64
+        Not divided by pi.
+
+    Raises
+    ------
+    RangeError
+        A normal has length 0 or is not finite.
+
+    Notes
+    -----
+    Along a row of the map n.l is positive on one arc, and there it is a sum of 1, cos(phi) and sin(phi):
+    with running sums of radiance times these three, each row takes two lookups instead of a sum.
+    """
+    height, width, channels = radiance.shape
+    normal = normalize(normal)
+    n = normal.reshape(-1, 3)
+    horizontal = np.hypot(n[:, 0], n[:, 1])
+    azimuth = np.arctan2(n[:, 1], n[:, 0])
+    directions = equirect.direction_from_uv(_row_centres(height))
+    solid_angle = equirect.texel_solid_angle(width, height)[:, 0]
+    phi = np.pi * (1.0 - 2.0 * (np.arange(width) + 0.5) / width)
+    waves = np.stack([np.ones(width), np.cos(phi), np.sin(phi)], axis=-1)
+    irradiance = np.zeros((len(n), channels))
+    for row in range(height):
+        sine, cosine = np.hypot(*directions[row, :2]), directions[row, 2]
+        running = np.zeros((width + 1, 3, channels))
+        np.cumsum(waves[:, :, None] * radiance[row, :, None, :], axis=0, out=running[1:])
+        # n.l = n_z cos(theta) + |n_xy| sin(theta) cos(phi - azimuth) is positive within this half arc.
+        with np.errstate(divide="ignore", invalid="ignore"):
+            edge = np.nan_to_num(-n[:, 2] * cosine / (horizontal * sine), nan=1.0)
+        half_arc = np.arccos(np.clip(edge, -1.0, 1.0))
+        # Columns run against phi; the first whose centre is inside, and the first beyond.
+        first = np.ceil(width * (0.5 - (azimuth + half_arc) / (2.0 * np.pi)) - 0.5).astype(np.intp)
+        beyond = np.ceil(width * (0.5 - (azimuth - half_arc) / (2.0 * np.pi)) - 0.5).astype(np.intp)
+        # A row that is lit all around has no ends: what rounding makes of them could drop the texel there.
+        beyond = np.where(edge <= -1.0, first + width, beyond)
+        lap = beyond // width - first // width
+        arc = running[beyond % width] - running[first % width] + lap[:, None, None] * running[-1]
+        factors = np.stack([n[:, 2] * cosine, n[:, 0] * sine, n[:, 1] * sine], axis=-1)
+        irradiance += solid_angle[row] * np.einsum("nk,nkc->nc", factors, arc)
+    return irradiance.reshape(*normal.shape[:-1], channels)
+
+
+def _row_centres(height: int) -> Array:
+    """The uv of one texel in each row, shape (height, 2)."""
+    v = (np.arange(height) + 0.5) / height
+    return np.stack([np.full(height, 0.5), v], axis=-1)

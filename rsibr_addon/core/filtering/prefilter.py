@@ -1,0 +1,256 @@
+"""An environment, filtered with radially symmetric lobes: fast, with a promise, and by brute force.
+
+Filtering is a product in spherical harmonics, and exact: what "analyse, multiply, synthesise" gives
+*is* the sum over all texels of radiance times solid angle times lobe, but for the degrees that are left
+out and the interpolation, both of which are bounded (docs/prefiltering.md).
+
+>>> series = [expand(lobe) for lobe in lobes]
+>>> harmonics = analyse_environment(environment.radiance, analysis_degree(series))
+>>> stack = prefilter(harmonics, series, directions)
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..conventions import Array, ArrayLike, texel_centres
+from ..errors import RangeError, ShapeError
+from ..maps import equirect
+from ..ties import TIE
+from .harmonics.coefficients import EnvironmentHarmonics
+from .harmonics.kernel import Kernel, kernels_for
+from .harmonics.synthesis import grid_rows, synthesise
+from .zonal import ZonalLobe, ZonalSeries
+
+BYTES_BESIDES = 2e8
+"""Memory for harmonics and their grid, and for maps that are on their way into a file."""
+
+_CUT_SHARE = 0.5
+_LEAKAGE_SHARE = 0.25
+_TEXELS_ACROSS = 3.0
+_GROUP_RATIO = 0.45
+_GROUP_BYTES = 2**26
+_BRUTE_BYTES = 2**25
+_ROUNDINGS = 1000.0
+
+
+@dataclass(frozen=True)
+class Prefiltered:
+    """A stack of maps: an environment filtered with one lobe after another.
+
+    Attributes
+    ----------
+    radiance : ndarray, shape (slices, ..., channels), float64
+        One slice for each lobe, in the given directions; not negative unless its lobe is.
+    bound : ndarray, shape (slices, channels)
+        No value is further than this from the sum over all texels.
+    degrees : tuple of int
+        Where each lobe was cut.
+    """
+
+    radiance: Array
+    bound: Array
+    degrees: tuple[int, ...]
+
+
+def analysis_degree(series: Sequence[ZonalSeries]) -> int:
+    """How far to analyse an environment that is to be filtered with some lobes, at least one."""
+    return max(lobe.degree for lobe in series)
+
+
+def resolved_width(height: int) -> float:
+    """Width [rad] of the narrowest lobe that a map of so many rows is filtered with: three texels."""
+    return _TEXELS_ACROSS * np.pi / height
+
+
+def bytes_needed(slices: int, points: int) -> float:
+    """Memory that it takes to filter three channels.
+
+    Parameters
+    ----------
+    slices, points : int
+        Numbers of lobes and of directions.
+
+    Returns
+    -------
+    float
+        For the maps, those of a few lobes once more, and the directions with their angles; what does not
+        depend on the points, `BYTES_BESIDES`, left out.
+    """
+    return 8.0 * points * (3 * slices + 3 * min(slices, 4) + 8)
+
+
+def prefilter(
+    harmonics: EnvironmentHarmonics, series: Sequence[ZonalSeries], directions: ArrayLike
+) -> Prefiltered:
+    """Filter an environment with radially symmetric lobes.
+
+    Parameters
+    ----------
+    harmonics : EnvironmentHarmonics
+        Of an environment without negative radiance, analysed to `analysis_degree` of the lobes or
+        further.
+    series : sequence of ZonalSeries
+        One lobe for each slice, expanded for the tolerance that its slice is to keep.
+    directions : array_like, shape (..., 3)
+        Where to evaluate: lobe axes, of any positive length.
+
+    Returns
+    -------
+    Prefiltered
+        Its relative root-mean-square error over the sphere, of each slice and each channel, keeps the
+        lobe's tolerance.
+
+    Raises
+    ------
+    RangeError
+        A lobe is narrower than the map resolves or needs a degree that was not analysed; a direction is
+        not finite.
+    ShapeError
+        Directions have not three components.
+    """
+    theta, phi, shape = _polar_angles(directions)
+    for number, lobe in enumerate(series, 1):
+        _check_resolved(harmonics, lobe, number)
+    ceilings = harmonics.ceilings()
+    degrees = [_cut(lobe, ceilings) for lobe in series]
+    channels = len(harmonics.flux)
+    # Channel by channel, as sums of maps go through it
+    by_channel = np.empty((channels, len(series), len(theta)))
+    bound = np.empty((len(series), channels))
+    for group in _groups(degrees, channels):
+        gains = np.zeros((len(group), max(degrees[i] for i in group) + 1))
+        for row, i in zip(gains, group, strict=True):
+            row[: degrees[i] + 1] = series[i].coefficients[: degrees[i] + 1]
+        kernel, leakage = _kernel(gains, ceilings, min(series[i].tolerance for i in group))
+        by_channel[:, group] = synthesise(harmonics, gains, theta, phi, kernel).transpose(2, 1, 0)
+        for i in group:
+            bound[i] = _bound(series[i], degrees[i], ceilings, leakage, harmonics.flux)
+    radiance = np.moveaxis(by_channel, 0, -1)
+    for lobe, values in zip(series, radiance, strict=True):
+        if not lobe.signed:
+            # What the cut makes negative is nearer to the truth at 0.
+            np.maximum(values, 0.0, out=values)
+    return Prefiltered(radiance.reshape(len(series), *shape, channels), bound, tuple(degrees))
+
+
+def prefilter_exact(radiance: Array, lobes: Sequence[ZonalLobe], directions: ArrayLike) -> Array:
+    """The sum over all texels of radiance times solid angle times lobe, by brute force.
+
+    Parameters
+    ----------
+    radiance : ndarray, shape (height, width, channels)
+        Latitude-longitude map.
+    lobes : sequence of ZonalLobe
+        One for each slice.
+    directions : array_like, shape (..., 3)
+        Lobe axes.
+
+    Returns
+    -------
+    ndarray, shape (slices, ..., channels), float64
+
+    Raises
+    ------
+    RangeError
+        A direction is not finite.
+    ShapeError
+        Directions have not three components.
+
+    Notes
+    -----
+    Equation 1: the oracle of `prefilter`, with harmonics of texels as points.
+    """
+    theta, phi, shape = _polar_angles(directions)
+    axes = np.stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)], axis=-1)
+    height, width, channels = radiance.shape
+    texels = equirect.direction_from_uv(texel_centres(width, height)).reshape(-1, 3)
+    light = (radiance * equirect.texel_solid_angle(width, height)[..., None]).reshape(-1, channels)
+    filtered = np.empty((len(lobes), len(axes), channels))
+    step = max(1, _BRUTE_BYTES // (24 * len(texels)))
+    for start in range(0, len(axes), step):
+        part = slice(start, start + step)
+        # Half the chord is the sine of half the angle; the cosine would lose the digits of small angles.
+        chord = np.linalg.norm(axes[part, None] - texels, axis=-1)
+        angle = 2.0 * np.arcsin(np.minimum(0.5 * chord, 1.0))
+        for lobe, values in zip(lobes, filtered, strict=True):
+            values[part] = lobe.profile(angle) @ light
+    return filtered.reshape(len(lobes), *shape, channels)
+
+
+def _polar_angles(directions: ArrayLike) -> tuple[Array, Array, tuple[int, ...]]:
+    """Colatitude, longitude in [0, 2 pi), and the shape of the directions without their last axis."""
+    directions = np.asarray(directions, dtype=np.float64)
+    if directions.ndim == 0 or directions.shape[-1] != 3:
+        raise ShapeError(f"Directions have three components, but these have shape {directions.shape}.")
+    if not np.all(np.isfinite(directions)):
+        raise RangeError("A direction is NaN or infinite: give unit vectors.")
+    x, y, z = directions.reshape(-1, 3).T
+    return np.arctan2(np.hypot(x, y), z), np.arctan2(y, x) % (2.0 * np.pi), directions.shape[:-1]
+
+
+def _check_resolved(harmonics: EnvironmentHarmonics, lobe: ZonalSeries, number: int) -> None:
+    least = resolved_width(harmonics.height)
+    if lobe.width < (1.0 - TIE) * least:
+        raise RangeError(
+            f"Lobe {number} is {np.degrees(lobe.width):.3g} degrees wide, and a map of {harmonics.height} "
+            f"rows resolves {np.degrees(least):.3g}: widen the lobe to that, or use a larger map."
+        )
+    if lobe.degree > harmonics.degree:
+        raise RangeError(
+            f"Lobe {number} needs harmonics up to degree {lobe.degree}, but the environment was analysed "
+            f"to {harmonics.degree}: analyse it further."
+        )
+
+
+def _power(gains: Array, ceilings: Array) -> Array:
+    """Mean square of every filtered degree over the sphere, shape (..., degrees, channels)."""
+    l = np.arange(gains.shape[-1])[:, None]
+    power: Array = (gains[..., None] * ceilings[: len(l)]) ** 2 / (2 * l + 1)
+    return power
+
+
+def _cut(lobe: ZonalSeries, ceilings: Array) -> int:
+    """The degree from which on all that is left out keeps the tolerance in every channel: equation 17."""
+    power = _power(lobe.coefficients, ceilings)
+    tail = np.cumsum(power[::-1], axis=0)[::-1]
+    kept = np.any(tail > (_CUT_SHARE * lobe.tolerance) ** 2 * tail[0], axis=1)
+    return max(int(np.count_nonzero(kept)) - 1, 1)
+
+
+def _kernel(gains: Array, ceilings: Array, tolerance: float) -> tuple[Kernel, Array]:
+    """The narrowest kernel that keeps the tolerance (equation 18), and its leakage at every degree."""
+    degree = gains.shape[1] - 1
+    frequency = np.arange(degree + 1) * (np.pi / grid_rows(degree))
+    power = _power(gains, ceilings)
+    allowed = (_LEAKAGE_SHARE * tolerance) ** 2 * power.sum(axis=1)
+    for kernel in kernels_for(tolerance):
+        leakage = kernel.leakage(frequency)
+        if np.all(np.einsum("l,slc->sc", 2.0 * leakage[1:] ** 2, power[:, 1:]) <= allowed):
+            break
+    return kernel, leakage
+
+
+def _bound(lobe: ZonalSeries, degree: int, ceilings: Array, leakage: Array, flux: Array) -> Array:
+    """Largest error of a slice, shape (channels,): equations 14, 15 and 19."""
+    largest = ceilings[: lobe.degree + 1] * np.abs(lobe.coefficients[:, None])
+    beyond_cut, beyond_known = lobe.truncation_errors(degree, lobe.degree)
+    left_out = np.minimum(largest[degree + 1 :].sum(axis=0) + beyond_known * flux, beyond_cut * flux)
+    leaked = 2.0 * leakage[1 : degree + 1] @ largest[1 : degree + 1]
+    rounded = _ROUNDINGS * np.finfo(np.float64).eps * largest.sum(axis=0)
+    bound: Array = left_out + leaked + rounded
+    return bound
+
+
+def _groups(degrees: Sequence[int], channels: int) -> Iterator[list[int]]:
+    """Slices of similar degree, to be synthesised together: as many as memory allows."""
+    waiting = sorted(range(len(degrees)), key=lambda i: -degrees[i])
+    while waiting:
+        largest = degrees[waiting[0]]
+        rows = grid_rows(largest)
+        # A grid of rows x 2 rows in float64, and its rows' spectra in complex128.
+        most = max(1, _GROUP_BYTES // (channels * rows * 16 * (rows + largest)))
+        group = [i for i in waiting[:most] if degrees[i] >= _GROUP_RATIO * largest]
+        yield group
+        waiting = waiting[len(group) :]

@@ -1,0 +1,1 @@
+"""Directions, cameras and meshes."""

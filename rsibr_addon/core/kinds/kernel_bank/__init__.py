@@ -1,0 +1,1 @@
+"""An environment filtered with the kernels that all lobes are sums of."""

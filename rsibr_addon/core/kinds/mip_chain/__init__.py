@@ -1,0 +1,1 @@
+"""[Kautz2004]: a cube map, ever more filtered."""

@@ -1,0 +1,263 @@
+"""Shading from a mip chain [Kautz2004]: nine harmonics for diffuse light, a mip for glossy light, Fresnel.
+
+Equation 8 of the paper in one pass: (1 - F) L_diffuse(normal) + F L_glossy(mirror direction).
+"""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from ...antialiased.footprint import footprint_or_point, footprint_sides
+from ...antialiased.sampling import sample_counts, samples
+from ...brdf.fresnel import fresnel_schlick
+from ...conventions import Array, ArrayLike, Indices
+from ...errors import RangeError
+from ...filtering.irradiance import irradiance_matrix
+from ...geometry.directions import dot, reflect
+from ...maps import cube_map
+from ...maps.representation import representation
+from ...resample import bilinear, lookup
+from ..checks import check_shares, member
+from .chain import MipChain
+
+_CUBE = representation("cube_map")
+
+
+class Borders(StrEnum):
+    """What a lookup near a face's border interpolates with.
+
+    SEAMLESS takes the neighbouring face's texels. CLAMPED repeats the face's own, as the hardware
+    of 2004 did: with a box filter, the border problem of [Kautz2004] figure 4.
+    """
+
+    SEAMLESS = "seamless"
+    CLAMPED = "clamped"
+
+
+@dataclass(frozen=True)
+class MipLook:
+    """How a mip chain is shaded.
+
+    Attributes
+    ----------
+    f_lambda : tuple of 3 floats
+        Reflectance at normal incidence in [0, 1], the paper's only parameter of Fresnel.
+    k_d : tuple of 3 floats
+        Albedo of the diffuse part in [0, 1].
+    bias : float
+        The paper's b, at least 0: the mip that glossy light comes from, linear between two; beyond the
+        last, that.
+    roughness : float or None
+        In [0, 1]: takes the bias of that roughness; of GGX chains only.
+    borders : Borders
+        Or its value, as text.
+    antialiased : bool
+        Whether glossy light is averaged over what a pixel reflects.
+
+    Raises
+    ------
+    RangeError
+        A value is out of range, or bias and roughness are both given.
+    """
+
+    f_lambda: tuple[float, float, float] = (0.04, 0.04, 0.04)
+    k_d: tuple[float, float, float] = (0.8, 0.8, 0.8)
+    bias: float = 0.0
+    roughness: float | None = None
+    borders: Borders = Borders.SEAMLESS
+    antialiased: bool = True
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "borders", member(Borders, self.borders, "borders"))
+        for name, values in (("f_lambda", self.f_lambda), ("k_d", self.k_d)):
+            check_shares(name, values)
+        if not 0.0 <= self.bias < np.inf:
+            raise RangeError(f"A bias of {self.bias:g} is out of range: choose a number from 0.")
+        if self.roughness is not None:
+            if not 0.0 <= self.roughness <= 1.0:
+                raise RangeError(
+                    f"A roughness of {self.roughness:g} is out of range: choose one from 0 to 1."
+                )
+            if self.bias > 0.0:
+                raise RangeError("A roughness and a bias say the same in two ways: give one of them.")
+
+    def level(self, chain: MipChain) -> float:
+        """The level of detail to look glossy light up at.
+
+        Parameters
+        ----------
+        chain : MipChain
+
+        Returns
+        -------
+        float
+            In [0, mips - 1].
+
+        Raises
+        ------
+        RangeError
+            There is a roughness, and the chain is not of GGX lobes.
+
+        Notes
+        -----
+        Hardware adds b to the level that a pixel's footprint asks for. Here a mip is a material, at any
+        distance, and what a pixel reflects is averaged over that: see `glossy_mean`.
+        """
+        if self.roughness is not None:
+            return chain.bias(self.roughness)
+        return min(self.bias, len(chain.mips) - 1.0)
+
+
+def mip_chain_radiance(
+    chain: MipChain,
+    normal: ArrayLike,
+    view_dir: ArrayLike,
+    look: MipLook,
+    mirror_footprint: ArrayLike | None = None,
+) -> Array:
+    """Radiance of surface points: [Kautz2004] Eq. 8.
+
+    Parameters
+    ----------
+    chain : MipChain
+    normal, view_dir : array_like, shape (..., 3)
+        Unit vectors in world coordinates.
+    look : MipLook
+    mirror_footprint : array_like, shape (..., 4, 3), optional
+        Mirrored view directions at the corners of each point's pixel, see `core.antialiased`; what an
+        antialiased look averages over. None for points, which reflect one direction each.
+
+    Returns
+    -------
+    ndarray, shape (..., 3), float64
+        Radiance, not negative.
+
+    Raises
+    ------
+    RangeError
+        See `MipLook.level`.
+
+    Notes
+    -----
+    GLSL twin: gpu_shaders/mip_chain_frag.glsl.
+    """
+    normal, view_dir = np.broadcast_arrays(np.asarray(normal, np.float64), np.asarray(view_dir, np.float64))
+    cosine = np.clip(dot(normal, view_dir), 0.0, 1.0)
+    fresnel = fresnel_schlick(cosine[..., None], look.f_lambda)
+    diffuse = diffuse_radiance(chain, normal, look.k_d)
+    mirror_dir = reflect(view_dir, normal)
+    corners = footprint_or_point(mirror_footprint if look.antialiased else None, mirror_dir)
+    glossy = glossy_mean(chain, mirror_dir, corners, look.level(chain), look.borders)
+    shaded: Array = (1.0 - fresnel) * diffuse + fresnel * glossy
+    return shaded
+
+
+def diffuse_radiance(chain: MipChain, normal: ArrayLike, k_d: ArrayLike) -> Array:
+    """Light that a Lambertian surface reflects: [Kautz2004] Eq. 12.
+
+    Parameters
+    ----------
+    chain : MipChain
+    normal : array_like, shape (..., 3)
+        Unit vectors in world coordinates.
+    k_d : array_like, shape (3,)
+        Albedo.
+
+    Returns
+    -------
+    ndarray, shape (..., 3), float64
+        0 where nine harmonics say less, opposite a strong light.
+
+    Notes
+    -----
+    GLSL twin: gpu_shaders/lib/irradiance_lib.glsl `irradiance`, 1e-6 of the coefficients' sum.
+    """
+    n = np.concatenate([normal, np.ones_like(np.asarray(normal)[..., :1])], axis=-1)
+    irradiance = np.einsum("...i,cij,...j->...c", n, irradiance_matrix(chain.harmonics), n)
+    radiance: Array = np.asarray(k_d) / np.pi * np.maximum(irradiance, 0.0)
+    return radiance
+
+
+def glossy_mean(
+    chain: MipChain, mirror_dir: ArrayLike, corners: ArrayLike, level: float, borders: Borders
+) -> Array:
+    """Light of a level, averaged over what pixels reflect.
+
+    Parameters
+    ----------
+    chain : MipChain
+    mirror_dir : array_like, shape (..., 3)
+        Unit directions that the pixels' middles reflect.
+    corners : array_like, shape (..., 4, 3)
+        Their footprints.
+    level : float
+        In [0, mips - 1].
+    borders : Borders
+
+    Returns
+    -------
+    ndarray, shape (..., 3), float64
+
+    Notes
+    -----
+    Up to `sampling.MOST` lookups along each side of a pixel, a texel of that level apart. Where they do not
+    suffice they come from a mip whose texels are as far apart as they are, so that no light is missed
+    however much a pixel reflects. GLSL twin: gpu_shaders/lib/mip_chain_lib.glsl `glossy_mean`.
+    """
+    mirror_dir = np.asarray(mirror_dir, dtype=np.float64)
+    across, up = footprint_sides(np.asarray(corners, dtype=np.float64))
+    texel = 2.0**level * cube_map.texel_angle(mirror_dir, chain.size)
+    counts = sample_counts(across, up, texel)
+    apart = np.linalg.norm(np.stack([across, up], axis=-2), axis=-1) / counts
+    missed = np.log2(np.maximum(np.max(apart, axis=-1) / texel, 1.0))
+    levels = np.minimum(level + missed, len(chain.mips) - 1.0)
+    mean = np.zeros(mirror_dir.shape)
+    for chosen, direction, weight in samples(mirror_dir, across, up, counts):
+        mean[chosen] += weight * glossy_radiance(chain, direction, levels[chosen], borders)
+    return mean
+
+
+def glossy_radiance(chain: MipChain, direction: ArrayLike, level: ArrayLike, borders: Borders) -> Array:
+    """Light of a mip, or of two neighbouring mips, linear between them.
+
+    Parameters
+    ----------
+    chain : MipChain
+    direction : array_like, shape (..., 3)
+        Unit directions in world coordinates.
+    level : array_like, shape (...,)
+        In [0, mips - 1].
+    borders : Borders
+
+    Returns
+    -------
+    ndarray, shape (..., 3), float64
+
+    Notes
+    -----
+    GLSL twin: gpu_shaders/lib/mip_chain_lib.glsl `glossy_radiance`; hardware may round the weights of
+    texels to 1/256.
+    """
+    direction = np.asarray(direction, dtype=np.float64)
+    level = np.broadcast_to(level, direction.shape[:-1])
+    light = np.zeros(direction.shape)
+    for mip, faces in enumerate(chain.mips):
+        share = np.maximum(1.0 - np.abs(level - mip), 0.0)
+        counts = share > 0.0
+        light[counts] += share[counts][:, None] * _mip_radiance(faces, direction[counts], borders)
+    return light
+
+
+def _mip_radiance(faces: Array, direction: ArrayLike, borders: Borders) -> Array:
+    if borders is Borders.SEAMLESS:
+        return lookup(faces, direction, _CUBE)
+    uv, face = cube_map.uv_from_direction(direction)
+    half = 0.5 / faces.shape[1]
+    # So far inside, interpolation ends at the face's last texel centres and asks for no neighbour.
+    inside = np.clip(uv, half, 1.0 - half)
+    return bilinear(faces, inside, _no_neighbour, layer=face)
+
+
+def _no_neighbour(columns: Indices, rows: Indices, width: int, height: int) -> tuple[Indices, Indices]:
+    return np.clip(columns, 0, width - 1), np.clip(rows, 0, height - 1)

@@ -1,0 +1,1 @@
+"""[Cabral1999]: a material seen from all around."""

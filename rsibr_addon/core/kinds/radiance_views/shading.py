@@ -1,0 +1,295 @@
+"""Shading from radiance views [Cabral1999], in three modes.
+
+`views_fragment` needs nothing but a normal and a view direction. The others make the
+sphere map of one view first, texel by texel (`destination_by_texel`) or over a tessellated disk as
+the paper does (`destination_by_mesh`), and `destination_lookup` shades from it.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...antialiased.footprint import footprint_or_point, footprint_sides
+from ...antialiased.sampling import sample_counts, samples
+from ...conventions import Array, ArrayLike, Indices, texel_centres
+from ...geometry.directions import camera_frame, dot, mirror_normal, reflect
+from ...geometry.disk_mesh import MARGIN, disk_mesh, interpolate
+from ...geometry.geodesic import barycentric_weights, find_triangle
+from ...geometry.reflection_warp import Warp, confidence, source_cosine, source_uv
+from ...maps import sphere_map
+from ...resample import bilinear
+from ..checks import member
+from .views import RadianceViews
+
+
+class Mode(StrEnum):
+    """How radiance views are brought to the view of a frame."""
+
+    PAPER = "paper"
+    TEXEL = "texel"
+    FRAGMENT = "fragment"
+
+
+class Warping(StrEnum):
+    """What is warped how.
+
+    SINGLE warps the whole radiance by the mirror direction. SPLIT warps diffuse radiance by the
+    normal and glossy by the mirror direction. ALBEDO is SPLIT of radiance over directional albedo:
+    a source saw a direction at another angle than the fragment does, and what Fresnel's equations
+    make of that is known without a picture.
+    """
+
+    SINGLE = "single"
+    SPLIT = "split"
+    ALBEDO = "albedo"
+
+
+@dataclass(frozen=True)
+class ViewsLook:
+    """How radiance views are shaded.
+
+    Attributes
+    ----------
+    mode : Mode
+        Or its value, as text.
+    warping : Warping
+        Likewise.
+    antialiased : bool
+        Whether what goes by the mirror direction is averaged over what a pixel reflects.
+    """
+
+    mode: Mode = Mode.FRAGMENT
+    warping: Warping = Warping.ALBEDO
+    antialiased: bool = True
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "mode", member(Mode, self.mode, "mode"))
+        object.__setattr__(self, "warping", member(Warping, self.warping, "warp"))
+
+
+LEAST_ALBEDO = 1e-3
+"""Added to albedo before it divides: what is black from everywhere stays so, noise and all."""
+
+
+@dataclass(frozen=True)
+class Destination:
+    """The warped and blended sphere map of one view direction.
+
+    Attributes
+    ----------
+    frame : ndarray, shape (3, 3)
+        Camera axes of the view as columns: T_d of [Cabral1999].
+    by_normal, by_mirror : ndarray, shape (size, size, 3), float64
+        Radiance to be looked up by the normal (diffuse; 0 for a single warp) and by the mirrored
+        view direction (glossy, or the whole); for `Warping.ALBEDO`, over albedo.
+    albedo : ndarray, shape (2, M, 3)
+        What the radiance by normal, and by mirror, is to be multiplied by, as
+        `RadianceViews.albedo`.
+    """
+
+    frame: Array
+    by_normal: Array
+    by_mirror: Array
+    albedo: Array
+
+
+def views_fragment(
+    views: RadianceViews,
+    normal: ArrayLike,
+    view_dir: ArrayLike,
+    warping: Warping,
+    mirror_footprint: ArrayLike | None = None,
+) -> Array:
+    """Radiance of surface points, each blended from the three views around its own view direction.
+
+    Parameters
+    ----------
+    views : RadianceViews
+    normal, view_dir : array_like, shape (..., 3)
+        Unit vectors in world coordinates.
+    warping : Warping
+    mirror_footprint : array_like, shape (..., 4, 3), optional
+        Mirrored view directions at the corners of each point's pixel, see `core.antialiased`, to average
+        over. None for points, which reflect one direction each, and for looks that are not antialiased.
+
+    Returns
+    -------
+    ndarray, shape (..., 3), float64
+        Radiance.
+
+    Notes
+    -----
+    [Cabral1999] sections 3.2-3.4 for every fragment: the view direction of each is its own, so
+    that perspective adds no error. Over a pixel the mirror direction turns, and what goes by it is looked
+    up up to `sampling.MOST` times along each side, a texel apart. GLSL twin:
+    gpu_shaders/views_fragment_frag.glsl.
+    """
+    normal, view_dir = np.broadcast_arrays(np.asarray(normal, np.float64), np.asarray(view_dir, np.float64))
+    by_normal, by_mirror = _warp_and_blend(views, normal, view_dir, warping)
+    if mirror_footprint is not None:
+        by_mirror = np.zeros(normal.shape)
+        spread = _spread(mirror_footprint, reflect(view_dir, normal), views.size)
+        for chosen, direction, weight in spread:
+            own_view = view_dir[chosen]
+            shown = _warp_and_blend(views, mirror_normal(own_view, direction), own_view, warping)[1]
+            by_mirror[chosen] += weight * shown
+    cosine, table = dot(normal, view_dir), _albedo(views, warping)
+    return by_normal * _at(table, Warp.NORMAL, cosine) + by_mirror * _at(table, Warp.MIRROR, cosine)
+
+
+def destination_by_texel(
+    views: RadianceViews, view_dir: ArrayLike, size: int, warping: Warping
+) -> Destination:
+    """The destination map of one view, warped per texel: the future work of [Cabral1999] section 6.
+
+    Parameters
+    ----------
+    views : RadianceViews
+    view_dir : array_like, shape (3,)
+        Unit vector from the object to the eye.
+    size : int
+        Width and height of the destination map in texels.
+    warping : Warping
+
+    Returns
+    -------
+    Destination
+
+    Notes
+    -----
+    GLSL twin: gpu_shaders/views_texel_frag.glsl.
+    """
+    frame = camera_frame(view_dir)
+    normal = sphere_map.normal_from_uv(texel_centres(size, size)) @ frame.T
+    direction = np.broadcast_to(frame[:, 2], normal.shape)
+    return Destination(frame, *_warp_and_blend(views, normal, direction, warping), _albedo(views, warping))
+
+
+def destination_by_mesh(
+    views: RadianceViews, view_dir: ArrayLike, size: int, warping: Warping
+) -> Destination:
+    """The destination map of one view, warped at the vertices of a tessellated disk: the paper's way.
+
+    Parameters and result are those of `destination_by_texel`.
+
+    Notes
+    -----
+    [Cabral1999] section 3.3 and the loop of section 4, its accumulation buffer replaced by one
+    weighted sum. GLSL twin: gpu_shaders/views_disk_vert.glsl and views_disk_frag.glsl.
+    """
+    frame = camera_frame(view_dir)
+    sources = find_triangle(views.sphere, frame[:, 2])
+    weights = barycentric_weights(frame[:, 2], views.sphere.vertices[sources])
+    vertex_normal = sphere_map.normal_from_uv(0.5 * disk_mesh().positions + 0.5) @ frame.T
+    points = 2.0 * texel_centres(size, size) - 1.0
+    # The corners of the map, outside the mesh's margin, are never looked up.
+    points /= np.maximum(np.linalg.norm(points, axis=-1, keepdims=True) / (0.99 * MARGIN), 1.0)
+    table = _albedo(views, warping)
+
+    def blend(maps: Array, warp: Warp) -> Array:
+        at_vertices = _seen(views, warp, vertex_normal, frame[:, 2], sources)
+        seen = np.stack([interpolate(points, at_vertices[..., i, :]) for i in range(3)], axis=-2)
+        return _blend(maps, warp, table, sources, seen, weights)
+
+    if warping is Warping.SINGLE:
+        whole = blend(views.combined, Warp.MIRROR)
+        return Destination(frame, np.zeros_like(whole), whole, table)
+    return Destination(frame, blend(views.diffuse, Warp.NORMAL), blend(views.glossy, Warp.MIRROR), table)
+
+
+def destination_lookup(
+    destination: Destination,
+    normal: ArrayLike,
+    view_dir: ArrayLike,
+    mirror_footprint: ArrayLike | None = None,
+) -> Array:
+    """Radiance of surface points, from the sphere map of one view.
+
+    Parameters
+    ----------
+    destination : Destination
+    normal, view_dir : array_like, shape (..., 3)
+        Unit vectors in world coordinates.
+    mirror_footprint : array_like, shape (..., 4, 3), optional
+        Mirrored view directions at the corners of each point's pixel, see `core.antialiased`, to average
+        over. None for points, which reflect one direction each, and for looks that are not antialiased.
+
+    Returns
+    -------
+    ndarray, shape (..., 3), float64
+        Radiance; exact only where the view direction is the map's own, so not in perspective.
+
+    Notes
+    -----
+    Glossy radiance is looked up by the mirrored view direction, as sphere-mapping hardware does
+    ([Cabral1999] section 2); in an orthographic view that is the point of the normal itself.
+    GLSL twin: gpu_shaders/views_destination_frag.glsl.
+    """
+    normal_uv = sphere_map.uv_from_normal(np.asarray(normal) @ destination.frame)
+    mirror_dir, by_mirror = reflect(view_dir, normal), destination.by_mirror
+    glossy = np.zeros(mirror_dir.shape)
+    for chosen, direction, weight in _spread(mirror_footprint, mirror_dir, len(by_mirror)):
+        mirror_uv = sphere_map.uv_from_direction(direction @ destination.frame)
+        glossy[chosen] += weight * bilinear(by_mirror, mirror_uv, sphere_map.wrap)
+    cosine, table = dot(normal, view_dir), destination.albedo
+    diffuse = bilinear(destination.by_normal, normal_uv, sphere_map.wrap)
+    return diffuse * _at(table, Warp.NORMAL, cosine) + glossy * _at(table, Warp.MIRROR, cosine)
+
+
+def _spread(
+    mirror_footprint: ArrayLike | None, mirror_dir: Array, size: int
+) -> Iterator[tuple[NDArray[np.bool], Array, Array]]:
+    """Directions a texel of sphere maps apart, as `sampling.samples` yields them."""
+    across, up = footprint_sides(footprint_or_point(mirror_footprint, mirror_dir))
+    counts = sample_counts(across, up, np.full(mirror_dir.shape[:-1], sphere_map.texel_angle(size)))
+    return samples(mirror_dir, across, up, counts)
+
+
+def _warp_and_blend(
+    views: RadianceViews, normal: Array, view_dir: Array, warping: Warping
+) -> tuple[Array, Array]:
+    """What the three views around each view direction show, by normal and by mirror; over albedo."""
+    sources = find_triangle(views.sphere, view_dir)
+    weights = barycentric_weights(view_dir, views.sphere.vertices[sources])
+    table = _albedo(views, warping)
+
+    def blend(maps: Array, warp: Warp) -> Array:
+        return _blend(maps, warp, table, sources, _seen(views, warp, normal, view_dir, sources), weights)
+
+    if warping is Warping.SINGLE:
+        whole = blend(views.combined, Warp.MIRROR)
+        return np.zeros_like(whole), whole
+    return blend(views.diffuse, Warp.NORMAL), blend(views.glossy, Warp.MIRROR)
+
+
+def _seen(views: RadianceViews, warp: Warp, normal: Array, view_dir: Array, sources: Indices) -> Array:
+    """Where each of the three sources shows the surface points: u, v and cosine, shape (..., 3, 3)."""
+    normal, view_dir = normal[..., None, :], view_dir[..., None, :]
+    uv = source_uv(warp, normal, view_dir, views.frames[sources])
+    cosine = source_cosine(warp, normal, view_dir, views.sphere.vertices[sources])
+    return np.concatenate([uv, cosine[..., None]], axis=-1)
+
+
+def _blend(maps: Array, warp: Warp, table: Array, sources: Indices, seen: Array, weights: Array) -> Array:
+    """The sources' radiance over their albedo, each looked up at its own place, weighted and summed."""
+    cosine = seen[..., 2]
+    # Weights times confidences, to sum 1: [Cabral1999] section 4 divides by what it accumulated.
+    shares = weights * confidence(cosine)
+    shares = shares / shares.sum(axis=-1, keepdims=True)
+    radiance = bilinear(maps, seen[..., :2], sphere_map.wrap, layer=sources)
+    blended: Array = np.sum(shares[..., None] * radiance / _at(table, warp, cosine), axis=-2)
+    return blended
+
+
+def _albedo(views: RadianceViews, warping: Warping) -> Array:
+    """The table to divide and multiply by; ones where albedo plays no part."""
+    return views.albedo + LEAST_ALBEDO if warping is Warping.ALBEDO else np.ones((2, 1, 3))
+
+
+def _at(table: Array, warp: Warp, cosine: Array) -> Array:
+    """A row of the table of albedo, interpolated at cosines, shape (..., 3)."""
+    row = 0.25 if warp is Warp.NORMAL else 0.75
+    return bilinear(table, np.stack([cosine, np.full_like(cosine, row)], axis=-1), sphere_map.wrap)

@@ -1,0 +1,1 @@
+"""[Miller1984]: tables of what a material reflects."""

@@ -1,0 +1,62 @@
+"""Reflection tables [Miller1984]: reflected light, as maps over one direction each."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from ...conventions import Array
+from ...errors import RangeError, ShapeError
+
+
+class Role(StrEnum):
+    """What a table holds, which is also what it is looked up by.
+
+    DIFFUSE, the paper's D, by the normal. SPECULAR, its S, by the mirrored view direction, and so COAT, what
+    a clear varnish mirrors. RETRO, light sent back to where it came from, by the view direction. REFRACTION
+    by the refracted view direction.
+    """
+
+    DIFFUSE = "diffuse"
+    SPECULAR = "specular"
+    COAT = "coat"
+    RETRO = "retro"
+    REFRACTION = "refraction"
+
+
+@dataclass(frozen=True)
+class ReflectionTables:
+    """Tables of one material in one environment, and how much each counts from which side.
+
+    Attributes
+    ----------
+    maps : dict of Role to ndarray, shape (height, 2 * height, 3), float32
+        Radiance over directions as latitude-longitude maps of any sizes: texels hold the values at
+        their centres, and lookups between them are bilinear. A material has any of them, at least one.
+    weights : ndarray, shape (len(Role), M, 3), float32
+        One row for each `Role`, in its order; column k is for n.v = (k + 0.5) / M. The paper's Wd, Ws.
+    eta : float
+        Index of refraction behind the surface over that in front of it, greater than 0.
+
+    Raises
+    ------
+    ShapeError
+        There is no table, a map is not twice as wide as high, or the weights have not a row for each role.
+    RangeError
+        `eta` is not positive.
+    """
+
+    maps: dict[Role, Array]
+    weights: Array
+    eta: float = 1.0
+
+    def __post_init__(self) -> None:
+        if not self.maps:
+            raise ShapeError("Reflection tables need at least one map: give a diffuse one, for example.")
+        for role, image in self.maps.items():
+            if image.ndim != 3 or image.shape[1:] != (2 * image.shape[0], 3):
+                raise ShapeError(
+                    f"The {role} table must have the shape (height, 2 height, 3), not {image.shape}."
+                )
+        if self.weights.ndim != 3 or self.weights.shape[::2] != (len(Role), 3):
+            raise ShapeError(f"Weights have the shape ({len(Role)}, M, 3), not {self.weights.shape}.")
+        if not self.eta > 0.0:
+            raise RangeError(f"An index of refraction cannot be {self.eta}: choose one above 0.")

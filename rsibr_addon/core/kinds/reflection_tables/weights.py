@@ -1,0 +1,142 @@
+"""How much each table counts at each angle: Wd and Ws of [Miller1984] section 7, and their like."""
+
+import warnings
+
+import numpy as np
+
+from ...brdf.albedo import TOLERATED_GAIN, directional_albedo
+from ...brdf.fresnel import fresnel_conductor
+from ...brdf.lambert import Lambert
+from ...brdf.layered import Beneath
+from ...brdf.model import Brdf
+from ...brdf.retroreflective import Retroreflective
+from ...conventions import Array
+from ...errors import RangeError, RsibrWarning
+from .material import TableMaterial
+from .models import AlbedoReflectance, CoatModel, ConstantReflectance
+from .tables import Role
+
+COLUMNS = 64
+"""Cosines at which weights are tabulated."""
+
+
+def weight_cosines() -> Array:
+    """Cosines between normal and view that the columns of the weights are for, shape (COLUMNS,)."""
+    cosines: Array = (np.arange(COLUMNS) + 0.5) / COLUMNS
+    return cosines
+
+
+def table_weights(material: TableMaterial) -> Array:
+    """Weights of a material's tables.
+
+    Parameters
+    ----------
+    material : TableMaterial
+
+    Returns
+    -------
+    ndarray, shape (len(Role), COLUMNS, 3), float64
+        As `ReflectionTables.weights`; 0 for tables that the material lacks.
+
+    Raises
+    ------
+    RangeError
+        The weights are those of a BRDF with lobes that the material has no table for.
+
+    Notes
+    -----
+    A smooth boundary gives the specular table what it reflects, F, and the diffuse and retro tables the
+    rest, 1 - F. A BRDF gives each table the directional albedo of its lobes of that kind. What is
+    refracted gets 1 - F of its own boundary. A coat takes its share from all.
+    """
+    mu = weight_cosines()
+    shares = {role: np.ones((COLUMNS, 3)) for role in material.roles} | _shares(material, mu)
+    if material.refraction is not None:
+        passes = 1.0 - fresnel_conductor(mu, material.refraction.eta, 0.0)
+        shares[Role.REFRACTION] = passes[:, None] * np.asarray(material.refraction.tint)
+    if material.coat is not None:
+        coat = _reflectance(material.coat, mu)
+        shares = {role: (1.0 - coat) * share for role, share in shares.items()} | {Role.COAT: coat}
+    weights = np.zeros((len(Role), COLUMNS, 3))
+    for row, role in zip(weights, Role, strict=True):
+        if role in material.roles:
+            row[:] = shares[role]
+    return weights
+
+
+def furnace(material: TableMaterial) -> Array:
+    """What a material sends to the eye in even light of radiance 1, its emission left out.
+
+    Parameters
+    ----------
+    material : TableMaterial
+
+    Returns
+    -------
+    ndarray, shape (COLUMNS, 3), float64
+        At `weight_cosines`; at most 1 where no energy is gained.
+    """
+    models = material.lobes | ({Role.DIFFUSE: material.diffuse} if material.diffuse is not None else {})
+    weights = dict(zip(Role, table_weights(material), strict=True))
+    total: Array = sum((weights[role] * model.gain for role, model in models.items()), np.zeros((COLUMNS, 3)))
+    return total
+
+
+def warn_of_table_gain(material: TableMaterial) -> None:
+    """Tell when a material reflects more light than it gets.
+
+    Parameters
+    ----------
+    material : TableMaterial
+
+    Warns
+    -----
+    RsibrWarning
+        Its `furnace` exceeds 1 by more than `TOLERATED_GAIN`; says how much and where.
+    """
+    total = furnace(material).max(axis=1)
+    worst = int(np.argmax(total))
+    if total[worst] > 1.0 + TOLERATED_GAIN:
+        angle = np.degrees(np.arccos(weight_cosines()[worst]))
+        warnings.warn(
+            f"The material reflects {total[worst]:.3g} times the light it gets at {angle:.0f} degrees from "
+            f"the normal; pictures of it will be too bright.",
+            RsibrWarning,
+            stacklevel=2,
+        )
+
+
+def _shares(material: TableMaterial, mu: Array) -> dict[Role, Array]:
+    """What `TableMaterial.weights` gives some roles, shape (COLUMNS, 3) each."""
+    if material.weights is None:
+        return {}
+    if isinstance(material.weights, AlbedoReflectance):
+        return _albedo_shares(material.weights.brdf, material.roles, mu)
+    boundary = material.weights.fresnel(mu)
+    return {Role.SPECULAR: boundary, Role.DIFFUSE: 1.0 - boundary, Role.RETRO: 1.0 - boundary}
+
+
+def _albedo_shares(brdf: Brdf, roles: tuple[Role, ...], mu: Array) -> dict[Role, Array]:
+    kinds = Role.DIFFUSE, Role.SPECULAR, Role.RETRO
+    shares: dict[Role, Array] = {role: np.zeros((len(mu), 3)) for role in kinds}
+    for layer in brdf.layers:
+        role = _role_of(layer)
+        if role not in roles:
+            raise RangeError(f"The weights' BRDF has a {role} part, so the material needs a {role} table.")
+        shares[role] += directional_albedo(layer, mu)
+    return shares
+
+
+def _role_of(layer: Brdf) -> Role:
+    """The table that a layer's light goes by: what it is, seen through coats."""
+    while isinstance(layer, Beneath):
+        layer = layer.base
+    if isinstance(layer, Lambert):
+        return Role.DIFFUSE
+    return Role.RETRO if isinstance(layer, Retroreflective) else Role.SPECULAR
+
+
+def _reflectance(coat: CoatModel, mu: Array) -> Array:
+    if isinstance(coat, ConstantReflectance):
+        return np.broadcast_to(coat.k, (len(mu), 3))
+    return coat.fresnel(mu)

@@ -1,0 +1,1 @@
+"""Light before it is filtered: photographs, paintings, lamps."""

@@ -1,1 +1,0 @@
-"""Ways to filter a cube map down to ever smaller ones: in texture space, and on the sphere."""

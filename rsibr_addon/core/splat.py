@@ -1,0 +1,295 @@
+"""The power of one map, laid down on the texels of another by the area that they share.
+
+A texel stands for a constant radiance over its solid angle. Seen on a sheet of another map it is nearly a
+parallelogram: its middle is where its centre falls, its edges reach half-way to where its neighbours'
+centres fall. Its solid angle is divided among the texels beneath by the parts of the parallelogram that
+lie on each, exactly. A texel that is larger than those beneath is quartered until it is not. All of it is
+laid down somewhere, so that power is kept to the last digits, whatever the maps.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .conventions import Array, Indices
+from .geometry.directions import dot
+from .maps.representation import Representation
+from .ties import TIE
+
+BLOCK = 1 << 17
+"""Texels at a time, so that what is known of them takes some 50 MB, however large the map."""
+
+DEEPEST = 4
+"""Quarterings at most, for a texel around a pole or on a rim that is a single direction."""
+
+
+@dataclass(frozen=True)
+class _Texels:
+    """Grids of neighbouring texels, or of parts of texels.
+
+    Attributes
+    ----------
+    uv : ndarray, shape (grids, rows, columns, 2)
+        Their centres on their own map.
+    sheet : ndarray of int, shape (grids, rows, columns)
+    step : ndarray, shape (2,)
+        Their width and height in uv.
+    solid_angle : ndarray, shape (grids, rows, columns)
+        [sr]
+    radiance : ndarray, shape (grids, rows, columns, channels)
+    """
+
+    uv: Array
+    sheet: Indices
+    step: Array
+    solid_angle: Array
+    radiance: Array
+
+
+class Deposit:
+    """A map that collects what is laid down on it.
+
+    Parameters
+    ----------
+    target : Representation
+    size : int
+        Width of its sheets in texels.
+    channels : int
+        How many the laid down maps have.
+
+    Attributes
+    ----------
+    solid_angle : ndarray, shape (sheets * height * width,)
+        What each texel has got [sr]. Of a map that shows all directions this is the texel's own, but
+        for the difference between its neighbours' true outlines and parallelograms.
+    power : ndarray, shape (channels, sheets * height * width)
+        Radiance times solid angle.
+    """
+
+    def __init__(self, target: Representation, size: int, channels: int) -> None:
+        self._target = target
+        _, self._height, self._width = target.shape(size)
+        self._counts = target.texel_solid_angle(size).ravel() > 0.0
+        self.solid_angle = np.zeros(self._counts.size)
+        self.power = np.zeros((channels, self._counts.size))
+
+    def lay_down(self, image: Array, source: Representation) -> None:
+        """Lay down a whole map.
+
+        Parameters
+        ----------
+        image : ndarray, shape (sheets, height, width, channels)
+            Radiance.
+        source : Representation
+        """
+        sheets, height, width = image.shape[:3]
+        solid_angle = source.texel_solid_angle(width)
+        step = np.array([1.0 / width, 1.0 / height])
+        rows = max(BLOCK // width, 1)
+        for sheet in range(sheets):
+            for first in range(0, height, rows):
+                # With a row more on either side, of no weight: edges are known from both neighbours.
+                with_rims = np.arange(max(first - 1, 0), min(first + rows + 1, height))
+                own = (with_rims >= first) & (with_rims < first + rows)
+                uv = np.empty((1, len(with_rims), width, 2))
+                uv[..., 0] = (np.arange(width) + 0.5) * step[0]
+                uv[..., 1] = (with_rims[:, None] + 0.5) * step[1]
+                texels = _Texels(
+                    uv,
+                    np.full(uv.shape[:-1], sheet),
+                    step,
+                    (solid_angle[sheet, with_rims] * own[:, None])[None],
+                    image[None, sheet, with_rims[0] : with_rims[-1] + 1],
+                )
+                self._lay_grids(source, texels, DEEPEST)
+
+    def _lay_grids(self, source: Representation, texels: _Texels, quarterings: int) -> None:
+        direction = source.direction_from_uv(texels.uv, texels.sheet)
+        weight = np.where(self._target.shows(direction), texels.solid_angle, 0.0)
+        uv, sheet = self._target.uv_from_direction(direction)
+        centre = np.stack([uv[..., 0] * self._width, uv[..., 1] * self._height])
+        edges = np.stack([self._edges(centre, sheet, 2), self._edges(centre, sheet, 1)])
+        extent = np.abs(edges[0]) + np.abs(edges[1])
+        coarse = np.maximum(extent[0], extent[1]) > 1.0 + TIE
+        if source.disk < np.inf:
+            coarse |= _cut(texels.uv, np.diag(texels.step), source.disk)
+        if self._target.disk < np.inf and len(self._target.sheets) > 1:
+            coarse |= _cut(uv, np.moveaxis(edges, 1, -1) / self._width, self._target.disk)
+        coarse &= weight > 0.0
+        if quarterings:
+            self._lay_quarters(source, texels, coarse, quarterings)
+            weight[coarse] = 0.0
+        extent[:, coarse] = 0.0
+        self._lay_parallelograms(
+            centre.reshape(2, -1),
+            edges.reshape(2, 2, -1),
+            extent.reshape(2, -1),
+            sheet.ravel(),
+            weight.ravel(),
+            texels.radiance.reshape(-1, len(self.power)),
+        )
+
+    def _lay_quarters(
+        self, source: Representation, texels: _Texels, chosen: NDArray[np.bool], quarterings: int
+    ) -> None:
+        """Lay down some of `texels` as four each."""
+        quarter = 0.25 * texels.step * np.array([[(-1.0, -1.0), (1.0, -1.0)], [(-1.0, 1.0), (1.0, 1.0)]])
+        uv, sheet = texels.uv[chosen], texels.sheet[chosen]
+        solid_angle, radiance = texels.solid_angle[chosen], texels.radiance[chosen]
+        for first in range(0, len(uv), BLOCK // 4):
+            block = slice(first, first + BLOCK // 4)
+
+            centres, on_sheet = _four(uv[block]) + quarter, _four(sheet[block])
+            # Of a texel that the rim of a disk cuts, only the parts within the disk have a share.
+            counts = np.linalg.norm(2.0 * centres - 1.0, axis=-1) < source.disk
+            counts |= ~counts.any(axis=(1, 2), keepdims=True)
+            share = _four(solid_angle[block]) * counts / counts.sum(axis=(1, 2), keepdims=True)
+            parts = _Texels(centres, on_sheet, 0.5 * texels.step, share, _four(radiance[block]))
+            self._lay_grids(source, parts, quarterings - 1)
+
+    def _edges(self, centre: Array, sheet: Indices, axis: int) -> Array:
+        """From one side of each texel to the other along an axis of the grid, shape of `centre`.
+
+        The mean of the ways to its two neighbours; across a seam of the target there is no way.
+        """
+        centre, sheet = np.swapaxes(centre, axis + 1, -1), np.swapaxes(sheet, axis, -1)
+        way = centre[..., 1:] - centre[..., :-1]
+        far = (np.abs(way[0]) > 0.5 * self._width) | (np.abs(way[1]) > 0.5 * self._height)
+        known = (sheet[..., 1:] == sheet[..., :-1]) & ~far
+        way *= known
+        edges, count = np.zeros_like(centre), np.zeros(sheet.shape)
+        for neighbour in (slice(1, None), slice(None, -1)):
+            edges[..., neighbour] += way
+            count[..., neighbour] += known
+        edges /= np.maximum(count, 1.0)
+        return np.swapaxes(edges, axis + 1, -1)
+
+    def _lay_parallelograms(
+        self, centre: Array, edges: Array, extent: Array, sheet: Indices, weight: Array, radiance: Array
+    ) -> None:
+        """Lay down M parallelograms.
+
+        Parameters
+        ----------
+        centre : ndarray, shape (2, M)
+            x and y in texels.
+        edges : ndarray, shape (2, 2, M)
+            Two vectors of x and y.
+        extent : ndarray, shape (2, M)
+            Of the parallelogram along x and y, at most 1.
+        sheet : ndarray of int, shape (M,)
+        weight : ndarray, shape (M,)
+            [sr]
+        radiance : ndarray, shape (M, channels)
+        """
+        texel = centre.astype(np.intp)
+        np.minimum(texel, [[self._width - 1], [self._height - 1]], out=texel)
+        own = (sheet * self._height + texel[1]) * self._width + texel[0]
+        # So small a parallelogram reaches over one line beside its centre and one above or below at most.
+        within = centre - texel
+        distance = np.minimum(within, 1.0 - within)
+        reaches = distance < 0.5 * extent
+        some = np.flatnonzero((reaches[0] | reaches[1]) & (weight > 0.0))
+        side = np.where(np.take(within, some, axis=-1) > 0.5, 1, -1)
+        parts = parts_beyond(np.take(distance, some, axis=-1), side * np.take(edges, some, axis=-1))
+        moved = np.take(weight, some) * parts
+        weight[some] -= moved.sum(axis=0)
+        self._add(own, weight, radiance)
+        texel, sheet, own = np.take(texel, some, axis=-1), np.take(sheet, some), np.take(own, some)
+        for (right, up), amount in zip(((1, 0), (0, 1), (1, 1)), moved, strict=True):
+            going = np.flatnonzero(amount)
+            column, row = np.take(texel + side * np.array([[right], [up]]), going, axis=-1)
+            other = self._texel(column, row, np.take(sheet, going), np.take(own, going))
+            self._add(other, np.take(amount, going), np.take(radiance, np.take(some, going), axis=0))
+
+    def _texel(self, column: Indices, row: Indices, sheet: Indices, otherwise: Indices) -> Indices:
+        """Number of a texel, beyond a sheet's edge too; `otherwise` where none is, or none that counts."""
+        texel = (sheet * self._height + row) * self._width + column
+        outside = np.flatnonzero((column < 0) | (column >= self._width) | (row < 0) | (row >= self._height))
+        column, row, sheet = self._target.wrap(
+            column[outside], row[outside], sheet[outside], self._width, self._height
+        )
+        found = (sheet * self._height + row) * self._width + column
+        texel[outside] = np.where(sheet < 0, otherwise[outside], found)
+        return np.where(self._counts[texel], texel, otherwise)
+
+    def _add(self, texel: Indices, weight: Array, radiance: Array) -> None:
+        np.add.at(self.solid_angle, texel, weight)
+        for channel, power in enumerate(self.power):
+            np.add.at(power, texel, weight * radiance[:, channel])
+
+
+def parts_beyond(distance: Array, edges: Array) -> Array:
+    """How a parallelogram is divided by a vertical line right of its centre and a horizontal one above.
+
+    Parameters
+    ----------
+    distance : ndarray, shape (2, M)
+        From the centre to the vertical and to the horizontal line, at least 0.
+    edges : ndarray, shape (2, 2, M)
+        Two vectors of x and y.
+
+    Returns
+    -------
+    ndarray, shape (3, M)
+        Parts of its area, in [0, 1], that lie beyond the vertical line only, beyond the horizontal
+        line only, and beyond both.
+    """
+    right, above = _part_beyond_line(distance, np.abs(edges[0]), np.abs(edges[1]))
+    both = np.zeros_like(right)
+    cut_twice = np.flatnonzero((right > 0.0) & (above > 0.0))
+    both[cut_twice] = np.minimum(
+        _part_beyond_corner(np.take(distance, cut_twice, axis=-1), np.take(edges, cut_twice, axis=-1)),
+        np.minimum(np.take(right, cut_twice), np.take(above, cut_twice)),
+    )
+    return np.stack([right - both, above - both, both])
+
+
+def _part_beyond_line(distance: Array, a: Array, b: Array) -> Array:
+    """Part of a parallelogram beyond a line, given the extents of its edges across the line.
+
+    Its extent along the line is a trapezoid: a box of width a blurred by one of width b.
+    """
+    reach, flat = 0.5 * (a + b), 0.5 * np.abs(a - b)
+    slope = np.maximum(reach - distance, 0.0) ** 2 / np.where(a * b > 0.0, 2.0 * a * b, 1.0)
+    top = 0.5 - distance / np.where(reach > 0.0, reach + flat, 1.0)
+    part: Array = np.where(distance >= reach, 0.0, np.where(distance <= flat, top, slope))
+    return part
+
+
+def _part_beyond_corner(distance: Array, edges: Array) -> Array:
+    """Part of a parallelogram to the right of a vertical and above a horizontal line.
+
+    Summed over its sides: the areas between each, where it is right of the one line and above the other,
+    and the horizontal line; above the parallelogram's lower sides they are taken away again.
+    """
+    area = edges[0, 0] * edges[1, 1] - edges[0, 1] * edges[1, 0]
+    corners = [
+        0.5 * (a * edges[0] + b * edges[1]) - distance for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))
+    ]
+    total = np.zeros_like(area)
+    for (x0, y0), (x1, y1) in zip(corners, corners[1:] + corners[:1], strict=True):
+        start, end = np.maximum(x0, 0.0), np.maximum(x1, 0.0)
+        slope = (y1 - y0) / np.where(x1 == x0, 1.0, x1 - x0)
+        y_start, y_end = y0 + slope * (start - x0), y0 + slope * (end - x0)
+        height = np.abs(y_end - y_start)
+        ramp = np.maximum(np.maximum(y_start, y_end), 0.0) ** 2 / np.where(height > 0.0, 2.0 * height, 1.0)
+        above = np.minimum(y_start, y_end) >= 0.0
+        total += (start - end) * np.where(above, 0.5 * (y_start + y_end), ramp)
+    part: Array = np.clip(total / np.where(area == 0.0, 1.0, area), 0.0, 1.0)
+    return part
+
+
+def _four[Scalar: np.generic](values: NDArray[Scalar]) -> NDArray[Scalar]:
+    """Each of K values four times, shape (K, 2, 2, ...)."""
+    return np.broadcast_to(values[:, None, None], (len(values), 2, 2, *values.shape[1:]))
+
+
+def _cut(uv: Array, edges: Array, disk: float) -> NDArray[np.bool]:
+    """Whether the rim of a disk cuts parallelograms around points of a sheet, given their two edges."""
+    from_middle = uv - 0.5
+    distance = np.linalg.norm(from_middle, axis=-1)
+    reach = 0.5 * (np.abs(dot(edges[0], from_middle)) + np.abs(dot(edges[1], from_middle)))
+    cut: NDArray[np.bool] = np.abs(distance - 0.5 * disk) * distance < reach
+    return cut

@@ -1,0 +1,69 @@
+"""An environment on the GPU, to be mirrored."""
+
+from functools import cached_property
+
+import gpu
+import numpy as np
+
+from ...core.environment import Environment
+from ...core.kinds.environment import EnvironmentLook
+from .. import buffers
+from ..drawing import Draw, MeshOnDevice
+from ..equirect import Sums, map_sums, map_texture, no_sums
+from ..shaders import build, kept_until_exit, mesh_interface
+
+_LOOK_BLOCK = (
+    "struct EnvironmentLook { vec4 f_lambda; vec4 unit; "
+    "float antialiased; float unused_0; float unused_1; float unused_2; };"
+)
+
+
+@kept_until_exit
+def environment_shader() -> gpu.types.GPUShader:
+    """Draws a mesh as a mirror.
+
+    Raises
+    ------
+    DeviceError
+        The driver refuses the program.
+    """
+    info = mesh_interface(_LOOK_BLOCK)
+    info.uniform_buf(1, "EnvironmentLook", "look")
+    info.sampler(0, "FLOAT_2D", "environment")
+    info.sampler(1, "FLOAT_2D_ARRAY", "sums")
+    return build("environment", info, "mesh_vert.glsl", "environment_frag.glsl")
+
+
+class EnvironmentOnDevice:
+    """An environment, uploaded; its sums when the first antialiased look is drawn.
+
+    Parameters
+    ----------
+    environment : Environment
+
+    Raises
+    ------
+    DeviceError
+        The environment is larger than the device takes.
+    """
+
+    def __init__(self, environment: Environment) -> None:
+        self._environment = environment
+        self._map = map_texture("environment", environment.radiance)
+        self._no_sums = no_sums()
+        self._look = buffers.KeptBlock()
+
+    @cached_property
+    def _sums(self) -> Sums:
+        return map_sums(self._environment.radiance)
+
+    def draw(self, mesh: MeshOnDevice, draw: Draw, look: EnvironmentLook) -> None:
+        """See `OnDevice.draw`. Reference: core/kinds/environment.py."""
+        sums = self._sums if look.antialiased else self._no_sums
+        antialiased = np.array([float(look.antialiased)])
+        shader = environment_shader()
+        shader.bind()
+        shader.uniform_block("look", self._look.filled(np.array(look.f_lambda), sums.unit, antialiased))
+        shader.uniform_sampler("environment", self._map)
+        shader.uniform_sampler("sums", sums.texture)
+        mesh.draw(shader, draw)

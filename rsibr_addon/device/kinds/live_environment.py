@@ -1,0 +1,187 @@
+"""Light that changes while one looks, filtered on the GPU: [Kautz2004] section 5.
+
+Six renders lie side by side in a strip. From it come the mips, in the atlas that `mip_chain` shades from,
+and nine harmonics; nothing of it has to be read back. A pass cannot read the texture that it writes, so each
+mip is halved from the atlas into another strip, and goes from there into its borders in the atlas.
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import gpu
+import numpy as np
+
+from ...core.errors import RangeError
+from ...core.kinds.live_environment import FACE_COUNT, solid_angle_texels
+from ...core.kinds.mip_chain.chain import check_size
+from ...core.kinds.mip_chain.shading import MipLook
+from .. import buffers
+from ..drawing import Draw, MeshOnDevice
+from .live_environment_shaders import (
+    bordered_shader,
+    box_shader,
+    face_shader,
+    harmonics_shader,
+    live_mip_chain_shader,
+    rows_shader,
+    tent_shader,
+)
+from .mip_chain_shaders import look_fields
+
+_SCREEN_TRIANGLE = np.array([[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]])
+
+
+class LiveEnvironmentOnDevice:
+    """Six faces, black at first, and what is filtered from them.
+
+    Parameters
+    ----------
+    size : int
+        Of a face in texels, a power of 2.
+    across_borders : bool
+        Whether mips are filtered across the faces' borders
+        (`core.kinds.mip_chain.texture_space.tent_halved`), or within each face (`box_halved`), as the
+        hardware of 2004 did.
+
+    Raises
+    ------
+    RangeError
+        The size is no power of 2, or too large.
+    DeviceError
+        The driver refuses a shader.
+
+    Notes
+    -----
+    Reference: `core.kinds.live_environment.chain_of_faces`.
+    """
+
+    def __init__(self, size: int, across_borders: bool = True) -> None:
+        check_size(size, 1)
+        self.size = size
+        self._mip_count = size.bit_length()
+        self._halved = tent_shader() if across_borders else box_shader()
+        self._solid_angles = buffers.texture(_as_texels(solid_angle_texels(size)))
+        self._faces = _Map(FACE_COUNT * size, size)
+        self._smaller = _Map(max(FACE_COUNT * size // 2, 1), max(size // 2, 1))
+        self._atlas = _Map(FACE_COUNT * (size + 2), 2 * (size - 1 + self._mip_count) + 1)
+        self._rows = _Map(9, FACE_COUNT * size)
+        self._harmonics = _Map(9, 1)
+        self._shading = buffers.KeptBlock()
+        self._screen = buffers.triangles(face_shader(), {"position": _SCREEN_TRIANGLE}, np.array([[0, 1, 2]]))
+        self.filter()
+
+    def set_face(self, face: int, seen: gpu.types.GPUTexture) -> None:
+        """Take a render for a face; `filter` has to be called before it shows.
+
+        Parameters
+        ----------
+        face : int
+            0 to 5, in the order of `core.maps.cube_map`.
+        seen : GPUTexture
+            Radiance, as wide and high as a face; see `core.kinds.live_environment.face_view`.
+        """
+        shader = face_shader()
+        with _plain_state():
+            shader.bind()
+            shader.uniform_sampler("seen", seen)
+            shader.uniform_int("face", face)
+            self._fill(self._faces, shader, (face * self.size, 0, self.size, self.size))
+
+    def filter(self) -> None:
+        """Make the mips and the nine coefficients anew."""
+        with _plain_state():
+            self._border(self._faces, 0)
+            for mip in range(self._mip_count - 1):
+                self._halve(mip)
+                self._border(self._smaller, mip + 1)
+            self._sum_harmonics()
+
+    def finish(self) -> None:
+        """Wait until the GPU has done all that it was asked for."""
+        self._harmonics.framebuffer.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
+
+    def draw(self, mesh: MeshOnDevice, draw: Draw, look: MipLook) -> None:
+        """See `OnDevice.draw`. Reference: core/kinds/mip_chain/shading.py.
+
+        Raises
+        ------
+        RangeError
+            The look has a roughness: filters in texture space know none.
+        """
+        if look.roughness is not None:
+            raise RangeError("Live light knows no roughness: choose a bias instead.")
+        level = min(look.bias, self._mip_count - 1.0)
+        shading = self._shading.filled(*look_fields(look, level, self._mip_count))
+        shader = live_mip_chain_shader()
+        shader.bind()
+        shader.uniform_block("look", shading)
+        shader.uniform_sampler("atlas", self._atlas.texture)
+        shader.uniform_sampler("harmonics", self._harmonics.texture)
+        mesh.draw(shader, draw)
+
+    def _border(self, strip: "_Map", mip: int) -> None:
+        rows = (self.size >> mip) + 2
+        shader = bordered_shader()
+        shader.bind()
+        shader.uniform_sampler("strip", strip.texture)
+        self._say_where(shader, mip)
+        bottom = 2 * (self.size - (self.size >> mip) + mip)
+        self._fill(self._atlas, shader, (0, bottom, FACE_COUNT * rows, rows))
+
+    def _halve(self, mip: int) -> None:
+        half = self.size >> (mip + 1)
+        self._halved.bind()
+        self._halved.uniform_sampler("atlas", self._atlas.texture)
+        if self._halved is tent_shader():
+            self._halved.uniform_sampler("solid_angles", self._solid_angles)
+        self._say_where(self._halved, mip)
+        self._fill(self._smaller, self._halved, (0, 0, FACE_COUNT * half, half))
+
+    def _sum_harmonics(self) -> None:
+        shader = rows_shader()
+        shader.bind()
+        shader.uniform_sampler("strip", self._faces.texture)
+        shader.uniform_sampler("solid_angles", self._solid_angles)
+        self._fill(self._rows, shader, (0, 0, 9, FACE_COUNT * self.size))
+        shader = harmonics_shader()
+        shader.bind()
+        shader.uniform_sampler("rows", self._rows.texture)
+        self._fill(self._harmonics, shader, (0, 0, 9, 1))
+
+    def _say_where(self, shader: gpu.types.GPUShader, mip: int) -> None:
+        shader.uniform_int("first_size", self.size)
+        shader.uniform_int("mip", mip)
+
+    def _fill(self, target: "_Map", shader: gpu.types.GPUShader, place: tuple[int, int, int, int]) -> None:
+        """Run a program over a rectangle (left, bottom, width, height) of a map."""
+        with target.framebuffer.bind():
+            target.framebuffer.viewport_set(*place)
+            self._screen.draw(shader)
+
+
+class _Map:
+    """An empty map to be drawn to and looked up, RGBA32F."""
+
+    def __init__(self, width: int, height: int) -> None:
+        self.texture = gpu.types.GPUTexture((width, height), format="RGBA32F")
+        self.texture.clear(format="FLOAT", value=(0.0, 0.0, 0.0, 1.0))
+        self.texture.filter_mode(True)
+        self.texture.extend_mode("EXTEND")
+        self.framebuffer = gpu.types.GPUFrameBuffer(color_slots=(self.texture,))
+
+
+def _as_texels(values: np.ndarray) -> np.ndarray:
+    return np.repeat(values[..., None], 4, axis=-1)
+
+
+@contextmanager
+def _plain_state() -> Iterator[None]:
+    """Within, what is drawn replaces what was there, whatever Blender was drawing."""
+    depth_test, blend = gpu.state.depth_test_get(), gpu.state.blend_get()
+    gpu.state.depth_test_set("NONE")
+    gpu.state.blend_set("NONE")
+    try:
+        yield
+    finally:
+        gpu.state.depth_test_set(depth_test)
+        gpu.state.blend_set(blend)

@@ -1,0 +1,80 @@
+"""The GPU programs of changing light: their interfaces; their sources stand in `gpu_shaders`."""
+
+import gpu
+
+from ..shaders import build, kept_until_exit, mesh_interface
+from .mip_chain_shaders import LOOK_FIELDS
+
+_LOOK_BLOCK = f"struct LiveLook {{ {LOOK_FIELDS} }};"
+
+
+@kept_until_exit
+def face_shader() -> gpu.types.GPUShader:
+    """Takes a render into the strip of faces.
+
+    Raises
+    ------
+    DeviceError
+        The driver refuses the program; so for every function here.
+    """
+    return _build_pass("live_face", ("seen",), ("face",))
+
+
+@kept_until_exit
+def bordered_shader() -> gpu.types.GPUShader:
+    """Brings a mip from a strip to the atlas."""
+    return _build_pass("live_bordered", ("strip",), ("first_size", "mip"))
+
+
+@kept_until_exit
+def box_shader() -> gpu.types.GPUShader:
+    """Halves a mip of the atlas into a strip, by means of two by two texels."""
+    return _build_pass("live_halved", ("atlas",), ("first_size", "mip"))
+
+
+@kept_until_exit
+def tent_shader() -> gpu.types.GPUShader:
+    """Halves a mip of the atlas into a strip, across the faces' borders."""
+    return _build_pass("live_halved", ("atlas", "solid_angles"), ("first_size", "mip"), "TENT")
+
+
+@kept_until_exit
+def rows_shader() -> gpu.types.GPUShader:
+    """Sums each row's share of nine coefficients."""
+    return _build_pass("live_rows", ("strip", "solid_angles"), ())
+
+
+@kept_until_exit
+def harmonics_shader() -> gpu.types.GPUShader:
+    """Sums the rows' shares."""
+    return _build_pass("live_harmonics", ("rows",), ())
+
+
+@kept_until_exit
+def live_mip_chain_shader() -> gpu.types.GPUShader:
+    """Draws a mesh from a mip chain and nine coefficients that are both on the GPU."""
+    info = mesh_interface(_LOOK_BLOCK)
+    info.define("LIVE")
+    info.uniform_buf(1, "LiveLook", "look")
+    info.sampler(0, "FLOAT_2D", "atlas")
+    info.sampler(1, "FLOAT_2D", "harmonics")
+    return build("live_mip_chain", info, "mesh_vert.glsl", "mip_chain_frag.glsl")
+
+
+def _build_pass(
+    name: str, samplers: tuple[str, ...], whole_numbers: tuple[str, ...], *defines: str
+) -> gpu.types.GPUShader:
+    """A program that draws the screen's triangle: from maps to a map."""
+    info = gpu.types.GPUShaderCreateInfo()
+    for define in defines:
+        info.define(define)
+    for slot, sampler in enumerate(samplers):
+        info.sampler(slot, "FLOAT_2D", sampler)
+    for number in whole_numbers:
+        info.push_constant("INT", number)
+    info.vertex_in(0, "VEC2", "position")
+    varyings = gpu.types.GPUStageInterfaceInfo("rsibr_screen")
+    varyings.smooth("VEC2", "map_uv")
+    info.vertex_out(varyings)
+    info.fragment_out(0, "VEC4", "texel")
+    return build(name, info, "screen_vert.glsl", f"{name}_frag.glsl")

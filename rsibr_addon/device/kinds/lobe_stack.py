@@ -1,0 +1,110 @@
+"""A lobe stack on the GPU: its maps in one 3D texture, one pass over a mesh."""
+
+import gpu
+import numpy as np
+
+from ...core.conventions import Array
+from ...core.errors import DeviceError
+from ...core.half_floats import half_holds
+from ...core.kinds.lobe_stack.shading import StackLook
+from ...core.kinds.lobe_stack.stack import LAYOUTS, LobeStack
+from .. import buffers
+from ..drawing import Draw, MeshOnDevice
+from .lobe_stack_shaders import lobe_stack_shader
+
+DEEPEST = 2048
+"""Slices of a 3D texture that every driver allows."""
+
+
+class LobeStackOnDevice:
+    """A map set's lobe stack, uploaded.
+
+    Parameters
+    ----------
+    stack : LobeStack
+
+    Raises
+    ------
+    DeviceError
+        It has more maps than a 3D texture has slices.
+    """
+
+    def __init__(self, stack: LobeStack) -> None:
+        self._stack = stack
+        texels = map_texels(stack)
+        if len(texels) > DEEPEST:
+            raise DeviceError(
+                f"{len(texels)} maps do not fit into a texture of {DEEPEST}: fit fewer lobes or slices."
+            )
+        half = half_holds([maps for lobe in stack.maps for maps in lobe])
+        self._maps = buffers.texture_3d(texels, "RGBA16F" if half else "RGBA32F")
+        lobes, slices = stack.maps.shape[:2]
+        numbers = LAYOUTS.index(stack.layout), lobes, stack.taps.shape[2], slices
+        self._blocks = [
+            buffers.uniform_block(np.array(numbers, dtype=np.float64), np.array([antialiased]))
+            for antialiased in (0.0, 1.0)
+        ]
+        self._elevations: dict[tuple[int, ...], gpu.types.GPUTexture] = {}
+
+    def draw(self, mesh: MeshOnDevice, draw: Draw, look: StackLook) -> None:
+        """See `OnDevice.draw`. Reference: core/kinds/lobe_stack/shading.py."""
+        shader = lobe_stack_shader()
+        shader.bind()
+        shader.uniform_block("stack", self._blocks[look.antialiased])
+        shader.uniform_sampler("elevations", self._elevations_of(look))
+        shader.uniform_sampler("maps", self._maps)
+        mesh.draw(shader, draw)
+
+    def _elevations_of(self, look: StackLook) -> gpu.types.GPUTexture:
+        """Kept for each choice of lobes: a frame may show two, and a steady one uploads nothing."""
+        shown = look.shown(self._stack)
+        if shown not in self._elevations:
+            self._elevations[shown] = buffers.texture(elevation_texels(self._stack, shown))
+        return self._elevations[shown]
+
+
+def map_texels(stack: LobeStack) -> Array:
+    """The maps as gpu_shaders/lib/lobe_stack_lib.glsl reads them.
+
+    Parameters
+    ----------
+    stack : LobeStack
+
+    Returns
+    -------
+    ndarray, shape (L * sheets * P, size + 2, size + 2, 4), float32
+        Alpha is 1.
+    """
+    size, representation = stack.size, stack.representation
+    lobes, slices, sheets = stack.maps.shape[:3]
+    beyond = np.arange(-1, size + 1)
+    sheet, row, column = np.meshgrid(np.arange(sheets), beyond, beyond, indexing="ij")
+    columns, rows, wrapped = representation.wrap(column, row, sheet, size, size)
+    texels = np.ones((lobes, sheets, slices, size + 2, size + 2, 4), dtype=np.float32)
+    texels[..., :3] = stack.maps[:, :, wrapped, rows, columns].swapaxes(1, 2)
+    return texels.reshape(-1, size + 2, size + 2, 4)
+
+
+def elevation_texels(stack: LobeStack, shown: tuple[int, ...]) -> Array:
+    """What depends on the view's elevation, as gpu_shaders/lib/lobe_stack_lib.glsl reads it.
+
+    Parameters
+    ----------
+    stack : LobeStack
+    shown : tuple of int
+        Lobes that count, see `StackLook.shown`.
+
+    Returns
+    -------
+    ndarray, shape (1 + L * (1 + T), S, 4), float32
+        Lobes that are not shown have a scale of 0.
+    """
+    lobes, slices, taps = stack.taps.shape
+    texels = np.zeros((1 + lobes * (1 + taps), slices, 4), dtype=np.float32)
+    texels[0, :, 0] = stack.mu
+    of_lobes = texels[1:].reshape(lobes, 1 + taps, slices, 4)
+    for lobe in shown:
+        of_lobes[lobe, 0, :, :3] = stack.scale[lobe]
+    of_lobes[:, 1:, :, :2] = stack.offsets.swapaxes(1, 2)
+    of_lobes[:, 1:, :, 2] = stack.taps.swapaxes(1, 2)
+    return texels

@@ -1,0 +1,66 @@
+"""A mip chain on the GPU: one upload of its mips in an atlas, one pass over a mesh.
+
+Blender's `gpu` module makes cube maps, but does not let them be looked up between mips. So the mips
+lie in one picture, each face within a border of its neighbours' texels.
+"""
+
+import numpy as np
+
+from ...core.conventions import Array
+from ...core.filtering.irradiance import irradiance_matrix
+from ...core.kinds.mip_chain.chain import MipChain
+from ...core.kinds.mip_chain.shading import MipLook
+from ...core.kinds.mip_chain.texture_space import with_borders
+from .. import buffers
+from ..drawing import Draw, MeshOnDevice
+from .mip_chain_shaders import look_fields, mip_chain_shader
+
+
+class MipChainOnDevice:
+    """A map set's mip chain, uploaded.
+
+    Parameters
+    ----------
+    chain : MipChain
+    """
+
+    def __init__(self, chain: MipChain) -> None:
+        self._chain = chain
+        self._atlas = buffers.texture(atlas_texels(chain))
+        self._shading = buffers.KeptBlock()
+        self._irradiance = irradiance_matrix(chain.harmonics)
+
+    def draw(self, mesh: MeshOnDevice, draw: Draw, look: MipLook) -> None:
+        """See `OnDevice.draw`. Reference: core/kinds/mip_chain/shading.py."""
+        shading = self._shading.filled(
+            *self._irradiance,
+            *look_fields(look, look.level(self._chain), len(self._chain.mips)),
+        )
+        shader = mip_chain_shader()
+        shader.bind()
+        shader.uniform_block("look", shading)
+        shader.uniform_sampler("atlas", self._atlas)
+        mesh.draw(shader, draw)
+
+
+def atlas_texels(chain: MipChain) -> Array:
+    """The mips as gpu_shaders/lib/mip_chain_lib.glsl reads them.
+
+    Parameters
+    ----------
+    chain : MipChain
+
+    Returns
+    -------
+    ndarray, shape (height, 6 * (size + 2), 4), float32
+        A row of six bordered faces for each mip, from the bottom up; alpha is 1.
+    """
+    rows = [with_borders(faces) for faces in chain.mips]
+    atlas = np.ones((sum(row.shape[1] for row in rows), 6 * rows[0].shape[1], 4), dtype=np.float32)
+    bottom = 0
+    for faces in rows:
+        size = faces.shape[1]
+        for face, texels in enumerate(faces):
+            atlas[bottom : bottom + size, face * size : (face + 1) * size, :3] = texels
+        bottom += size
+    return atlas

@@ -1,0 +1,51 @@
+"""The GPU program of mip chains: its interface; its sources stand in `gpu_shaders`."""
+
+import gpu
+import numpy as np
+
+from ...core.conventions import Array
+from ...core.kinds.mip_chain.shading import Borders, MipLook
+from ..shaders import build, kept_until_exit, mesh_interface
+
+LOOK_FIELDS = "vec4 f_lambda; vec4 k_d; float level; float last_level; float clamped; float antialiased;"
+"""The fields of a block that `look_fields` fills, also where the harmonics lie on the GPU."""
+
+_LOOK_BLOCK = (
+    f"struct MipLook {{ mat4 irradiance_red; mat4 irradiance_green; mat4 irradiance_blue; {LOOK_FIELDS} }};"
+)
+
+
+def look_fields(look: MipLook, level: float, mip_count: int) -> tuple[Array, ...]:
+    """A look, as `buffers.KeptBlock` takes it.
+
+    Parameters
+    ----------
+    look : MipLook
+    level : float
+        Of detail, in [0, mip_count - 1].
+    mip_count : int
+        Of the chain.
+
+    Returns
+    -------
+    tuple of ndarray
+        What `LOOK_FIELDS` names.
+    """
+    clamped = look.borders is Borders.CLAMPED
+    numbers = np.array([level, mip_count - 1.0, float(clamped), float(look.antialiased)])
+    return np.array(look.f_lambda), np.array(look.k_d), numbers
+
+
+@kept_until_exit
+def mip_chain_shader() -> gpu.types.GPUShader:
+    """Draws a mesh from a mip chain.
+
+    Raises
+    ------
+    DeviceError
+        The driver refuses the program.
+    """
+    info = mesh_interface(_LOOK_BLOCK)
+    info.uniform_buf(1, "MipLook", "look")
+    info.sampler(0, "FLOAT_2D", "atlas")
+    return build("mip_chain", info, "mesh_vert.glsl", "mip_chain_frag.glsl")

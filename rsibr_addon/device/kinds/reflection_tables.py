@@ -1,0 +1,95 @@
+"""Reflection tables on the GPU [Miller1984]: a texture for each, looked up for each fragment."""
+
+from functools import cached_property
+
+import gpu
+import numpy as np
+
+from ...core.kinds.reflection_tables.shading import MIRRORED, TablesLook
+from ...core.kinds.reflection_tables.tables import ReflectionTables, Role
+from .. import buffers
+from ..drawing import Draw, MeshOnDevice
+from ..equirect import Sums, map_sums, map_texture, no_map, no_sums
+from ..shaders import build, kept_until_exit, mesh_interface
+
+# A factor for each table, in the order of `Role`; the index of refraction; factors for tables of `MIRRORED`
+# that count by their means over a pixel; and what the sums of those count.
+_FIELDS = (*(role.value for role in Role), "eta", *(f"{role}_mean" for role in MIRRORED))
+_UNITS = " ".join(f"vec4 {role}_unit;" for role in MIRRORED)
+_TABLES_BLOCK = f"struct Tables {{ {' '.join(f'float {field};' for field in _FIELDS)} {_UNITS} }};"
+
+
+@kept_until_exit
+def reflection_tables_shader() -> gpu.types.GPUShader:
+    """Draws a mesh from reflection tables.
+
+    Raises
+    ------
+    DeviceError
+        The driver refuses the program.
+    """
+    info = mesh_interface(_TABLES_BLOCK)
+    info.uniform_buf(1, "Tables", "tables")
+    for slot, role in enumerate(Role):
+        info.sampler(slot, "FLOAT_2D", role.value)
+    info.sampler(len(Role), "FLOAT_2D", "weights")
+    for slot, role in enumerate(MIRRORED, start=len(Role) + 1):
+        info.sampler(slot, "FLOAT_2D_ARRAY", f"{role}_sums")
+    return build("reflection_tables", info, "mesh_vert.glsl", "reflection_tables_frag.glsl")
+
+
+class ReflectionTablesOnDevice:
+    """A map set's reflection tables, uploaded.
+
+    Parameters
+    ----------
+    tables : ReflectionTables
+
+    Raises
+    ------
+    DeviceError
+        A table is larger than the device takes.
+    """
+
+    def __init__(self, tables: ReflectionTables) -> None:
+        black = no_map()
+        self._textures = {
+            role: map_texture(f"{role} table", tables.maps[role]) if role in tables.maps else black
+            for role in Role
+        }
+        self._weights = buffers.texture(buffers.with_alpha(tables.weights))
+        self._tables = tables
+        self._fields = buffers.KeptBlock()
+        self._no_sums = no_sums()
+
+    @cached_property
+    def _sums(self) -> dict[Role, Sums]:
+        """Made when an antialiased look first asks for them: they take three times the tables' memory."""
+        there = [role for role in MIRRORED if role in self._tables.maps]
+        return {role: map_sums(self._tables.maps[role]) for role in there}
+
+    def draw(self, mesh: MeshOnDevice, draw: Draw, look: TablesLook) -> None:
+        """See `device.drawing.OnDevice`.
+
+        Notes
+        -----
+        Reference: core/kinds/reflection_tables/shading.py.
+        """
+        averaged = self._sums if look.antialiased else {}
+        factors = {role: look.weight(role) if role in self._tables.maps else 0.0 for role in Role}
+        points = [0.0 if role in averaged else factor for role, factor in factors.items()]
+        means = [factors[role] if role in averaged else 0.0 for role in MIRRORED]
+        sums = {role: averaged.get(role, self._no_sums) for role in MIRRORED}
+        fields = self._fields.filled(
+            np.array([*points, self._tables.eta, *means]).reshape(2, 4),
+            *(each.unit for each in sums.values()),
+        )
+        shader = reflection_tables_shader()
+        shader.bind()
+        shader.uniform_block("tables", fields)
+        for role, texture in self._textures.items():
+            shader.uniform_sampler(role.value, texture)
+        for role, each in sums.items():
+            shader.uniform_sampler(f"{role}_sums", each.texture)
+        shader.uniform_sampler("weights", self._weights)
+        mesh.draw(shader, draw)

@@ -1,0 +1,1 @@
+"""Map sets against the truth."""

@@ -1,0 +1,1 @@
+"""From photographs, paintings and scenes to environments."""

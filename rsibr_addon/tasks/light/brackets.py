@@ -1,0 +1,247 @@
+"""The photographs of a bracket: reading them, and merging them into a picture of radiance."""
+
+import warnings
+from dataclasses import dataclass, replace
+from enum import Enum
+from pathlib import Path
+
+import numpy as np
+
+from ...core.conventions import Array
+from ...core.environment import usable_radiance
+from ...core.errors import InputFileError, RangeError, RsibrWarning
+from ...core.light.exposure.merge import Merged, merge_bracket
+from ...core.light.exposure.response import Response, linear_response, srgb_response
+from ...core.progress import Progress, Steps
+from ...files.encoding import Encoding, named_encoding
+from ...files.exif import read_exposure, relative_exposures
+from ...files.photographs import Photograph, read_photograph
+from ...files.radiance_pictures import (
+    check_radiance_target,
+    holds_radiance,
+    read_radiance,
+    write_radiance,
+)
+
+
+class Curve(Enum):
+    """What is known of a camera's curve."""
+
+    RECOVERED = "recovered"
+    SRGB = "srgb"
+    LINEAR = "linear"
+
+
+@dataclass(frozen=True)
+class BracketSettings:
+    """The photographs of a bracket, and what is known of them.
+
+    Attributes
+    ----------
+    photographs : tuple of Path
+        In any order. Of 8 or 16 bits; or linear and white at 1, as OpenEXR and Radiance HDR are.
+    times : tuple of float or None
+        Exposure times [s], one for each; None for what the files tell.
+    curve : Curve
+        Of photographs that are not linear.
+    align : bool
+        Whether the camera may have moved.
+
+    Raises
+    ------
+    RangeError
+        There are not as many times as photographs.
+    """
+
+    photographs: tuple[Path, ...]
+    times: tuple[float, ...] | None = None
+    curve: Curve = Curve.RECOVERED
+    align: bool = True
+
+    def __post_init__(self) -> None:
+        if self.times is not None and len(self.times) != len(self.photographs):
+            raise RangeError(
+                f"There are {len(self.photographs)} photographs, but {len(self.times)} exposure times: "
+                f"give one for each."
+            )
+
+    def in_order(self) -> tuple[list[Path], list[float]]:
+        """The photographs from the shortest exposure to the longest, and their exposures.
+
+        Raises
+        ------
+        InputFileError
+            See `read_exposure` and `relative_exposures`.
+
+        Warns
+        -----
+        RsibrWarning
+            See `relative_exposures`.
+        """
+        times = self.times
+        if times is None:
+            exposures = [read_exposure(path) for path in self.photographs]
+            times = tuple(relative_exposures(self.photographs, exposures))
+        order = np.argsort(times, kind="stable")
+        return [self.photographs[i] for i in order], [times[i] for i in order]
+
+    def response(self, encoding: Encoding) -> Response | None:
+        """The camera's curve where it is known."""
+        if self.curve is Curve.LINEAR or encoding.curves is None:
+            return linear_response()
+        return srgb_response() if self.curve is Curve.SRGB else None
+
+
+def illuminate_from_brackets(settings: BracketSettings, output: Path, force: bool = False) -> Steps[Merged]:
+    """Merge a bracket into a picture of radiance.
+
+    Parameters
+    ----------
+    settings : BracketSettings
+    output : Path
+        NAME.exr or NAME.hdr: what the photographs show, laid out as they are.
+    force : bool
+        Whether an existing file is replaced.
+
+    Yields
+    ------
+    Progress
+
+    Returns
+    -------
+    Merged
+
+    Raises
+    ------
+    InputFileError
+        A photograph is missing, unreadable, of another size or kind than the others or without an
+        exposure time; there is only one, or they are all white or all black.
+    OutputFileError
+        See `write_radiance`.
+
+    Warns
+    -----
+    RsibrWarning
+        See `merged`.
+    """
+    check_radiance_target(output, force)
+    paths, times = settings.in_order()
+    pictures, encoding = yield from read_photographs(paths)
+    for path, picture in zip(paths, pictures, strict=True):
+        if picture.shape != pictures[0].shape:
+            raise InputFileError(
+                f"{path} is {picture.shape[1]}x{picture.shape[0]}, but {paths[0].name} is "
+                f"{pictures[0].shape[1]}x{pictures[0].shape[0]}: the photographs of a bracket must be of one "
+                f"size; crop them alike."
+            )
+    yield Progress(len(paths), len(paths) + 1, "merging")
+    result = merged(settings, pictures, times, encoding)
+    write_radiance(output, result.radiance, force)
+    return result
+
+
+def read_photographs(paths: list[Path]) -> Steps[tuple[list[Array], Encoding]]:
+    """Read photographs as they are encoded.
+
+    Parameters
+    ----------
+    paths : list of Path
+
+    Yields
+    ------
+    Progress
+
+    Returns
+    -------
+    list of ndarray, shape (height, width, 3), float32
+        In [0, 1], row 0 at the bottom.
+    Encoding
+        Of all of them.
+
+    Raises
+    ------
+    InputFileError
+        One is missing or unreadable; some are linear and some are not, or they are of several colour spaces.
+
+    Warns
+    -----
+    RsibrWarning
+        See `read_photograph` and `usable_radiance`.
+    """
+    pictures, encodings = [], []
+    for i, path in enumerate(paths):
+        yield Progress(i, len(paths) + 1, f"reading {path.name}")
+        photograph = _read(path)
+        pixels, encoding = photograph.encoded(), photograph.encoding
+        if encoding.curves is None:
+            pixels = np.clip(usable_radiance(pixels, path.name), 0.0, 1.0)
+        pictures.append(pixels)
+        encodings.append(encoding)
+    linear = [encoding.curves is None for encoding in encodings]
+    if any(linear) and not all(linear):
+        raise InputFileError(
+            f"{paths[linear.index(False)]} is encoded, but {paths[linear.index(True)].name} is linear: give "
+            f"photographs of one kind."
+        )
+    for path, encoding in zip(paths, encodings, strict=True):
+        if not np.allclose(encoding.to_rec709, encodings[0].to_rec709):
+            raise InputFileError(
+                f"{path} is of another colour space than {paths[0].name}: give photographs of one kind."
+            )
+    return pictures, encodings[0]
+
+
+def _read(path: Path) -> Photograph:
+    if holds_radiance(path):
+        return Photograph(read_radiance(path), named_encoding("lin_rec709"))
+    return read_photograph(path)
+
+
+def merged(
+    settings: BracketSettings, pictures: list[Array], times: list[float], encoding: Encoding
+) -> Merged:
+    """Merge photographs of one size.
+
+    Parameters
+    ----------
+    settings : BracketSettings
+    pictures : list of ndarray, shape (height, width, 3)
+        Encoded; the shortest exposure first.
+    times : list of float
+        Their exposures.
+    encoding : Encoding
+        Of all of them.
+
+    Returns
+    -------
+    Merged
+        In linear Rec. 709.
+
+    Raises
+    ------
+    InputFileError
+        See `merge_bracket`.
+
+    Warns
+    -----
+    RsibrWarning
+        Some of it is white, or black, in all photographs.
+    """
+    name = settings.photographs[0]
+    try:
+        result = merge_bracket(pictures, times, settings.response(encoding), settings.align)
+    except RangeError as error:
+        raise InputFileError(f"{name} and those with it: {error}") from error
+    for share, colour, other in (
+        (result.saturated, "white", "shorter"),
+        (result.black, "black", "longer"),
+    ):
+        if share > 0.0:
+            warnings.warn(
+                f"{100.0 * share:.2g} % of the picture are {colour} in every photograph: take a {other} "
+                f"exposure as well.",
+                RsibrWarning,
+                stacklevel=2,
+            )
+    radiance = np.maximum(result.radiance @ encoding.to_rec709.T.astype(np.float32), np.float32(0.0))
+    return replace(result, radiance=radiance)

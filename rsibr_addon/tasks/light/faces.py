@@ -1,0 +1,80 @@
+"""An environment from six photographs: [Miller1984] section 5.1, the first way."""
+
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from ...core.conventions import Array
+from ...core.errors import InputFileError, RangeError
+from ...core.light.cube_balance import balancing_gains
+from ...core.maps.representation import representation
+from ...core.progress import Progress, Steps
+from ...core.resample import resample
+from ...files.map_pictures import layout, read_map
+from ...files.radiance_pictures import check_radiance_target, holds_radiance, write_radiance
+from .light_pictures import read_light
+
+SATURATED = 0.96
+"""Of a photograph's white in linear light, 250 of 255: beyond, exposures do not compare."""
+
+
+def illuminate_from_faces(
+    source: Path,
+    size: int,
+    output: Path,
+    balance: bool = False,
+    force: bool = False,
+    clamp: float | None = None,
+) -> Steps[Array]:
+    """Put an environment together from a cube's faces.
+
+    Parameters
+    ----------
+    source : Path
+        NAME.jpg for NAME-px.jpg and so on: see `files.map_pictures` and its `cube_faces`.
+    size : int
+        Width of the environment in texels, even.
+    output : Path
+        NAME.exr or NAME.hdr.
+    balance : bool
+        Whether each photograph is scaled, channel by channel, so that they agree along the edges.
+    force : bool
+        Whether an existing file is replaced.
+    clamp : float, optional
+        See `core.environment.usable_radiance`.
+
+    Yields
+    ------
+    Progress
+
+    Returns
+    -------
+    ndarray, shape (6, 3)
+        What each photograph was multiplied by.
+
+    Raises
+    ------
+    InputFileError
+        A photograph is missing, unreadable, not square or not of the others' size; or they cannot be
+        balanced.
+    OutputFileError, RangeError
+        See `write_radiance`; `size` is odd.
+    """
+    faces, equirect = layout("cube_faces"), representation("equirect")
+    check_radiance_target(output, force)
+    equirect.shape(size)
+    yield Progress(0, 3, f"reading {source.name}")
+    cube = read_map(source, faces, partial(read_light, clamp=clamp)).astype(np.float64)
+    gains: Array = np.ones((6, 3))
+    if balance:
+        white = np.inf if holds_radiance(faces.paths(source)[0]) else SATURATED
+        try:
+            gains = balancing_gains(cube, white)
+        except RangeError as error:
+            raise InputFileError(f"{source} as six photographs: {error}") from error
+    yield Progress(1, 3, f"making {output.name}")
+    made = resample(cube * gains[:, None, None], faces.representation, equirect, size)
+    yield Progress(2, 3, f"writing {output.name}")
+    write_radiance(output, made[0], force)
+    return gains

@@ -1,0 +1,220 @@
+"""The light around a point of a scene: [Miller1984] section 5.2."""
+
+import warnings
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+
+from ...core.conventions import Array
+from ...core.environment import usable_radiance
+from ...core.errors import RangeError, RsibrWarning
+from ...core.light.lamps import LampLight, add_lamps
+from ...core.maps import equirect
+from ...core.maps.representation import representation
+from ...core.progress import Progress, Steps
+from ...core.resample import resample
+from ...files.radiance_pictures import check_radiance_target, write_radiance
+from ...host.cycles import LARGEST_SAMPLES, LARGEST_SEED
+from ...host.denoising import denoise
+from ...host.lamps import lamps_around, measure_lamps
+from ...host.surroundings import (
+    Sampling,
+    Surroundings,
+    render_surroundings,
+    surroundings_of,
+    surroundings_scene,
+)
+
+SEEN_WIDTH = 4.0
+"""Texels that a lamp must be wide for rays to sample it well: a narrower one is measured."""
+
+PANORAMA_ROWS = 4
+"""Of pixels for each row of a panorama's texels: within a pixel Cycles counts latitudes alike, however small
+their circles, so that beside a pole what covers a part of it would count by height and not by area."""
+
+PANORAMA_STEPS = 8
+"""A panorama is rendered in so many parts of its samples, so that it can be interrupted."""
+
+OVERLAP = 16
+"""Columns that a panorama is continued by on either side while it is denoised."""
+
+LARGEST, SMALLEST = 8192, 8
+"""Width of a map."""
+
+
+@dataclass(frozen=True)
+class SceneLight:
+    """What light is captured, and how well.
+
+    Attributes
+    ----------
+    size : int
+        Width of the map in texels, even.
+    samples : int
+        Of Cycles for a texel; of six faces for a pixel, of which a texel takes some three.
+    scene : str or None
+        Name of a scene of the open file; None for the one that the artist works in.
+    subject : str or None
+        Name of the object that is lit: it is left out, with what is parented to it (lamps excepted) or
+        instanced by it.
+    point : tuple of 3 floats, or None
+        In world coordinates; None for the middle of the object, or without one for the 3D cursor.
+    frame : int or None
+        None for the scene's current one.
+    faces : bool
+        Whether six faces of a cube are rendered instead of a panorama.
+    denoise : bool
+        Whether Open Image Denoise cleans what is rendered.
+    seed : int
+        Of Cycles' noise.
+
+    Raises
+    ------
+    RangeError
+        A number is out of range.
+    """
+
+    size: int = 1024
+    samples: int = 128
+    scene: str | None = None
+    subject: str | None = None
+    point: tuple[float, float, float] | None = None
+    frame: int | None = None
+    faces: bool = False
+    denoise: bool = False
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        if self.size % 2 or not SMALLEST <= self.size <= LARGEST:
+            raise RangeError(
+                f"A map cannot be {self.size} texels wide: choose an even number, {SMALLEST} to {LARGEST}."
+            )
+        if not 1 <= self.samples <= LARGEST_SAMPLES:
+            raise RangeError(f"A pixel cannot take {self.samples} samples: choose 1 to {LARGEST_SAMPLES}.")
+        if not 0 <= self.seed <= LARGEST_SEED:
+            raise RangeError(f"The seed {self.seed} is out of range: choose 0 to {LARGEST_SEED}.")
+
+
+def illuminate_from_scene(light: SceneLight, output: Path, force: bool = False) -> Steps[Path]:
+    """Render the light around a point of the open file into a latitude-longitude map.
+
+    Parameters
+    ----------
+    light : SceneLight
+    output : Path
+        NAME.exr or NAME.hdr.
+    force : bool
+        Whether an existing file is replaced.
+
+    Yields
+    ------
+    Progress
+        Before each render. Between two steps nothing of ours is in the open file.
+
+    Returns
+    -------
+    Path
+        The map.
+
+    Raises
+    ------
+    SceneError
+        There is no such scene or object, or nothing around it.
+    OutputFileError, RangeError
+        See `write_radiance`.
+    RenderError
+        Cycles did not deliver.
+
+    Warns
+    -----
+    RsibrWarning
+        The map is black.
+
+    Notes
+    -----
+    Rays sample lamps that are narrower than `SEEN_WIDTH` badly, and those without size not at all. Cycles
+    measures what arrives from them instead; it is added to the texels that hold them.
+    """
+    check_radiance_target(output, force)
+    parts = _parts(light)
+    total = len(parts) + 1
+    yield Progress(0, total, "measuring lamps")
+    around = surroundings_of(light.scene, light.subject, light.point, light.frame)
+    lamps, names = _small_lamps(around, light.size)
+    around = replace(around, unseen=names)
+    seen: dict[int | None, dict[str, Array]] = {}
+    for done, (face, sampling) in enumerate(parts, start=1):
+        yield Progress(done, total, f"rendering part {done} of {len(parts)}")
+        with surroundings_scene(around) as scene:
+            picture = render_surroundings(scene, around, face, _resolution(light), sampling)
+        share = sampling.count / sampling.total
+        mean = seen.setdefault(face, {})
+        for name, pixels in picture.items():
+            texels = pixels if light.faces else _merged_rows(pixels)
+            mean[name] = mean.get(name, 0.0) + share * texels.astype(np.float64)
+    radiance = add_lamps(_assembled(light, seen), lamps)
+    if not np.any(radiance):
+        warnings.warn(f"No light arrives there, so {output} is black.", RsibrWarning, stacklevel=2)
+    write_radiance(output, usable_radiance(radiance, output.name), force)
+    return output
+
+
+def _resolution(light: SceneLight) -> tuple[int, int]:
+    """Of a picture in pixels."""
+    half = light.size // 2
+    return (half, half) if light.faces else (light.size, half * PANORAMA_ROWS)
+
+
+def _parts(light: SceneLight) -> list[tuple[int | None, Sampling]]:
+    """Pictures that are rendered one by one: which face, and which of its samples."""
+    if light.faces:
+        whole = Sampling(0, light.samples, light.samples, light.seed, light.denoise)
+        return [(face, whole) for face in range(6)]
+    samples = -(-light.samples // PANORAMA_ROWS)
+    edges = sorted({samples * step // PANORAMA_STEPS for step in range(PANORAMA_STEPS + 1)})
+    return [
+        (None, Sampling(start, end - start, samples, light.seed, light.denoise))
+        for start, end in pairwise(edges)
+    ]
+
+
+def _small_lamps(around: Surroundings, size: int) -> tuple[list[LampLight], frozenset[str]]:
+    """What arrives from lamps that rays would miss; and the names of those lamps."""
+    with surroundings_scene(around) as scene:
+        lamps = [
+            lamp for lamp in lamps_around(scene, around.point) if lamp.width < SEEN_WIDTH * 2.0 * np.pi / size
+        ]
+        if not lamps:
+            return [], frozenset()
+        measured = zip(lamps, measure_lamps(scene, around, lamps), strict=True)
+        lights = [LampLight(lamp.directions, irradiance) for lamp, irradiance in measured]
+        return lights, frozenset(lamp.name for lamp in lamps)
+
+
+def _assembled(light: SceneLight, seen: dict[int | None, dict[str, Array]]) -> Array:
+    """The map of what was rendered, shape (size / 2, size, 3)."""
+    if light.faces:
+        cube = np.stack([_radiance(light, seen[face], 0) for face in range(6)])
+        made: Array = resample(cube, representation("cube_map"), representation("equirect"), light.size)[0]
+        return made
+    return _radiance(light, seen[None], OVERLAP)
+
+
+def _merged_rows(pixels: Array) -> Array:
+    """Means over the texels of a panorama that was rendered with more rows."""
+    rows, width, channels = pixels.shape
+    weight = equirect.texel_solid_angle(1, rows).reshape(-1, PANORAMA_ROWS, 1, 1)
+    share = weight / weight.sum(axis=1, keepdims=True)
+    return np.sum(share * pixels.reshape(-1, PANORAMA_ROWS, width, channels), axis=1)
+
+
+def _radiance(light: SceneLight, passes: dict[str, Array], overlap: int) -> Array:
+    """A picture's radiance, without noise if so wished; it goes on beyond its sides as far as `overlap`."""
+    if not light.denoise:
+        return passes["radiance"]
+    around = ((0, 0), (overlap, overlap), (0, 0))
+    wide = [np.pad(passes[name], around, mode="wrap") for name in ("radiance", "albedo", "normal")]
+    clean = denoise(*wide)
+    return np.maximum(clean[:, overlap : clean.shape[1] - overlap], 0.0)

@@ -1,0 +1,58 @@
+"""The light of a world alone."""
+
+from pathlib import Path
+
+from ...core.maps.representation import representation
+from ...core.progress import Progress, Steps
+from ...files.radiance_pictures import check_radiance_target, write_radiance
+from ...host.scenes import find_scene
+from ...host.worlds import sample_world, world_of
+
+
+def illuminate_from_world(
+    scene: str | None, size: int, output: Path, force: bool = False, clamp: float | None = None
+) -> Steps[Path]:
+    """Sample the world of a scene of the open file into a latitude-longitude map.
+
+    Parameters
+    ----------
+    scene : str or None
+        Its name; None for the one that the artist works in.
+    size : int
+        Width of the map in texels, even.
+    output : Path
+        NAME.exr or NAME.hdr.
+    force : bool
+        Whether an existing file is replaced.
+    clamp : float, optional
+        See `core.environment.usable_radiance`.
+
+    Yields
+    ------
+    Progress
+
+    Returns
+    -------
+    Path
+        The map.
+
+    Raises
+    ------
+    SceneError
+        There is no such scene, or it has no world.
+    InputFileError, RenderError
+        See `sample_world`.
+    OutputFileError, RangeError
+        See `write_radiance`; `size` is odd.
+
+    Warns
+    -----
+    RsibrWarning
+        See `sample_world`.
+    """
+    check_radiance_target(output, force)
+    _, height, _ = representation("equirect").shape(size)
+    world = world_of(find_scene(scene))
+    yield Progress(0, 1, f"sampling world {world.name}")
+    write_radiance(output, sample_world(world, height, clamp).radiance, force)
+    return output

@@ -1,0 +1,1 @@
+"""The ways of making map sets, one a kind."""

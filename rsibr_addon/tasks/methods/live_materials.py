@@ -1,0 +1,229 @@
+"""Reflectance models that are chosen while one looks, shaded from one kernel bank without a bake."""
+
+import warnings
+from collections.abc import Generator, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...core.brdf.model import Brdf
+from ...core.brdf.spec import brdf_from_spec
+from ...core.errors import RsibrWarning
+from ...core.kinds.kernel_bank.filtered_bank import FilteredBank, stack_from_bank
+from ...core.kinds.kernel_bank.shading import BankLook
+from ...core.kinds.lobe_stack.shading import StackLook
+from ...core.kinds.lobe_stack.stack import LobeStack
+from ...core.lobes.fit import Fit
+from ...core.lobes.layers import layered_fit
+from ...core.lobes.target import elevation_slices, target_slices
+from ...core.progress import Steps
+from ...device.drawing import Draw, MeshOnDevice
+from ...device.kinds.lobe_stack import LobeStackOnDevice
+from ...files.brdfs import read_measured
+from .latest_request_worker import workshop
+
+SLICES = 16
+"""View elevations of a fit."""
+
+DRAFT = (1, 6, 1)
+"""Lobes, elevations and taps of what is shown until the fit is there."""
+
+RESOLVED = 50.0
+"""Of a lobe: concentration of the sharpest kernel times its radius squared. Below, E of a fit grows by more
+than a sixth."""
+
+FITS_KEPT = 256
+"""Of some 15 kB each."""
+
+KEPT = 8
+"""What is drawn stays until so many others have been uploaded since."""
+
+type _Quality = tuple[int, int, int | None]
+
+_fits: dict[tuple[str, _Quality, float], Fit] = {}
+"""By model, quality and sharpest kernel; they are the same in every light."""
+
+
+@dataclass(frozen=True)
+class _Made:
+    """What the thread hands over: a stack, which may be a draft, or why there is none."""
+
+    stack: LobeStack | None
+    error: Exception | None
+    is_final: bool
+
+
+@dataclass
+class _Shown:
+    """What a look is drawn with.
+
+    Attributes
+    ----------
+    on_device : LobeStackOnDevice or None
+    error : Exception or None
+        Why there is none.
+    is_final : bool
+        False for a draft.
+    used_at : int
+        How many uploads there had been when it was needed last.
+    """
+
+    on_device: LobeStackOnDevice | None
+    error: Exception | None
+    is_final: bool
+    used_at: int
+
+
+class LiveMaterials:
+    """A kernel bank, and the stacks of the looks that are drawn from it: an `OnDevice`.
+
+    Parameters
+    ----------
+    filtered : FilteredBank
+    """
+
+    def __init__(self, filtered: FilteredBank) -> None:
+        self._filtered = filtered
+        self._made: dict[BankLook, _Made] = {}
+        self._shown: dict[BankLook, _Shown] = {}
+        self._uploads = 0
+
+    def is_ready(self, look: BankLook) -> bool:
+        """Whether a look can be drawn, if only from a draft; what lacks is made.
+
+        Parameters
+        ----------
+        look : BankLook
+
+        Returns
+        -------
+        bool
+            False only where `workshop` is open, which then makes it; else that is done at once.
+
+        Raises
+        ------
+        RsibrError, OSError
+            The look's model is none, or cannot be fitted.
+        DeviceError
+            It does not fit into a texture.
+        """
+        shown = self._shown.get(look)
+        if shown is None or not shown.is_final:
+            if look not in self._made:
+                self._have_made(look, is_urgent=shown is None)
+            shown = self._taken(look) or shown
+        if shown is None:
+            return False
+        shown.used_at = self._uploads
+        if shown.error is not None:
+            raise shown.error
+        return True
+
+    def newest(self, looks: list[BankLook]) -> BankLook | None:
+        """The last of some looks that can be drawn. The very last one is made, where it cannot.
+
+        Parameters
+        ----------
+        looks : list of BankLook
+            At least one.
+
+        Returns
+        -------
+        BankLook or None
+
+        Raises
+        ------
+        RsibrError, OSError
+            As `is_ready`, of the last look.
+        """
+        if self.is_ready(looks[-1]):
+            return looks[-1]
+        return next(filter(self._can_be_drawn, reversed(looks)), None)
+
+    def draw(self, mesh: MeshOnDevice, draw: Draw, look: BankLook) -> None:
+        """See `OnDevice.draw`; a look that is not ready is not drawn."""
+        if self._can_be_drawn(look) or self.is_ready(look):
+            on_device = self._shown[look].on_device
+            if on_device is not None:
+                on_device.draw(mesh, draw, StackLook())
+
+    def _can_be_drawn(self, look: BankLook) -> bool:
+        """The same as `is_ready`, but nothing is made, and nothing raised."""
+        shown = self._taken(look) or self._shown.get(look)
+        if shown is None or shown.error is not None:
+            return False
+        shown.used_at = self._uploads
+        return True
+
+    def _have_made(self, look: BankLook, is_urgent: bool) -> None:
+        steps = self._making(look)
+        if workshop.is_open:
+            workshop.wish((id(self), look), steps, is_urgent)
+        else:
+            for _ in steps:
+                pass
+
+    def _taken(self, look: BankLook) -> _Shown | None:
+        """Upload what has been made, if it has."""
+        made = self._made.pop(look, None)
+        if made is None:
+            return None
+        self._uploads += 1
+        on_device = None if made.stack is None else LobeStackOnDevice(made.stack)
+        self._shown[look] = _Shown(on_device, made.error, made.is_final, self._uploads)
+        oldest = self._uploads - KEPT
+        self._shown = {each: shown for each, shown in self._shown.items() if shown.used_at >= oldest}
+        return self._shown[look]
+
+    def _making(self, look: BankLook) -> Iterator[bool]:
+        """Make a look's stacks, the draft first; in the thread, where there is one. True with each stack."""
+        try:
+            brdf = brdf_from_spec(look.spec, read_measured)
+            final = (look.lobe_count, SLICES, None)
+            for quality in (DRAFT, final) if workshop.is_open else (final,):
+                fit = yield from _unshown(_fit(brdf, look.spec, quality, self._filtered.sharpest))
+                stack, _ = stack_from_bank(self._filtered, fit)
+                self._hand_over(look, _Made(stack, None, quality == final))
+                yield True
+            _tell_if_blunt(self._filtered, brdf, look.spec)
+        except Exception as error:  # Told by whoever asks for the look
+            self._hand_over(look, _Made(None, error, is_final=True))
+            yield True
+
+    def _hand_over(self, look: BankLook, made: _Made) -> None:
+        self._made[look] = made
+        for forgotten in list(self._made)[:-KEPT]:
+            self._made.pop(forgotten, None)
+
+
+def _fit(brdf: Brdf, spec: str, quality: _Quality, sharpest: float) -> Steps[Fit]:
+    key = (spec, quality, sharpest)
+    if key not in _fits:
+        lobes, slices, taps = quality
+        mu = elevation_slices(slices)
+        _fits[key] = yield from layered_fit(brdf, mu, lobes, taps=taps, sharpest=sharpest)
+        for forgotten in list(_fits)[:-FITS_KEPT]:
+            del _fits[forgotten]
+    return _fits[key]
+
+
+def _unshown[Result](steps: Steps[Result]) -> Generator[bool, None, Result]:
+    """Steps after which there is nothing to be shown."""
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            result: Result = end.value
+            return result
+        yield False
+
+
+def _tell_if_blunt(filtered: FilteredBank, brdf: Brdf, spec: str) -> None:
+    radius = min(target_slices(layer, [1.0])[0].radius for layer in brdf.layers)
+    if filtered.sharpest * radius**2 < RESOLVED:
+        warnings.warn(
+            f"Maps of {filtered.size} texels blur {spec}, whose lobe is {np.degrees(2.0 * radius):.2g} "
+            f"degrees wide: bake a larger kernel bank.",
+            RsibrWarning,
+            stacklevel=2,
+        )

@@ -1,0 +1,1 @@
+"""What a map set is, told and shown."""

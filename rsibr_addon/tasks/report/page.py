@@ -1,0 +1,212 @@
+"""A map set as one HTML page that needs nothing beside it."""
+
+import base64
+import warnings
+from collections.abc import Mapping
+from html import escape
+from pathlib import Path
+from string import Template
+from typing import Any
+
+import numpy as np
+
+from ...core.brdf.gallery import gallery_name
+from ...core.brdf.model import Brdf
+from ...core.conventions import Array
+from ...core.errors import DeviceError, OutputFileError, RsibrError, RsibrWarning
+from ...core.geometry.camera import Camera
+from ...core.pictures.thumbnail import miniature
+from ...core.progress import Progress, Steps
+from ...device.preview import PreviewRenderer
+from ...files.atomic import check_target, written_aside
+from ...files.kinds.lobe_stack import PROFILES
+from ...files.map_set import read_map_set
+from ...files.temporary import temporary_folder
+from ...host.meshes import load_mesh
+from ...host.pictures import save_png
+from ..compare.measured_error import measured_facts
+from ..methods.kinds import KINDS, open_map_set
+from ..reflectance.brdfs import load_brdf, told_brdf
+from ..reflectance.fit_plots import ELEVATIONS, lobe_plot
+from .facts import map_set_fit
+
+TEMPLATE = Path(__file__).with_suffix(".html")
+
+LOOK_SIZE = 288
+"""Of the pictures of a sphere and of Suzanne, in pixels."""
+
+MAP_SIZE = 160
+"""Largest width and height of a map's picture, in pixels."""
+
+LOBES = (
+    '<h2>Lobes</h2><p class="faint">BRDF times cosine in the plane of incidence, green; the eye is to the '
+    "left. The dashed line is the sum of the lobes.</p>"
+)
+
+LOOKS = {"sphere": Camera((0.3, -1.0, 0.3)), "monkey": Camera((0.3, -1.0, 0.3))}
+"""Mesh -> from where it is shown."""
+
+
+def map_set_page(map_set: Path, output: Path, force: bool = False, brdf: str | None = None) -> Steps[Path]:
+    """Show all that a map set holds.
+
+    Parameters
+    ----------
+    map_set : Path
+    output : Path
+        NAME.html, without scripts and links.
+    force : bool
+        Whether an existing file is replaced.
+    brdf : str, optional
+        The model to plot beside a lobe stack's lobes, as `tasks.reflectance.brdfs.load_brdf` takes it; by
+        default the map set's own, unless that is in another file or takes to be measured.
+
+    Yields
+    ------
+    Progress
+
+    Returns
+    -------
+    Path
+        `output`.
+
+    Raises
+    ------
+    MapSetError, OutputFileError
+    RsibrError
+        See `load_brdf`, of `brdf` alone: where the map set's own model is none, the page says so.
+
+    Warns
+    -----
+    RsibrWarning
+        Nothing can draw, so the pictures of meshes are left out.
+    """
+    if output.suffix.lower() != ".html":
+        raise OutputFileError(f"{output} would not open in a browser: give a name that ends in .html.")
+    check_target(output, force)
+    yield Progress(0, 3, f"reading {map_set.name}")
+    held = read_map_set(map_set)
+    yield Progress(1, 3, "drawing with it")
+    looks = _looks(map_set)
+    truth = None if brdf is None else (yield from load_brdf(brdf))
+    yield Progress(2, 3, "drawing its maps")
+    header = held.header
+    page = Template(TEMPLATE.read_text(encoding="utf-8")).substitute(
+        title=escape(_title(header)),
+        kind=escape(held.kind.replace("_", " ").capitalize()),
+        file=escape(map_set.name),
+        looks="\n".join(_image(picture, f"a {mesh}") for mesh, picture in looks.items()),
+        bound=_definitions(header["error_bound"] or {"nothing": "its maker stated no error"}),
+        measured=_definitions(measured_facts(map_set) or {"nothing": "it has not been compared yet"}),
+        lobes="\n".join(_lobes(map_set, truth)),
+        facts=_definitions(_facts(header)),
+        roles="\n".join(_roles(header["parts"], held.maps)),
+    )
+    with written_aside(output, force) as aside:
+        aside.write_text(page, encoding="utf-8", errors="replace")  # of names that are no UTF-8
+    return output
+
+
+def _looks(map_set: Path) -> dict[str, Array]:
+    """Meshes shaded from the map set; none where nothing can draw them, which a warning tells."""
+    opened = open_map_set(map_set)
+    try:
+        renderer, look = PreviewRenderer(opened.upload()), KINDS[opened.kind].look()
+    except DeviceError as error:
+        warnings.warn(f"The page shows no mesh: {error}", RsibrWarning, stacklevel=2)
+        return {}
+    pictures = {}
+    for name, camera in LOOKS.items():
+        mesh = load_mesh(name)
+        pictures[name] = renderer.draw(mesh.positions, mesh.normals, mesh.triangles, camera, LOOK_SIZE, look)
+    return pictures
+
+
+def _lobes(map_set: Path, truth: Brdf | None) -> list[str]:
+    """Plots of the lobes, where the map set tells them."""
+    fit = map_set_fit(map_set)
+    if fit is None:
+        return []
+    missing = ""
+    if truth is None:
+        try:
+            truth = told_brdf(fit.brdf)
+        except RsibrError as error:
+            missing = f'<p class="faint">The BRDF is not shown. {escape(str(error))}</p>'
+    plots = [lobe_plot(fit, truth, mu) for mu in ELEVATIONS]
+    images = (_embedded("image/svg+xml", plot.encode("utf-8", "replace"), "lobes") for plot in plots)
+    return [LOBES, missing, '<div class="plots">', *images, "</div>"]
+
+
+def _title(header: Mapping[str, Any]) -> str:
+    material = header["material"]
+    name = material.get("name") or gallery_name(material.get("brdf", ""))
+    environment = Path(header["environment"]["name"]).stem
+    return f"{name} in {environment}" if name else environment
+
+
+def _facts(header: Mapping[str, Any]) -> dict[str, Any]:
+    width, height = header["environment"]["size"]
+    return {
+        **{f"material: {name}": value for name, value in header["material"].items() if name != PROFILES},
+        "environment": f"{header['environment']['name']}, {width}x{height}",
+        "layout": header["layout"],
+        "size of a map": "{}x{}".format(*header["size"]),
+        "axes": header["axes"],
+        **header["settings"],
+        "software": header["software"],
+    }
+
+
+def _definitions(facts: Mapping[str, Any]) -> str:
+    return "\n".join(
+        f"<dt>{escape(name)}</dt><dd>{escape(_words(value))}</dd>" for name, value in facts.items()
+    )
+
+
+def _words(value: Any) -> str:
+    if isinstance(value, float):
+        return f"{value:.3g}"
+    if isinstance(value, list):
+        return ", ".join(map(_words, value))
+    return str(value)
+
+
+def _roles(parts: list[dict[str, Any]], maps: Mapping[str, Array]) -> list[str]:
+    """A block of pictures for each role, in the file's order."""
+    blocks = []
+    for role in dict.fromkeys(part["role"] for part in parts):
+        figures = "".join(
+            f"<figure>{_image(_opaque(maps[part['name']]), part['name'])}"
+            f"<figcaption>{escape(_caption(part))}</figcaption></figure>"
+            for part in parts
+            if part["role"] == role
+        )
+        blocks.append(f'<h3>{escape(role)}</h3><div class="maps">{figures}</div>')
+    return blocks
+
+
+def _caption(part: Mapping[str, Any]) -> str:
+    known = ("role", "sha256")
+    return "; ".join(
+        _words(value) if name == "name" else f"{name} {_words(value)}"
+        for name, value in part.items()
+        if name not in known
+    )
+
+
+def _opaque(radiance: Array) -> Array:
+    small = miniature(radiance, MAP_SIZE)
+    return np.concatenate([small, np.ones((*small.shape[:2], 1))], axis=-1)
+
+
+def _image(rgba: Array, description: str) -> str:
+    with temporary_folder() as folder:
+        path = folder / "picture.png"
+        save_png(path, rgba)
+        return _embedded("image/png", path.read_bytes(), description)
+
+
+def _embedded(kind: str, data: bytes, description: str) -> str:
+    source = f"data:{kind};base64,{base64.b64encode(data).decode('ascii')}"
+    return f'<img alt="{escape(description)}" src="{source}">'

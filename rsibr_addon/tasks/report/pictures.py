@@ -1,0 +1,73 @@
+"""Small pictures of all maps of a map set."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ...core.conventions import Array
+from ...core.light.transfer_curve import srgb_from_linear
+from ...core.pictures.thumbnail import miniature
+from ...files.map_set import read_map_set
+from .facts import map_title
+
+SIZE = 128
+"""Largest width and height in pixels: what Blender shows of a picture in a panel."""
+
+
+BRIGHTEST = 0.05
+"""Share of a map's pixels that may be shown as white."""
+
+BEHIND = ("albedo", "weights", "harmonics", "environment")
+"""Roles of maps that say less to the eye."""
+
+
+@dataclass(frozen=True, eq=False)
+class MapPicture:
+    """A map to be looked at.
+
+    Attributes
+    ----------
+    name : str
+        Of its part.
+    title : str
+        For people.
+    pixels : ndarray, shape (height, width, 3), float32
+        sRGB in [0, 1], row 0 at the bottom: of radiance up to 1 or, in a brighter map, up to what
+        `BRIGHTEST` of its pixels reach.
+    """
+
+    name: str
+    title: str
+    pixels: Array
+
+
+def map_set_pictures(path: Path) -> list[MapPicture]:
+    """Read a map set and make its maps small; knows nothing of Blender, so it may run in any thread.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    list of MapPicture
+        In the file's order, but those of `BEHIND` last.
+
+    Raises
+    ------
+    MapSetError
+        See `files.map_set.read_map_set`.
+    """
+    held = read_map_set(path)
+    parts = sorted(held.header["parts"], key=lambda part: part["role"] in BEHIND)
+    return [
+        MapPicture(part["name"], map_title(held.kind, part), _pixels(held.maps[part["name"]]))
+        for part in parts
+    ]
+
+
+def _pixels(radiance: Array) -> Array:
+    small = miniature(radiance, SIZE)
+    white = max(1.0, float(np.quantile(small.max(axis=-1), 1.0 - BRIGHTEST)))
+    return srgb_from_linear(small / white).astype(np.float32)

@@ -1,0 +1,59 @@
+"""The meshes that viewports show, each uploaded once."""
+
+from typing import Any
+
+from ...device.drawing import MeshOnDevice
+from ...host.meshes import content_of, evaluated_mesh, triangle_mesh
+from ...host.viewport import Surface
+
+
+class UploadedMeshes:
+    """Meshes on the GPU, for as long as surfaces have them.
+
+    Blender evaluates an object's mesh anew whenever any property of the object is set, ours too. So meshes
+    are told apart by what they hold: one that is evaluated to the same again stays where it is.
+    """
+
+    def __init__(self) -> None:
+        self._contents: dict[int, bytes] = {}
+        self._uploaded: dict[bytes, MeshOnDevice] = {}
+        self._standing: dict[Surface, MeshOnDevice] = {}
+
+    def __len__(self) -> int:
+        return len(self._uploaded)
+
+    def __getitem__(self, surface: Surface) -> MeshOnDevice:
+        """What a surface is drawn with, once it is `there`."""
+        return self._standing[surface]
+
+    def there(self, surface: Surface, evaluated: Any, depsgraph: Any) -> bool:
+        """Whether a surface can be drawn: it has faces, and is uploaded from now on.
+
+        Parameters
+        ----------
+        surface : Surface
+        evaluated : bpy.types.Object
+            As `host.viewport.surfaces` yields it with the surface.
+        depsgraph : bpy.types.Depsgraph
+        """
+        if surface.mesh not in self._contents:
+            with evaluated_mesh(evaluated, depsgraph) as mesh:
+                content = content_of(mesh)
+                if content not in self._uploaded and mesh.polygons:
+                    triangles = triangle_mesh(mesh, evaluated.name)
+                    self._uploaded[content] = MeshOnDevice(
+                        triangles.positions, triangles.normals, triangles.triangles
+                    )
+                self._contents[surface.mesh] = content  # at last: what fails above is tried again
+        uploaded = self._uploaded.get(self._contents[surface.mesh])
+        if uploaded is not None:
+            self._standing[surface] = uploaded.again()
+        return uploaded is not None
+
+    def keep(self, surfaces: list[Surface]) -> None:
+        """Let go of what none of these surfaces has."""
+        self._standing = {surface: self._standing[surface] for surface in surfaces}
+        wanted = {surface.mesh for surface in surfaces}
+        self._contents = {mesh: content for mesh, content in self._contents.items() if mesh in wanted}
+        contents = set(self._contents.values())
+        self._uploaded = {content: mesh for content, mesh in self._uploaded.items() if content in contents}

@@ -22,7 +22,7 @@ ALLOCATED = ("GPUTexture", "GPUUniformBuf", "GPUFrameBuffer", "GPUBatch", "GPUVe
 KINDS = ("mips", "tables", "stack", "views")
 MODES = ("paper", "texel", "fragment")
 
-tasks = importlib.import_module(f"{ROOT}.rsibr_addon.tasks.viewport")
+tasks = importlib.import_module(f"{ROOT}.rsibr_addon.tasks.viewport.previews")
 stage = importlib.import_module(f"{ROOT}.rsibr_addon.device.viewport")
 
 

@@ -1,6 +1,6 @@
-// Twin of rsibr_addon/core/geometry/geodesic.py. The sphere comes as a texture (see device/kinds/radiance_views.py):
-// row 0 holds the vertices, row 1 the centres of the icosahedron's triangles, row 2 + k the triangles of
-// subdivision level k as three vertex indices.
+// Twin of rsibr_addon/core/geometry/geodesic.py. The sphere comes as a texture (see
+// device/kinds/radiance_views.py): row 0 holds the vertices, row 1 the centres of the icosahedron's
+// triangles, row 2 + k the triangles of subdivision level k as three vertex indices.
 
 vec3 geodesic_vertex(sampler2D sphere, int index)
 {

@@ -1,6 +1,6 @@
-// Twin of rsibr_addon/core/kinds/live_environment.py and core/kinds/mip_chain/texture_space.py: [Kautz2004] sections 4.2, 5.1.
-// A strip holds six faces side by side; the atlas, mips in borders, is that of mip_chain_lib.glsl. Solid
-// angles: a square for each mip, from the bottom up, at the left.
+// Twin of rsibr_addon/core/kinds/live_environment.py and core/kinds/mip_chain/texture_space.py: [Kautz2004]
+// sections 4.2, 5.1. A strip holds six faces side by side; the atlas, mips in borders, is that of
+// mip_chain_lib.glsl. Solid angles: a square for each mip, from the bottom up, at the left.
 #include "lib/cube_map_lib.glsl"
 #include "lib/irradiance_lib.glsl"
 

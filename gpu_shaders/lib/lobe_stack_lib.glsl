@@ -1,6 +1,6 @@
 // Twin of rsibr_addon/core/kinds/lobe_stack/shading.py: [Kautz2000] section 5.3.
-// The texture `elevations` (see device/kinds/lobe_stack.py) has a column for each sampled elevation. Row 0 holds
-// their cosines; then come, for each lobe, a row of scales and one of each tap's tilt, turn and weight.
+// The texture `elevations` (see device/kinds/lobe_stack.py) has a column for each sampled elevation. Row 0
+// holds their cosines; then come, for each lobe, a row of scales and one of each tap's tilt, turn and weight.
 // The 3D texture `maps` holds, for each lobe, and for each sheet of its maps, a slice for each elevation, or
 // one for all. Around every sheet lies a border of one texel: what continues it on the sphere.
 #include "lib/directions_lib.glsl"

@@ -63,7 +63,7 @@ class Geometry:
 
     @cached_property
     def half_sine_squared(self) -> Array:
-        """1 - `n_dot_h`**2 with all its digits where that is tiny, shape (N,)."""
+        """1 - the square of `n_dot_h` with all its digits where that is tiny, shape (N,)."""
         across = self.half_dir[:, :2]
         return dot(across, across)
 

@@ -3,12 +3,13 @@ VENV := .venv
 PYTHON := $(VENV)/bin/python
 READY := $(VENV)/.ready
 
-.PHONY: help demo test test-quick test-gui test-faults lint extension bench clean
+.PHONY: help demo test test-quick test-gui test-faults lint docs extension bench clean
 
 help:
 	@echo "make demo        capture two materials, preview them and compare with Cycles; pictures under demo/"
 	@echo "make test        all tests but those in a window (make test-quick: without shaders and renders)"
 	@echo "make lint        ruff and mypy"
+	@echo "make docs        the documentation site: site/index.html"
 	@echo "make extension   dist/rsibr-*.zip, to be installed in Blender"
 	@echo "make test-gui    the built extension in a Blender of its own, which .ci/window/blender installs (root on Debian)"
 	@echo "make test-faults kills and signals at 300 moments, 100,000 damaged files; hours"
@@ -18,7 +19,7 @@ help:
 $(READY): pyproject.toml .python-version .ci/constraints.txt
 	@$(PYTHON) -c 'import sys; sys.exit("%d.%d" % sys.version_info[:2] != "'$$(cat .python-version)'")' 2>/dev/null \
 	  || { python=$$(.ci/find-python) && "$$python" -m venv --clear $(VENV); }
-	$(PYTHON) -m pip install --quiet --disable-pip-version-check --constraint .ci/constraints.txt --editable '.[dev]'
+	$(PYTHON) -m pip install --quiet --disable-pip-version-check --constraint .ci/constraints.txt --editable '.[dev,docs]'
 	@$(PYTHON) .ci/check_bpy.py
 	@touch $@
 
@@ -42,6 +43,9 @@ lint: $(READY)
 	$(PYTHON) -m ruff format --check
 	$(PYTHON) -m mypy
 
+docs: $(READY)
+	$(PYTHON) -m sphinx --quiet --fail-on-warning --keep-going docs site
+
 extension: $(READY)
 	$(PYTHON) .ci/build_extension.py
 
@@ -55,5 +59,5 @@ bench: $(READY)
 	$(PYTHON) .ci/bench_viewport.py
 
 clean:
-	rm -rf $(VENV) build demo dist wheels rsibr.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	rm -rf $(VENV) build demo dist docs/api site wheels rsibr.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

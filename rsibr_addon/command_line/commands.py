@@ -60,7 +60,7 @@ def parsed(argv: Sequence[str]) -> argparse.Namespace:
     SystemExit
         The usage is wrong, or help was asked for; that is printed.
     """
-    return _parser().parse_args(_with_joined_directions(_with_jobs_command(argv)))
+    return parser().parse_args(_with_joined_directions(_with_jobs_command(argv)))
 
 
 def _with_jobs_command(argv: Sequence[str]) -> Sequence[str]:
@@ -70,7 +70,8 @@ def _with_jobs_command(argv: Sequence[str]) -> Sequence[str]:
     return argv
 
 
-def _parser() -> argparse.ArgumentParser:
+def parser() -> argparse.ArgumentParser:
+    """What reads a command line: all commands, and their options with help."""
     common = argparse.ArgumentParser(add_help=False)
     common.add_argument("--json", action="store_true", help="print the result as one JSON object")
     common.add_argument(

@@ -1,9 +1,7 @@
-"""What the guide tells people to type is done, on a small scale; what the README does, is understood."""
+"""What the guide tells people to type is done, on a small scale."""
 
 import json
 import re
-import shlex
-from collections.abc import Iterator
 from pathlib import Path
 
 import bpy
@@ -12,8 +10,8 @@ import rsibr
 from rsibr.rsibr_addon.command_line.commands import parsed
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.job import BakeJob
+from rsibr.tests.pages import blocks, calls
 
-ROOT = Path(__file__).parents[2]
 GUIDE = "docs/guide.md"
 
 SMALL = {
@@ -34,18 +32,6 @@ ignore_negative_values = pytest.mark.filterwarnings("ignore:.*negative values")
 """Some of Blender's own environments hold some."""
 
 
-def blocks(page: str, language: str) -> Iterator[str]:
-    yield from re.findall(rf"^```{language}\n(.*?)^```", (ROOT / page).read_text(), re.DOTALL | re.MULTILINE)
-
-
-def commands(page: str) -> list[list[str]]:
-    """The arguments of `rsibr` in each line that calls it."""
-    lines = [line for block in blocks(page, "sh") for line in block.splitlines()]
-    calls = [shlex.split(line, comments=True) for line in lines if re.search(r"(^| )rsibr ", line)]
-    assert len(calls) > 5
-    return [words[words.index("rsibr") + 1 :] for words in calls]
-
-
 def made_small(words: list[str]) -> list[str]:
     for option, value in SMALL.get(words[0], {}).items():
         if option in words:
@@ -53,11 +39,6 @@ def made_small(words: list[str]) -> list[str]:
             words = words[:at] + words[at + 2 :]
         words = [*words, option, value]
     return words
-
-
-def test_the_readmes_commands_are_understood() -> None:
-    for words in commands("README.md"):
-        assert callable(parsed(words).run)
 
 
 @pytest.mark.slow
@@ -70,7 +51,7 @@ def test_the_guides_commands_do_what_they_say(tmp_path: Path, monkeypatch: pytes
     bpy.context.object.active_material = bpy.data.materials["Paint"]
     job = BakeJob(tuple(made_small(list(BakeJob.from_json(text, "guide").arguments))))
     Path("job.json").write_text(job.to_json())
-    for words in commands(GUIDE):
+    for words in calls(GUIDE, "rsibr"):
         if words[0] == "capture":
             words = [*words, "--force"]  # The job has made the same file
         assert run(made_small(words) if words[1] != "job.json" else words) == 0, words

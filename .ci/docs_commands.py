@@ -1,0 +1,80 @@
+"""Write the reference in docs/commands.md from the help of the commands' options."""
+
+import argparse
+from collections.abc import Iterator
+from pathlib import Path
+
+from rsibr.rsibr_addon.command_line.commands import parser
+
+PAGE = Path(__file__).parents[1] / "docs" / "commands.md"
+BEGIN = "<!-- made from the options' help by .ci/docs_commands.py -->\n"
+
+
+def written_anew(page: str) -> str:
+    """The page with the reference of today's options in place of its own."""
+    told, begin, _ = page.partition(BEGIN)
+    assert begin, f"{PAGE} has lost the line {BEGIN}"
+    return f"{told}{begin}\n" + "\n".join(_reference())
+
+
+def _reference() -> Iterator[str]:
+    every = [command for _, command in _commands(parser())]
+    first = _names(every[0])
+    shared = [name for name in first if all(name in _names(command) for command in every)]
+    yield "## Options of every command\n"
+    yield from _table(every[0], [action for action in every[0]._actions if _name(action) in shared], [])
+    for title, command in _commands(parser()):
+        yield f"## {title}\n"
+        yield f"{command.description}\n"
+        yield f"```text\n{_usage(command, shared)}\n```\n"
+        positionals, options, *groups = command._action_groups
+        yield from _table(command, positionals._group_actions + options._group_actions, shared)
+        for group in groups:
+            yield f"{group.title}:\n"
+            yield from _table(command, group._group_actions, shared)
+
+
+def _commands(parent: argparse.ArgumentParser) -> Iterator[tuple[str, argparse.ArgumentParser]]:
+    """All commands that do something, those of a family in turn, by what one types."""
+    families = [action for action in parent._actions if isinstance(action, argparse._SubParsersAction)]
+    if not families:
+        yield parent.prog, parent
+    for family in families:
+        for command in family.choices.values():
+            yield from _commands(command)
+
+
+def _names(command: argparse.ArgumentParser) -> list[str]:
+    return [_name(action) for action in command._actions]
+
+
+def _name(action: argparse.Action) -> str:
+    return action.option_strings[-1] if action.option_strings else action.dest
+
+
+def _usage(command: argparse.ArgumentParser, shared: list[str]) -> str:
+    """What must and what may be given, in lines of one width, whatever the terminal's."""
+    formatter = argparse.HelpFormatter(command.prog, width=100)
+    own = [action for action in command._actions if _name(action) not in shared]
+    formatter.add_usage(None, own, command._mutually_exclusive_groups, prefix="")
+    return formatter.format_help().strip()
+
+
+def _table(
+    command: argparse.ArgumentParser, actions: list[argparse.Action], without: list[str]
+) -> Iterator[str]:
+    formatter = argparse.HelpFormatter(command.prog, width=100)
+    yield "| option | what |\n|---|---|"
+    for action in actions:
+        if _name(action) not in without:
+            invocation = formatter._format_action_invocation(action)
+            yield f"| `{_cell(invocation)}` | {_cell(formatter._expand_help(action))} |"
+    yield ""
+
+
+def _cell(text: str) -> str:
+    return text.replace("|", r"\|")
+
+
+if __name__ == "__main__":
+    PAGE.write_text(written_anew(PAGE.read_text(encoding="utf-8")), encoding="utf-8")

@@ -11,7 +11,7 @@ Maps
     ((i + 0.5) / width, (j + 0.5) / height). Blender's image pixels and OpenGL's textures agree;
     files that store the top row first are flipped on reading and writing, and nowhere else.
 Texels
-    A texel stands for a constant radiance over its solid angle.
+    A texel has constant radiance over its solid angle.
 Angles
     Radians in code, degrees in interfaces.
 """

@@ -31,16 +31,16 @@ def parallelogram(middle: ArrayLike, across: ArrayLike, up: ArrayLike) -> Array:
     middle : array_like, shape (..., 3)
         Unit directions that the pixels' middles reflect.
     across, up : array_like, shape (..., 3)
-        By how much they change from a pixel to the next one on its right, and above it.
+        Change of the direction from a pixel to the next one on its right, and to the next above.
 
     Returns
     -------
     ndarray, shape (..., 4, 3)
-        Corners as of `pixel_footprints`, of lengths near 1.
+        Corners in the order of `pixel_footprints`, with lengths near 1.
 
     Notes
     -----
-    What a graphics card knows of a pixel: differences to its neighbours. GLSL twin:
+    A graphics card knows just this of a pixel: differences to its neighbours. GLSL twin:
     gpu_shaders/lib/footprint_lib.glsl `parallelogram`, three roundings.
     """
     middle, across, up = np.asarray(middle), 0.5 * np.asarray(across), 0.5 * np.asarray(up)
@@ -49,7 +49,7 @@ def parallelogram(middle: ArrayLike, across: ArrayLike, up: ArrayLike) -> Array:
 
 
 def footprint_or_point(corners: ArrayLike | None, middle: Array) -> Array:
-    """Footprints as they are, or those of points, which reflect one direction each.
+    """The given footprints; or footprints of points, which reflect one direction each.
 
     Parameters
     ----------
@@ -101,9 +101,9 @@ def footprint_box(corners: ArrayLike, width: int, height: int) -> Array:
 
     Notes
     -----
-    [Miller1984] section 8.3. A footprint that a pole lies in has a box all around that pole. The mean over a
-    box of one texel is bilinear interpolation of the texels around its middle, which is what a footprint
-    smaller than that should get. GLSL twin: gpu_shaders/lib/summed_area_lib.glsl `footprint_box`.
+    [Miller1984] section 8.3. Where a pole lies in the footprint, the box goes all around that pole. The mean
+    over a box of one texel is bilinear interpolation of the texels around its middle, which is right for a
+    smaller footprint. GLSL twin: gpu_shaders/lib/summed_area_lib.glsl `footprint_box`.
     """
     uv = equirect.uv_from_direction(corners)
     u, v = uv[..., 0], uv[..., 1]

@@ -7,7 +7,7 @@ F(x, z) the integral of radiance over z from the south pole up,
     integral of L domega = (2 pi / width) * closed integral of F dx   (border counterclockwise).
 
 F is linear in z within a texel, and the integral of z along a great circle is an arc tangent. So an edge
-costs as many terms as it crosses lines between texels, whatever it encloses, and the result is exact.
+costs one term for each line between texels that it crosses, whatever it encloses, and the result is exact.
 """
 
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ BLOCK = 1 << 14
 """Footprints integrated at once: some 100 MB for those that cross ten texels."""
 
 LEAST_AREA = 1e-10
-"""[sr] Where a footprint has less, rounding begins to show in its area: about 1e-17."""
+"""[sr] Least area of a footprint: below it, rounding, about 1e-17, begins to show in the area."""
 
 
 def quadrilateral_mean(radiance: Array, corners: ArrayLike) -> Array:
@@ -46,8 +46,8 @@ def quadrilateral_mean(radiance: Array, corners: ArrayLike) -> Array:
     -----
     [Miller1984] section 8.2 divides the integral over the whole quadrilateral by its area; where the
     surface's curvature changes its sign the reflection is folded, and a folded quadrilateral has no area to
-    divide by. Its halves have, but on the fold itself: such lines and points are left to `recursive_mean`.
-    No GLSL twin.
+    divide by. Its halves have one, except on the fold itself: such lines and points are left to
+    `recursive_mean`. No GLSL twin.
     """
     corners = np.asarray(corners, dtype=np.float64)
     quads = corners.reshape(-1, 4, 3)
@@ -113,7 +113,7 @@ def _edge_integrals(table: _ColumnSums, start: Array, end: Array) -> Array:
     Returns
     -------
     ndarray, shape (edges, n, channels + 2)
-        Times 2 pi / width; the last but one is of a radiance of 1, the last of dx itself.
+        Integrals times 2 pi / width; the last but one is that of a radiance of 1, the last that of dx.
     """
     height, width = table.slope.shape[:2]
     circle = _GreatCircles.through(start.reshape(-1, 3), end.reshape(-1, 3), width)
@@ -140,13 +140,13 @@ class _GreatCircles:
     Attributes
     ----------
     start, run : ndarray, shape (n,)
-        Where an edge starts, and how far it goes, half a turn either way at most.
+        Longitude at which an edge starts, and its length along it, half a turn either way at most.
     apex : ndarray, shape (n,)
         Where its circle is farthest north.
     tilt, level : ndarray, shape (n,)
-        Of the circle's normal, the parts across and along the axis; not normalised, not negative.
+        Parts of the circle's normal across and along the axis; not normalised, not negative.
     angle : float
-        Of a column [rad].
+        Width of a column [rad].
     """
 
     start: Array

@@ -8,13 +8,13 @@ from ..geometry.directions import normalize
 from ..maps import equirect
 
 SMALLEST = 0.5
-"""A region whose sides are all shorter than this part of a texel's height is inconsequentially small."""
+"""Part of a texel's height; a region whose sides are all shorter is not divided further."""
 
 AGREEMENT = 0.01
-"""Adjacent table entries agree when they differ by less than this part of the larger."""
+"""Part of the larger of two adjacent table entries by which they may differ and still agree."""
 
 BLOCK = 1 << 10
-"""Footprints divided at once: each may come to thousands of regions."""
+"""Footprints divided at once: each may become thousands of regions."""
 
 
 def table_entry(radiance: Array, direction: ArrayLike) -> tuple[Indices, Indices]:
@@ -54,10 +54,10 @@ def recursive_mean(radiance: Array, corners: ArrayLike) -> Array:
 
     Notes
     -----
-    [Miller1984] section 8.1: a region counts the mean of its four corners once they index the same table
-    entry or adjacent ones, and is halved across its longer sides until then. We also ask that adjacent
-    entries agree: the paper's rule alone gets a lamp of one texel wrong by a quarter of a region. The
-    cost grows with the number of texels that the footprint covers. No GLSL twin.
+    [Miller1984] section 8.1: a region is halved across its longer sides until its four corners index the same
+    table entry or adjacent ones; then it takes their mean. We also ask that adjacent entries agree: by the
+    paper's rule alone a lamp of one texel is off by a quarter of a region. The cost grows with the number of
+    texels that the footprint covers. No GLSL twin.
     """
     corners = np.asarray(corners, dtype=np.float64)
     regions = corners.reshape(-1, 4, 3)
@@ -81,7 +81,7 @@ def _block_mean(radiance: Array, region: Array) -> Array:
 
 
 def _agree(radiance: Array, columns: Indices, rows: Indices) -> NDArray[np.bool]:
-    """Whether regions' corners lie in two by two texels, across the seam too, that show the same."""
+    """Whether regions' corners lie in two by two texels, across the seam too, whose entries agree."""
     width = radiance.shape[1]
     ahead = (columns - columns[:, :1] + width // 2) % width
     agree: NDArray[np.bool] = (np.ptp(ahead, axis=1) <= 1) & (np.ptp(rows, axis=1) <= 1)
@@ -103,7 +103,7 @@ def _halves(region: Array) -> Array:
     """All first halves, then all second ones; cut across the pair of sides that has the longest."""
     sides = np.linalg.norm(region - np.roll(region, -1, axis=1), axis=-1)
     upright = np.argmax(sides, axis=1) % 2 == 1
-    # Turned by a corner, upright sides lie: sides 0 and 2 are the ones to be cut.
+    # Turned by a corner, so that sides 0 and 2 are always the ones to be cut.
     region = np.where(upright[:, None, None], np.roll(region, -1, axis=1), region)
     a, b, c, d = np.moveaxis(region, 1, 0)
     ab, cd = normalize(a + b), normalize(c + d)

@@ -1,8 +1,8 @@
 """Lookups spread over what a pixel reflects, as many as it takes to find every texel.
 
-[Miller1984] section 8 integrates a table over a pixel's footprint. Maps of other kinds are no tables of one
-direction: what they show by a direction is a blend of several maps. But they are smooth between texels, so
-lookups that are a texel apart miss nothing, and where a pixel reflects less than a texel one is enough.
+[Miller1984] section 8 integrates a table over a pixel's footprint. Maps of other kinds are no tables over one
+direction: they blend several maps. But they are smooth between texels, so lookups a texel apart miss nothing,
+and where a pixel reflects less than a texel one lookup is enough.
 """
 
 from collections.abc import Iterator
@@ -14,7 +14,7 @@ from ..conventions import Array, ArrayLike, Indices
 from ..geometry.directions import normalize
 
 MOST = 4
-"""Lookups along each side of a pixel: sixteen at most, where a surface is wrinkled to the size of pixels."""
+"""Most lookups along each side of a pixel: sixteen in all, where wrinkles are as small as pixels."""
 
 
 def sample_counts(across: ArrayLike, up: ArrayLike, texel_angle: ArrayLike) -> Indices:
@@ -30,7 +30,7 @@ def sample_counts(across: ArrayLike, up: ArrayLike, texel_angle: ArrayLike) -> I
     Returns
     -------
     ndarray of int, shape (..., 2)
-        1 to `MOST` along `across`, and along `up`: no more than a texel from one to the next, while `MOST`
+        1 to `MOST` along `across`, and along `up`: at most a texel from one to the next, as far as `MOST`
         allows.
 
     Notes
@@ -51,11 +51,11 @@ def sample_direction(
     Parameters
     ----------
     middle, across, up : array_like, shape (..., 3)
-        As of `footprint.parallelogram`.
+        See `footprint.parallelogram`.
     counts : array_like of int, shape (..., 2)
         See `sample_counts`.
     number : int
-        From 0 to the product of the counts, less 1: row by row, in the middles of as many equal parts.
+        From 0 to the product of the counts, less 1: row by row, in the middles of equal parts.
 
     Returns
     -------
@@ -86,11 +86,11 @@ def samples(
     Yields
     ------
     chosen : ndarray of bool, shape (...,)
-        The pixels that have one more.
+        The pixels that have a further lookup.
     direction : ndarray, shape (n, 3)
-        Theirs.
+        The directions of these pixels.
     weight : ndarray, shape (n, 1)
-        One over the number of lookups: over all, a pixel's add up to 1.
+        One over the pixel's number of lookups, so that a pixel's weights add up to 1.
     """
     number_of = np.prod(counts, axis=-1)
     for number in range(int(number_of.max(initial=0))):

@@ -1,9 +1,9 @@
 """The pre-integrated table, [Miller1984] section 8.3: means over rectangles at a constant cost, exactly.
 
-A sum over a rectangle is a difference of four sums over everything below and to the left of its
-corners [Crow1984]. Where a sun shines, such sums are a million times the texels next to it, and floating
-point would lose those in the difference. Here every texel's radiance times solid angle is rounded once, to an
-integer, and sums and differences of integers are exact.
+A sum over a rectangle is a difference of four sums over everything below and to the left of its corners
+[Crow1984]. Beside a sun such sums are a million times as large as the texels, and floating point would lose
+these in the difference. Here every texel's radiance times solid angle is rounded once, to an integer, and
+sums and differences of integers are exact.
 """
 
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ TOTAL_BITS = 61
 """A table's total is about 2**61 of its units: two turns around it still fit a signed 64-bit integer."""
 
 SMALL = 1.001
-"""Width and height of boxes, in texels, that stand for less than one: `footprint_box` makes no smaller."""
+"""Width and height [texels] of the smallest boxes that `footprint_box` makes, for smaller footprints."""
 
 
 @dataclass(frozen=True)
@@ -60,9 +60,8 @@ def summed_area_table(radiance: Array) -> SummedAreaTable:
 
     Notes
     -----
-    [Crow1984]; weighted by solid angle, so that means are means over the sphere. A texel next to
-    nothing but its own total, black beside a sun of 1e5 in a table of 2048x1024, keeps all digits that single
-    precision gave it.
+    [Crow1984], weighted by solid angle, so that means are means over the sphere. A dark texel beside a sun of
+    1e5, in a table of 2048x1024, keeps all digits that single precision gave it.
     """
     if not np.all(np.isfinite(radiance) & (radiance >= 0.0)):
         raise RangeError("A table to be summed holds negative, infinite or NaN values: repair it first.")
@@ -88,7 +87,7 @@ def box_mean(table: SummedAreaTable, box: ArrayLike) -> Array:
     Returns
     -------
     ndarray, shape (..., channels), float64
-        The mean over solid angle, a cut texel counting in the proportion of its area in the table.
+        The mean over solid angle; a cut texel counts in proportion to its area in the table.
 
     Raises
     ------
@@ -97,8 +96,8 @@ def box_mean(table: SummedAreaTable, box: ArrayLike) -> Array:
 
     Notes
     -----
-    [Miller1984] section 8.3. The box is cut into nine where it cuts texels: each block is an exact sum and
-    has a weight that is not negative, so nothing cancels, and 16 texels are read. GLSL twin:
+    [Miller1984] section 8.3. The box is split into nine blocks where it cuts texels. Each block is an exact
+    sum with a weight that is not negative, so nothing cancels, and 16 texels are read. GLSL twin:
     gpu_shaders/lib/summed_area_lib.glsl `box_mean`.
     """
     box = np.asarray(box, dtype=np.float64)
@@ -130,13 +129,13 @@ def footprint_mean(image: Array, direction: ArrayLike, corners: ArrayLike) -> Ar
     direction : array_like, shape (..., 3)
         Unit directions in the footprints' middles.
     corners : array_like, shape (..., 4, 3)
-        As of `footprint.footprint_box`.
+        See `footprint.footprint_box`.
 
     Returns
     -------
     ndarray, shape (..., channels), float64
-        Over the box that holds a footprint; of boxes no larger than a texel, radiance interpolated in the
-        middle, which is the same but for the solid angles of the rows.
+        Mean over the box that holds a footprint. For boxes no larger than a texel, radiance interpolated in
+        the middle, which is the same except for the solid angles of the rows.
 
     Raises
     ------
@@ -145,7 +144,7 @@ def footprint_mean(image: Array, direction: ArrayLike, corners: ArrayLike) -> Ar
 
     Notes
     -----
-    Interpolation takes a fourth of the time. GLSL twin: gpu_shaders/lib/summed_area_lib.glsl
+    Interpolation takes a quarter of the time. GLSL twin: gpu_shaders/lib/summed_area_lib.glsl
     `footprint_mean`.
     """
     height, width = image.shape[:2]
@@ -158,7 +157,7 @@ def footprint_mean(image: Array, direction: ArrayLike, corners: ArrayLike) -> Ar
 
 
 def _cut(low: Array, high: Array, last_edge: int) -> tuple[Indices, Array]:
-    """An interval as three: its first texel, those it holds whole, its last one.
+    """An interval in three parts: its first texel, the texels that it holds whole, its last texel.
 
     Returns
     -------

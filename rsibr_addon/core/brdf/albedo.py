@@ -16,13 +16,13 @@ NARROWEST = 1e-4
 
 CHECKED_ELEVATIONS = (np.arange(16) + 0.5) / 16.0
 TOLERATED_GAIN = 0.01
-"""How much more light than it gets a surface may reflect before somebody is told."""
+"""Share by which a surface may reflect more light than it receives without a warning."""
 
 
 def hemisphere_quadrature(
     mu: float, radial_nodes: int = RADIAL_NODES, arc_nodes: int = ARC_NODES, narrowest: float = NARROWEST
 ) -> tuple[Array, Array]:
-    """Directions and weights that integrate over the hemisphere what one view sees.
+    """Directions and weights to integrate over the hemisphere for one view.
 
     Parameters
     ----------
@@ -47,10 +47,10 @@ def hemisphere_quadrature(
 
     Notes
     -----
-    Either half of the hemisphere, forwards with the mirror direction and backwards with the view, is
-    cut into arcs about its direction, on which horizon and border are known in closed form. Arcs take
-    Gauss-Legendre nodes, which crowd at the ends, where the lobes of grazing views are thin; radii take
-    them in panels that halve towards the centre, with t^2 in t for the corners at horizon and border.
+    Either half of the hemisphere, forwards with the mirror direction and backwards with the view, is cut into
+    arcs about its direction, on which horizon and border are known in closed form. Arcs have Gauss-Legendre
+    nodes, which crowd at the ends, where the lobes of grazing views are thin. Radii have them in panels that
+    halve towards the centre, in t^2 instead of t for the corners at horizon and border.
     """
     if not 0.0 < mu <= 1.0:
         raise RangeError(f"An elevation has a cosine greater than 0 and at most 1, not {mu:g}.")
@@ -84,8 +84,8 @@ def directional_albedo(brdf: BrdfFunction, mu: ArrayLike) -> Array:
     Returns
     -------
     ndarray, shape (..., 3), float64
-        In linear Rec. 709; at most 1 for a surface that gains no energy. To 5e-4 for lobes at least 0.01
-        wide (alpha) and elevations mu of at least 0.03.
+        In linear Rec. 709; at most 1 for a surface that gains no energy. The error is at most 5e-4 for lobes
+        at least 0.01 wide (alpha) and elevations mu of at least 0.03.
 
     Raises
     ------
@@ -102,14 +102,14 @@ def directional_albedo(brdf: BrdfFunction, mu: ArrayLike) -> Array:
 
 
 def warn_of_gain(brdf: BrdfFunction, name: str) -> None:
-    """Tell when a surface reflects more light than it gets.
+    """Warn when a surface reflects more light than it receives.
 
     Parameters
     ----------
     brdf : callable
         A `Brdf`, or any isotropic function called like one.
     name : str
-        What the sentence calls it.
+        Name of the surface in the message.
 
     Warns
     -----

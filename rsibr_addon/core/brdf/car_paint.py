@@ -1,4 +1,4 @@
-"""Eight car paints, measured and fitted by others."""
+"""Eight car paints, as measured and fitted in [Guenther2005]."""
 
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,4 +1,4 @@
-"""Fresnel reflectance: how much of unpolarised light a smooth boundary reflects."""
+"""Fresnel reflectance: the share of unpolarised light that a smooth boundary reflects."""
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
@@ -53,7 +53,7 @@ def fresnel_conductor(cosine: ArrayLike, eta: ArrayLike, k: ArrayLike) -> Array:
     Notes
     -----
     [Born1999] section 14.2, with the refracted wave's normal component a + ib written out:
-    2 a^2 = |n^2 - sin^2| + eta^2 - k^2 - sin^2. Total reflection (k = 0, eta < 1) needs no case of its own.
+    2 a^2 = |n^2 - sin^2| + eta^2 - k^2 - sin^2. Total reflection (k = 0, eta < 1) needs no special case.
     """
     cosine, eta, k = (np.asarray(array, dtype=np.float64) for array in (cosine, eta, k))
     sine2 = 1.0 - cosine**2

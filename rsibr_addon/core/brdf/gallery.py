@@ -27,10 +27,10 @@ GALLERY: dict[str, dict[str, str]] = {
         "Matte clay": "lambert:kd=0.55/0.4/0.3",
     },
 }
-"""Group -> name for people -> what `core.brdf.spec` makes a model of."""
+"""Group -> name for people -> text of a model, for `core.brdf.spec`."""
 
 
 def gallery_name(spec: str) -> str:
-    """What people call a model: its name in the gallery, or else its text."""
+    """A model's name for people: that in the gallery, or else its text."""
     names = {spec: name for models in GALLERY.values() for name, spec in models.items()}
     return names.get(spec, spec)

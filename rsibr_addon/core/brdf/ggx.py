@@ -64,8 +64,8 @@ def smith_visibility(n_dot_l: Array, n_dot_v: Array, alpha: float) -> Array:
 class Ggx(Brdf):
     """Rough metal or dielectric: one reflection off GGX microfacets.
 
-    What bounces between facets and leaves later is left out, so that the albedo of a rough perfect
-    mirror falls below 1: at normal incidence to 0.88 for alpha = 0.3, to 0.31 for alpha = 1.
+    Light that bounces between facets is left out, so that the albedo of a rough perfect mirror falls below 1:
+    at normal incidence to 0.88 for alpha = 0.3, to 0.31 for alpha = 1.
 
     Notes
     -----

@@ -13,16 +13,16 @@ from .model import Geometry
 from .parameters import Color, Range
 
 NEGLIGIBLE = 1e-16
-"""A term of the series this small beside the sum so far ends it: below float64's rounding."""
+"""Size of a term, relative to the sum so far, at which the series ends: below float64's rounding."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class HeTorrance(GlossyOverLambert):
-    """Light scattered by a Gaussian rough surface, by the wavelength of each channel.
+    """Light scattered by a Gaussian rough surface, at one wavelength for each channel.
 
-    The directional-diffuse part, unpolarised, plus the uniform-diffuse part kd / pi. The third part, a
-    mirror image dimmed by the roughness, is no function but a delta: `mirror_reflectance` gives its
-    weight, which vanishes where sigma is no small fraction of the wavelength.
+    The directional-diffuse part, unpolarised, plus the uniform-diffuse part kd / pi. The third part, a mirror
+    image dimmed by the roughness, is a delta and no function: `mirror_reflectance` gives its weight, which
+    vanishes where sigma is no small fraction of the wavelength.
 
     Attributes
     ----------
@@ -31,13 +31,13 @@ class HeTorrance(GlossyOverLambert):
     tau : float
         Its autocorrelation length [um].
     wavelength : three floats
-        That stand for red, green and blue [um].
+        Wavelengths of red, green and blue [um].
 
     Notes
     -----
     [He1991], its appendix for unpolarised light. Eq. 25 lacks a factor exp(-x^2), x = tau cot / 2 sigma,
-    without which Smith's shadowing is no probability; later programs have it, and so does this. The
-    factor G of Eq. 76 is (v.v / v_z)^2: its fraction is 1, since s, p and k are an orthonormal frame.
+    without which Smith's shadowing is no probability; later programs have this factor, and so does this one.
+    The factor G of Eq. 76 is (v.v / v_z)^2: its fraction is 1, since s, p and k are an orthonormal frame.
     """
 
     model: ClassVar[str] = "he_torrance"
@@ -90,14 +90,14 @@ class HeTorrance(GlossyOverLambert):
         return g
 
     def _slope_ratio(self, cosine: Array) -> Array:
-        """How steep a direction is beside the surface's slopes, tau cot / 2 sigma; 1e6 is vertical."""
+        """Steepness of a direction over that of the surface's slopes, tau cot / 2 sigma; 1e6 is vertical."""
         sine = np.sqrt(np.maximum(1.0 - cosine**2, 0.0))
         steepest = 1e6
         ratio: Array = self.tau * cosine / np.maximum(2.0 * self.sigma * sine, self.tau * cosine / steepest)
         return ratio
 
     def _hidden(self, cosine: Array) -> Array:
-        """How much low parts of the surface are hidden, K of Eq. 82, 83."""
+        """Degree to which low parts of the surface are hidden, K of Eq. 82, 83."""
         sine = np.sqrt(np.maximum(1.0 - cosine**2, 0.0))
         hidden: Array = sine / cosine * _erfc(self._slope_ratio(cosine))
         return hidden

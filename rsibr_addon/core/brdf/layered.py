@@ -17,7 +17,7 @@ COAT_ELEVATIONS = np.linspace(0.0, 1.0, 33) ** 2
 
 @dataclass(frozen=True, kw_only=True)
 class Sum(Brdf):
-    """Several models at once, each as it is."""
+    """The sum of several models."""
 
     model: ClassVar[str] = "sum"
     parts: tuple[Brdf, ...]
@@ -43,8 +43,8 @@ class Sum(Brdf):
 class Beneath(Brdf):
     """A base seen through a coat, without the coat's own reflection.
 
-    Of the light, the coat keeps its directional albedo E on the way in and again on the way out:
-    base (1 - E(n.l)) (1 - E(n.v)). Reciprocal, and with the coat it never gains energy.
+    The coat takes its directional albedo E from the light on the way in and again on the way out:
+    base (1 - E(n.l)) (1 - E(n.v)). This is reciprocal, and with the coat it never gains energy.
     """
 
     coat: Brdf
@@ -57,8 +57,8 @@ class Beneath(Brdf):
 
     @cached_property
     def _table(self) -> Array:
-        """What the coat lets pass at `COAT_ELEVATIONS`, shape (33, 3)."""
-        # The horizon itself has no view; just above it every coat reflects its grazing most
+        """Share of light that the coat transmits at `COAT_ELEVATIONS`, shape (33, 3)."""
+        # No view lies on the horizon; just above it every coat reflects most
         transmittance: Array = 1.0 - directional_albedo(self.coat, np.maximum(COAT_ELEVATIONS, 1e-4))
         return np.maximum(transmittance, 0.0)
 
@@ -71,8 +71,8 @@ class Beneath(Brdf):
 class Layered(Brdf):
     """A coat over a base, as varnish on wood or lacquer on a car.
 
-    Light that goes back and forth between base and coat is left out, so that a white diffuse base
-    under a dielectric coat loses about a tenth. The coat does not bend what passes it.
+    Light that goes back and forth between base and coat is left out, so that a white diffuse base under a
+    dielectric coat loses about a tenth. The coat does not refract.
     """
 
     model: ClassVar[str] = "layered"

@@ -1,4 +1,4 @@
-"""Reflectance from scattered measurements, as Cornell's goniometer makes them: turned into a table."""
+"""Reflectance from scattered measurements, such as those of Cornell's goniometer, made into a table."""
 
 import numpy as np
 
@@ -15,16 +15,16 @@ DARKEST = 1e-5
 """[1/sr] Mean reflectance below which a sample counts as missing: the instrument stores six decimals."""
 
 HORIZON = 0.05
-"""Cosine below which 1 / cosine is held: too steep for a table's cells, and not measured there."""
+"""Least cosine in 1 / cosine: below, the curve is too steep for a table's cells, and nothing was measured."""
 
 NEIGHBOURS = 8
-"""Samples that make one cell."""
+"""Samples from which a cell is computed."""
 
 DIFFERENCE_SCALE, AZIMUTH_SCALE = 0.8, 0.5
-"""How much theta_d and phi_d count against theta_h in the distance of samples.
+"""Weights of theta_d and phi_d relative to theta_h in the distance between samples.
 
-With eight neighbours, a sample that is left out is found again from the others to 4 % (median; the lacquer
-cayman) and 1.3 % (garnet red).
+With eight neighbours, the others predict a sample that is left out to 4 % in the median (the lacquer cayman)
+and 1.3 % (garnet red).
 """
 
 
@@ -53,10 +53,10 @@ def scattered_brdf(light_dir: Array, view_dir: Array, brdf: Array, spec: str) ->
     Notes
     -----
     Planes are fitted to the nearest samples (moving least squares) in the half and difference angles of
-    [Rusinkiewicz1998], where lobes lie still while the view moves. What is fitted is the logarithm of
-    reflectance times 4 n.l n.v / F, the density of facets that would explain it under a coat of index 1.5: it
-    hardly changes along theta_d, so that the few samples that hit a sharp peak tell about all its elevations.
-    A fit never leaves the range of its samples.
+    [Rusinkiewicz1998], where lobes stay in place while the view moves. The planes fit the logarithm of
+    reflectance times 4 n.l n.v / F, the density of facets that would explain it under a coat of index 1.5. It
+    hardly changes along theta_d, so the few samples that hit a sharp peak tell about all its elevations. A
+    fit never leaves the range of its samples.
     """
     bright = brdf.mean(axis=1) >= DARKEST
     if np.count_nonzero(bright) <= NEIGHBOURS:
@@ -68,7 +68,7 @@ def scattered_brdf(light_dir: Array, view_dir: Array, brdf: Array, spec: str) ->
     brightness = brdf.sum(axis=1)
     facets = np.log(brightness / _boundary(geometry.n_dot_l, geometry.n_dot_v, geometry.h_dot_l))
     hues = brdf / brightness[:, None]
-    # phi_d and pi - phi_d are mirror images: half of the azimuths tell the other half
+    # phi_d and pi - phi_d are mirror images: half of the azimuths give the other half
     half_angle = ((np.arange(SHAPE[0]) + 0.5) / SHAPE[0]) ** 2 * (np.pi / 2.0)
     difference_angle = (np.arange(SHAPE[1]) + 0.5)[:, None] / SHAPE[1] * (np.pi / 2.0)
     azimuth = (np.arange(SHAPE[2] // 2) + 0.5) / SHAPE[2] * np.pi
@@ -106,7 +106,7 @@ def _fit(points: Array, samples: Array, values: Array, hues: Array) -> tuple[Arr
     nearest = np.argpartition(squared, NEIGHBOURS, axis=1)[:, : NEIGHBOURS + 1]
     offset = samples[nearest] - points[:, None]
     distance = np.linalg.norm(offset, axis=2)
-    # The weight falls to (almost) nothing at the farthest, so that one sample leaves as the next comes
+    # The weight falls to (almost) 0 at the farthest sample, so that neighbours are replaced without a jump
     weight = (1.0 - 0.999 * distance / distance.max(axis=1, keepdims=True)) ** 2
     weight /= weight.sum(axis=1, keepdims=True)
     design = np.concatenate([np.ones_like(distance)[..., None], offset], axis=2)

@@ -14,14 +14,14 @@ from .tabulated import DEFAULT_SHAPE, Tabulated, cell_directions, fill_missing
 class FlatTable(Brdf):
     """A table that is flat towards grazing, where highlights are not.
 
-    A microfacet's highlight grows like 1 / (n.l n.v) towards the horizon, and lines between a table's cells
-    lie far above such a curve. What is interpolated here is the reflectance times (n.l + n.v)^2. Of GGX with
-    alpha 0.1 at 88 degrees, that takes the error of the albedo from 8.7 % to 1.2 %.
+    A microfacet's highlight grows like 1 / (n.l n.v) towards the horizon, and straight lines between a
+    table's cells lie far above such a curve. So the reflectance times (n.l + n.v)^2 is interpolated. For GGX
+    with alpha 0.1 at 88 degrees, this lowers the error of the albedo from 8.7 % to 1.2 %.
 
     Attributes
     ----------
     table : Tabulated
-        Of reflectance times (n.l + n.v)^2.
+        Reflectance times (n.l + n.v)^2.
     """
 
     table: Tabulated
@@ -41,7 +41,7 @@ class MeasuredMaterial(Brdf):
     ----------
     diffuse : Tabulated
     glossy : FlatTable
-        Neither is reciprocal: artists' materials, and renderers' layers, need not be.
+        Not reciprocal: artists' materials, and renderers' layers, need not be.
     spec : str
         The text that stands for the sum, ``blend:FILE.blend:NAME``.
     """
@@ -56,18 +56,18 @@ class MeasuredMaterial(Brdf):
 
     @property
     def layers(self) -> tuple[Brdf, ...]:
-        """The tables that are not black, or one that is."""
+        """The tables that are not black, or one if both are."""
         tables = ((self.diffuse, self.diffuse.table), (self.glossy, self.glossy.table.table))
         return tuple(layer for layer, table in tables if table.any()) or (self.diffuse,)
 
 
 def measured_pairs(least_cosine: float) -> tuple[Array, Array, NDArray[np.bool]]:
-    """What to measure for `measured_material`.
+    """Pairs of directions to measure for `measured_material`.
 
     Parameters
     ----------
     least_cosine : float
-        Of the angles between the normal and either direction.
+        Least cosine between the normal and either direction.
 
     Returns
     -------

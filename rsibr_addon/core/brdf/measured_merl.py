@@ -15,7 +15,7 @@ SCALE = np.array([1.0, 1.15, 1.66]) / 1500.0
 
 
 def below_horizon() -> NDArray[np.bool_]:
-    """Which cells have their centre below the horizon, shape `SHAPE`, bool: nothing can be measured there."""
+    """Whether each cell's centre is below the horizon, where nothing can be measured; bool, shape `SHAPE`."""
     light_dir, view_dir = cell_directions(SHAPE)
     return np.minimum(light_dir[..., 2], view_dir[..., 2]) <= 0.0
 

@@ -15,11 +15,10 @@ from .model import Brdf, Geometry
 class MeasuredRgl(Brdf):
     """An isotropic material of the database, in RGB.
 
-    Half vectors are warped to the unit square so that the normals which the view sees are spread
-    evenly; there the measurement, over the density of a light direction that is sampled so, is smooth.
-
-    Measured with light and view swapped it need not be the same: the model is as reciprocal as the data. The
-    product with n.l is finite at the horizon, the quotient that a call returns is not.
+    Half vectors are warped to the unit square so that the normals which the view sees are spread evenly.
+    There the measurement, divided by the density of a light direction sampled in this way, is smooth. The
+    model is as reciprocal as the data: measurements with light and view swapped may differ. The product with
+    n.l is finite at the horizon; the quotient that a call returns is not.
 
     Attributes
     ----------
@@ -31,7 +30,7 @@ class MeasuredRgl(Brdf):
         Density of visible normals in the unit square of azimuth (Y: a full turn, the view's own at 1/2)
         and u (X).
     weight : ndarray, shape (T, 3, H, W), float64
-        What a light direction is worth, at even steps of the warped square: at least 0.
+        Measurement over the density of the light direction, at even steps of the warped square; at least 0.
     spec : str
         The text that stands for it, `rgl:path=satin.bsdf` for example.
 
@@ -42,8 +41,8 @@ class MeasuredRgl(Brdf):
 
     Notes
     -----
-    [Dupuy2018]. The direction that the measurement holds still is taken as the view, so that one of its
-    slices is one view's lobe.
+    [Dupuy2018]. The direction that the measurement keeps fixed is taken as the view, so that a slice is one
+    view's lobe.
     """
 
     theta_v: Array

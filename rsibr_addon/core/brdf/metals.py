@@ -10,9 +10,10 @@ METALS = {
     "nickel": Index(eta=(1.9880, 1.7576, 1.6153), k=(3.7949, 3.2247, 2.5871)),
     "silver": Index(eta=(0.1292, 0.1232, 0.1519), k=(4.0911, 3.3042, 2.3724)),
 }
-"""Published optical constants n and k, each taken as a spectrum and made a colour.
+"""Published optical constants n and k, each converted from a spectrum to a colour.
 
 `rec709_from_spectrum` of the constants from 380 to 780 nm in steps of 1 nm, linear between the tables' own
 wavelengths. Reflectances from these stay within 0.03 of the colour of the metal's spectral reflectance, where
-that is in the gamut, from normal to grazing incidence; and within [0, 1] where gold's red is not.
+that is in the gamut, from normal to grazing incidence; where gold's red is outside it, they stay within
+[0, 1].
 """

@@ -1,4 +1,4 @@
-"""What every reflectance model is: a function of a light and a view direction above a surface."""
+"""The base of every reflectance model: a function of a light and a view direction above a surface."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
@@ -12,7 +12,7 @@ from ..geometry.directions import dot
 from .parameters import Checked
 
 type BrdfFunction = Callable[[Array, Array], Array]
-"""Anything that is called as a `Brdf` is: light and view directions (..., 3) to (..., 3) [1/sr]."""
+"""A function called like a `Brdf`: from light and view directions (..., 3) to (..., 3) [1/sr]."""
 
 
 @dataclass(frozen=True)
@@ -71,8 +71,8 @@ class Geometry:
 class Brdf(Checked, ABC):
     """A bidirectional reflectance distribution function.
 
-    Isotropic, and reciprocal unless the model says otherwise. Models are frozen dataclasses; what
-    they hold is named in their spec (see `spec.py`).
+    It is isotropic, and reciprocal unless the model says otherwise. Models are frozen dataclasses; their spec
+    names their fields (see `spec.py`).
     """
 
     def __call__(self, light_dir: ArrayLike, view_dir: ArrayLike) -> Array:
@@ -102,10 +102,10 @@ class Brdf(Checked, ABC):
 
     @property
     def layers(self) -> tuple["Brdf", ...]:
-        """Models whose sum this is, each of which has one kind of lobe; itself alone for most."""
+        """Models whose sum this is, each with one kind of lobe; most models return themselves alone."""
         return (self,)
 
     @property
     def is_noisy(self) -> bool:
-        """Whether it differs from one elevation to the next by errors of a measurement."""
+        """Whether errors of measurement make it differ from one elevation to the next."""
         return False

@@ -9,12 +9,12 @@ import numpy as np
 from ..errors import RangeError
 
 type Color = float | tuple[float, float, float]
-"""A parameter for linear Rec. 709 red, green and blue; a number alone is a grey, and kept as three."""
+"""A parameter for linear Rec. 709 red, green and blue; a single number is a grey, and kept as three."""
 
 
 @dataclass(frozen=True)
 class Range:
-    """What a number may be: from `low`, which itself is left out when `low_open`, to `high`."""
+    """The range of a number: from `low`, excluded when `low_open`, to `high`."""
 
     low: float
     high: float = np.inf
@@ -37,7 +37,8 @@ def parameter_ranges(owner: type) -> dict[str, tuple[Range, bool]]:
     Parameters
     ----------
     owner : type
-        A dataclass; its fields ``Annotated[float, Range(...)]`` and ``Annotated[Color, Range(...)]`` count.
+        A dataclass; only its fields ``Annotated[float, Range(...)]`` and ``Annotated[Color, Range(...)]`` are
+        returned.
 
     Returns
     -------

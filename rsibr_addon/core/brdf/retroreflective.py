@@ -13,7 +13,7 @@ from .phong import cosine_lobe
 
 @dataclass(frozen=True, kw_only=True)
 class Retroreflective(Brdf):
-    """Light sent back to where it came from: ks (n + 2) / 2pi max(0, light . view)^n.
+    """Light reflected back to its source: ks (n + 2) / 2pi max(0, light . view)^n.
 
     Modified Phong with the light on the other side of the normal, so its albedo is the same.
 

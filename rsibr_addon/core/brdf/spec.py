@@ -39,7 +39,7 @@ from .tabulated import Tabulated
 from .ward import Ward
 
 type ReadMeasured = Callable[[str, str], Brdf]
-"""What gets a measured model: from its format, one of `MEASURED`, and its path."""
+"""Reads a measured model: from its format, one of `MEASURED`, and its path."""
 
 MODELS: dict[str, type[Brdf]] = {
     owner.model: owner
@@ -50,10 +50,10 @@ MODELS: dict[str, type[Brdf]] = {
 """Name -> model whose parameters are the spec's keys."""
 
 MEASURED = ("merl", "cornell", "rgl")
-"""Names of the formats of measured models, whose only key is path: all that follows it."""
+"""Formats of measured models; their only key is path, which takes the rest of the text."""
 
 DEEPEST = 8
-"""Models within each other."""
+"""Greatest depth of models within models."""
 
 A_MODEL = "a model in parentheses, as (lambert:kd=0.5)"
 _ALPHA = re.compile(r"(?<=[:,])\s*alpha\s*=[^,()]*")
@@ -66,7 +66,7 @@ def brdf_from_spec(spec: str, read_measured: ReadMeasured) -> Brdf:
     Parameters
     ----------
     spec : str
-        As above; blanks around names and values do not count.
+        As above; blanks around names and values are ignored.
     read_measured : callable
         Reads the models of `MEASURED`.
 
@@ -102,7 +102,7 @@ def spec_from_brdf(brdf: Brdf) -> str:
     Parameters
     ----------
     brdf : Brdf
-        Of `MODELS`, or measured.
+        One of `MODELS`, or measured.
 
     Returns
     -------
@@ -112,7 +112,7 @@ def spec_from_brdf(brdf: Brdf) -> str:
     Raises
     ------
     RangeError
-        The model is none that a text can describe.
+        No text can describe the model.
     """
     if isinstance(brdf, Tabulated | MeasuredRgl | MeasuredMaterial):
         return brdf.spec
@@ -130,7 +130,7 @@ def with_alpha(spec: str, alpha: float) -> str:
     spec : str
         As `brdf_from_spec` takes it.
     alpha : float
-        For every layer that has one.
+        Set in every layer that has one.
 
     Returns
     -------
@@ -150,7 +150,7 @@ def with_alpha(spec: str, alpha: float) -> str:
 
 
 def arguments_from_text(owner: type, text: str, read_measured: ReadMeasured) -> dict[str, Any]:
-    """What a model, or anything else with parameters like one's, is made from.
+    """Arguments of a model, or of anything else with parameters like a model's.
 
     Parameters
     ----------
@@ -164,7 +164,7 @@ def arguments_from_text(owner: type, text: str, read_measured: ReadMeasured) -> 
     Returns
     -------
     dict
-        Field -> its value, for all that the text gives; the others have defaults.
+        Field -> its value, for the fields that the text names; the others have defaults.
 
     Raises
     ------
@@ -238,7 +238,7 @@ def _number(owner: type, key: str, text: str) -> Color:
 
 
 def _taken(owner: type, key: str, kind: object) -> str:
-    """What a key takes, in words."""
+    """The values that a key takes, in words."""
     if kind is str:
         return "a name"
     if key not in parameter_ranges(owner):

@@ -14,24 +14,24 @@ REC709_FROM_XYZ = np.array(
         [0.06359480, -0.21456322, 1.15096842],
     ]
 )
-"""Linear Rec. 709 from CIE XYZ of which (1, 1, 1) is white, adapted to D65 [Lam1985]: rows sum to 1."""
+"""Linear Rec. 709 from CIE XYZ with (1, 1, 1) as white, adapted to D65 [Lam1985]: rows sum to 1."""
 
 LOBES = (
     ((1.056, 599.8, 0.0264, 0.0323), (0.362, 442.0, 0.0624, 0.0374), (-0.065, 501.1, 0.0490, 0.0382)),
     ((0.821, 568.8, 0.0213, 0.0247), (0.286, 530.9, 0.0613, 0.0322)),
     ((1.217, 437.0, 0.0845, 0.0278), (0.681, 459.0, 0.0385, 0.0725)),
 )
-"""Of x, y and z: height, centre [nm], and inverse widths [1/nm] below and above the centre."""
+"""Gaussians of x, y and z: height, centre [nm], and inverse widths [1/nm] below and above the centre."""
 
 STEP = 1.0
-"""[nm] between the points at which spectra are integrated."""
+"""[nm] Step of the integration of spectra."""
 
 VISIBLE = (360.0, 830.0)
-"""[nm] that the standard observer sees."""
+"""[nm] Wavelengths that the standard observer sees."""
 
 UNSEEN = 0.05
-"""Share of a colour-matching function beyond a spectrum's ends that is worth a warning; from 400 to 700 nm it
-is 0.005 at most."""
+"""Share of a colour-matching function beyond a spectrum's ends above which a warning is given; beyond 400 to
+700 nm it is 0.005 at most."""
 
 
 def color_matching(wavelength: ArrayLike) -> Array:
@@ -63,7 +63,7 @@ def color_matching(wavelength: ArrayLike) -> Array:
 
 
 def told_wavelengths(wavelength: ArrayLike, name: str) -> Array:
-    """The wavelengths of a file in nanometres, with warnings of what a colour cannot use.
+    """The wavelengths of a file in nanometres, with warnings of those that a colour cannot use.
 
     Parameters
     ----------
@@ -80,13 +80,13 @@ def told_wavelengths(wavelength: ArrayLike, name: str) -> Array:
     Raises
     ------
     RangeError
-        No eye sees any of them.
+        None of them is visible.
 
     Warns
     -----
     RsibrWarning
-        They are micrometres or metres by their size, and taken for that; some are beyond what is visible; or
-        they leave out a part of it.
+        By their size they are micrometres or metres, and are converted; some are not visible; or they leave
+        out a part of the visible range.
     """
     wavelength = np.asarray(wavelength, dtype=np.float64)
     for scale, unit in ((1e3, "micrometres"), (1e9, "metres")):
@@ -144,8 +144,8 @@ def rec709_from_spectrum(wavelength: ArrayLike, spectrum: ArrayLike) -> Array:
 
     Notes
     -----
-    Integrated against `color_matching` over the wavelengths that are given, as if nothing but them could
-    be seen, under a light of equal energy, and adapted to D65.
+    Integrated with `color_matching` over the given wavelengths, as if no others were visible, under a light
+    of equal energy, and adapted to D65.
     """
     wavelength = np.asarray(wavelength, dtype=np.float64)
     if wavelength.size < 2 or not np.all(np.diff(wavelength) > 0.0):

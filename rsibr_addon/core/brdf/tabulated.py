@@ -24,16 +24,16 @@ class Tabulated(Brdf):
     spec : str
         The text that stands for it, `merl:path=gold.binary` for example.
     reciprocal : bool
-        Whether azimuths phi_d + pi, at which light and view have changed places, show what phi_d
-        shows. Otherwise they show what 2 pi - (phi_d + pi) shows: an isotropic surface is symmetric about the
-        plane of normal and half vector.
+        Whether azimuths phi_d + pi, which swap light and view, have the values of phi_d. Otherwise they have
+        those of 2 pi - (phi_d + pi): an isotropic surface is symmetric about the plane of normal and half
+        vector.
     scattered : bool
-        Whether it is made of few samples, whose errors it spreads over cells.
+        Whether it is made of few samples, whose errors spread over cells.
 
     Raises
     ------
     ShapeError
-        The table has not four axes, the last of three channels.
+        The table does not have four axes, the last with three channels.
 
     Notes
     -----
@@ -86,8 +86,8 @@ def cell_directions(shape: tuple[int, int, int]) -> tuple[Array, Array]:
     Returns
     -------
     light_dir, view_dir : ndarray, shape (H, D, P, 3), float64
-        Unit vectors; many are below the horizon, for which a table has no use. The half vector lies in
-        the x-z plane.
+        Unit vectors; many are below the horizon, where a table is not used. The half vector lies in the x-z
+        plane.
     """
     half, difference, azimuth = ((np.arange(cells) + 0.5) / cells for cells in shape)
     theta_h = half[:, None, None] ** 2 * (np.pi / 2.0)
@@ -144,7 +144,7 @@ def half_difference_angles(geometry: Geometry) -> tuple[Array, Array, Array]:
 
 
 def fill_missing(table: Array) -> Array:
-    """Give cells without a value that of the nearest azimuth that has one.
+    """Fill cells without a value from the nearest azimuth that has one.
 
     Parameters
     ----------
@@ -154,8 +154,8 @@ def fill_missing(table: Array) -> Array:
     Returns
     -------
     ndarray, shape (H, D, P, 3)
-        The same where there is a value; 0 where all azimuths lack one. Cells just below the horizon
-        then do not darken those just above when a table is interpolated.
+        The table where there is a value; 0 where all azimuths lack one. Interpolation then does not darken
+        cells just above the horizon by those just below.
     """
     missing = np.isnan(table).any(axis=3)
     cells = np.broadcast_to(np.arange(table.shape[2]), missing.shape)

@@ -9,7 +9,7 @@ from ..errors import RangeError
 from .directions import camera_frame, normalize
 
 ORTHOGRAPHIC_DISTANCE = 2.0
-"""Where an orthographic camera stands; any distance above 1 gives the same picture."""
+"""Distance of an orthographic camera; any above 1 gives the same picture."""
 
 
 @dataclass(frozen=True)

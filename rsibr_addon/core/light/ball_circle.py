@@ -13,7 +13,7 @@ from ..ties import TIE, first_greatest, greatest_first
 type ComplexArray = NDArray[np.complexfloating[Any]]
 
 SMALLEST, LARGEST = 0.25, 0.75
-"""Radii that are looked for, as shares of the photograph's shorter side."""
+"""Least and greatest radius of a ball, as shares of the photograph's shorter side."""
 
 COARSE = 96
 """Longer side of the smallest picture, in which all circles are tried."""
@@ -25,13 +25,13 @@ KEPT = 6
 """Circles that are followed into larger pictures: reflections near the outline are nearly circles, too."""
 
 POINTS = 128
-"""On a circle."""
+"""Points on a circle at which edges are compared."""
 
 FAINT = 0.02
-"""Steps between pixels two apart that count half as edges, of white."""
+"""[white] Step between pixels two apart that counts half as an edge."""
 
 CLEAR = 0.32
-"""Score that a ball must reach; noise, blurred or not, reaches 0.26."""
+"""Least score of a ball; noise, blurred or not, reaches 0.26."""
 
 
 @dataclass(frozen=True)
@@ -81,13 +81,13 @@ def find_circle(photograph: Array) -> tuple[Circle, float]:
 
     Notes
     -----
-    For all circles of a grid in a small picture, then for neighbours of the few best in larger ones, the
-    mean over the circle of cos 2 phi, where phi is the angle between the brightness's gradient and
-    the radius; faint gradients count less. Edges along the circle give 1, edges across it -1, anything
-    at random 0; how bright the ball and what is behind it are makes no difference, nor which is the
-    brighter. Like [Daugman1993]'s operator for irises, but of directions. The smaller a circle, the
-    likelier it meets with edges by chance: the mean is weighted with the root of the diameter over
-    the photograph's shorter side.
+    The score is the mean over a circle of cos 2 phi, where phi is the angle between the brightness's gradient
+    and the radius; faint gradients count less. It is taken for all circles of a grid in a small picture, then
+    for neighbours of the few best in larger pictures. Edges along the circle give 1, edges across it -1,
+    random ones 0. The brightness of the ball and of what is behind it makes no difference, nor does it matter
+    which is brighter. [Daugman1993]'s operator for irises is alike, but for brightness, not directions. A
+    smaller circle is more likely to meet edges by chance, so the mean is weighted with the root of the
+    diameter over the photograph's shorter side.
     """
     grey: Array = photograph.astype(np.float64).mean(axis=-1)
     shrunk = 1.0
@@ -98,7 +98,7 @@ def find_circle(photograph: Array) -> tuple[Circle, float]:
         pyramid.append(_halved(pyramid[-1]))
     edges = _radial_edges(pyramid[-1])
     found = _searched(edges)
-    # The smallest picture cannot tell the outline from the reflections beside it: a circle of each radius
+    # The smallest picture cannot tell the outline from the reflections beside it, so a circle of each radius
     # goes on to the next
     for picture in pyramid[-2::-1]:
         edges = _radial_edges(picture)
@@ -131,7 +131,7 @@ def _scores(edges: ComplexArray, circles: Array) -> Array:
     height, width = edges.shape
     angle = 2.0 * np.pi * np.arange(POINTS) / POINTS
     direction = np.exp(1j * angle)
-    # Straight above and beside a pixel's corner lie borders of pixels
+    # Straight above and beside a pixel's corner lie borders between pixels
     column = np.floor(circles[:, :1] + circles[:, 2:] * direction.real + TIE).astype(np.intp)
     row = np.floor(circles[:, 1:2] + circles[:, 2:] * direction.imag + TIE).astype(np.intp)
     within = (column >= 0) & (column < width) & (row >= 0) & (row < height)
@@ -163,7 +163,7 @@ def _best(edges: ComplexArray, circles: Array) -> Array:
 
 
 def _climbed(edges: ComplexArray, start: Array, step: float = 1.0) -> Array:
-    """The best circle uphill from `start`, in steps of so many pixels."""
+    """The best circle uphill from `start`, in steps of a given number of pixels."""
     offsets = step * np.stack(np.meshgrid(*3 * [np.arange(-2.0, 3.0)]), axis=-1).reshape(-1, 3)
     offsets = offsets[np.argsort(np.abs(offsets).sum(axis=-1), kind="stable")]
     best = start

@@ -14,25 +14,24 @@ from .ball_circle import Circle
 from .exposure.motion import looked_up, pixel_points
 
 SHARPNESS = 4.0
-"""Power of a ball's resolution that it is weighted with: the sharper one shows, but for a smooth change."""
+"""Power of a ball's resolution that is its weight: the sharper ball shows, and changes are smooth."""
 
 FAINT = 1e-6
-"""Weight of the camera's reflection, in proportion: it shows where no other ball shows anything."""
+"""Relative weight of the camera's reflection: it shows only where no other ball shows anything."""
 
 
 @dataclass(frozen=True, eq=False)
 class BallSide:
-    """What one photograph of a ball shows, and where it was taken from.
+    """A photograph of a ball, and the place of its camera.
 
     Attributes
     ----------
     picture : ndarray, shape (size, size, 3)
         Radiance; the square touches the ball's outline. Row 0 at the bottom.
     turn : float
-        How far the camera stood around the ball, counterclockwise seen from above; at 0 it looks
-        along +Y [rad].
+        Angle of the camera around the ball, counterclockwise seen from above; at 0 it looks along +Y [rad].
     elevation : float
-        How far it looked down on the ball, in (-pi/2, pi/2) [rad].
+        Angle by which it looked down on the ball, in (-pi/2, pi/2) [rad].
     distance : float
         From the ball's centre to the camera, in radii of the ball; infinite for a camera far away.
     """
@@ -57,7 +56,7 @@ class BallSide:
 
 
 def distance_from_view(circle: Circle, side: float, field_of_view: float) -> float:
-    """How far a camera was from a ball, by how large the ball is in its photograph.
+    """Distance of a camera from a ball, from the ball's size in its photograph.
 
     Parameters
     ----------
@@ -71,8 +70,8 @@ def distance_from_view(circle: Circle, side: float, field_of_view: float) -> flo
     Returns
     -------
     float
-        From the ball's centre, in its radii. The line of sight that touches the ball is at the angle
-        arcsin(1 / distance) from the one through its centre.
+        Distance from the ball's centre, in its radii. The line of sight that touches the ball is at the angle
+        arcsin(1 / distance) from the line through its centre.
     """
     focal_length = 0.5 * side / np.tan(0.5 * field_of_view)
     return float(np.hypot(1.0, focal_length / circle.radius))
@@ -86,12 +85,12 @@ def cut_ball(photograph: Array, circle: Circle, size: int) -> Array:
     photograph : ndarray, shape (height, width, 3)
     circle : Circle
     size : int
-        Of the square to make [pixels].
+        Width and height of the square [pixels].
 
     Returns
     -------
     ndarray, shape (size, size, 3), float64
-        Bilinear; beyond the photograph, what its edge shows.
+        Interpolated bilinearly; beyond the photograph its edge is repeated.
     """
     height, width = photograph.shape[:2]
     middle = complex(circle.x - 0.5 * width, circle.y - 0.5 * height)
@@ -99,7 +98,7 @@ def cut_ball(photograph: Array, circle: Circle, size: int) -> Array:
 
 
 def environment_from_balls(sides: Sequence[BallSide], size: int, camera_angle: float) -> tuple[Array, Array]:
-    """Unwrap photographs of a ball, and put those from several sides together.
+    """Unwrap photographs of a ball from one or more sides, and merge them.
 
     Parameters
     ----------
@@ -107,15 +106,15 @@ def environment_from_balls(sides: Sequence[BallSide], size: int, camera_angle: f
     size : int
         Width of the environment in texels, even.
     camera_angle : float
-        Half-angle of the cone about the direction of a camera in which its reflection shows, and
-        that of who holds it [rad], from 0.
+        Half-angle of the cone about a camera's direction that shows the reflection of the camera and of its
+        user [rad], from 0.
 
     Returns
     -------
     radiance : ndarray, shape (size / 2, size, 3), float64
         A latitude-longitude map, in the first photograph's scale.
     gains : ndarray, shape (sides,)
-        What each photograph was multiplied by to agree with the first.
+        Factors that made the photographs agree with the first.
 
     Raises
     ------
@@ -125,10 +124,10 @@ def environment_from_balls(sides: Sequence[BallSide], size: int, camera_angle: f
 
     Notes
     -----
-    A distant camera sees every direction in equally many pixels, but the further from the camera
-    the narrower they get: across, the picture resolves cos(alpha / 2) of what it does at the middle,
-    alpha being the angle from the camera's direction. The weights are a power of that, which falls to
-    0 at the edge of the blind spot, and fade out towards the camera's own reflection.
+    A distant camera sees equal solid angles in equal areas, but away from the camera these get narrow:
+    across, the resolution is cos(alpha / 2) times that in the middle, alpha being the angle from the camera's
+    direction. The weights are a power of that, which falls to 0 at the edge of the blind spot, and fade out
+    towards the camera's own reflection.
     """
     equirect = representation("equirect")
     directions = equirect.texel_directions(size)[0]
@@ -146,13 +145,13 @@ def environment_from_balls(sides: Sequence[BallSide], size: int, camera_angle: f
 
 
 def _weight(ball: Representation, directions: Array, camera_angle: float) -> Array:
-    """How much a photograph counts in each direction, above 0."""
+    """Weight of a photograph in each direction, above 0."""
     angle = np.arccos(np.clip(dot(directions, ball.frame[:, 2]), -1.0, 1.0))
     shown = np.clip(angle / (np.pi - ball.blind_angle), 0.0, 1.0)
     fading = np.clip(angle / max(camera_angle, 1e-9) - 1.0, 0.0, 1.0)
     beside_camera = fading * fading * (3.0 - 2.0 * fading)
     weight: Array = np.cos(0.5 * np.pi * shown) ** SHARPNESS * np.maximum(beside_camera, FAINT)
-    # In its blind spot a photograph has what its outline shows: better than nothing
+    # In its blind spot a photograph repeats its outline: better than nothing
     return np.maximum(weight, FAINT * FAINT)
 
 
@@ -167,6 +166,6 @@ def _gain(first: Array, other: Array, weight: Array) -> float:
         )
     ratio, weight = brightness[usable] / other_brightness[usable], weight[usable]
     order = np.argsort(ratio, kind="stable")
-    # Between two that share the middle, as even weights have them, neither is chosen
+    # With even weights two ratios may share the middle: their mean prefers neither
     below = np.cumsum(weight[order]) - 0.5 * weight[order]
     return float(np.interp(0.5 * weight.sum(), below, ratio[order]))

@@ -14,7 +14,7 @@ type ComplexArray = NDArray[np.complexfloating[Any]]
 """Points or vectors x + i y of the plane."""
 
 NOISE = 0.03
-"""Steps between pixels two apart that count half as edges, of white."""
+"""[white] Step between pixels two apart that counts half as an edge."""
 
 FINEST = 1536
 """Longer side of the pictures in which movements are looked for: a larger one is shrunk."""

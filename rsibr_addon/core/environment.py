@@ -19,11 +19,11 @@ class Environment:
     radiance : ndarray, shape (height, 2 * height, 3), float32
         Scene-linear Rec. 709 radiance, finite and not negative; row 0 looks down (-Z).
     name : str
-        What a person calls it, for reports: a file's name, or a world's.
+        Its name for reports: that of a file, or of a world.
     sha256 : str
         Hash of the radiance as little-endian float32 in the order above.
     clamp : float or None
-        What brighter radiance was taken as; None where all was kept.
+        Value that replaced brighter radiance; None where all was kept.
     """
 
     radiance: Array
@@ -51,7 +51,7 @@ def environment_from_pixels(pixels: Array, name: str, clamp: float | None = None
     Returns
     -------
     Environment
-        Of `usable_radiance`.
+        With the radiance of `usable_radiance`.
 
     Raises
     ------
@@ -73,7 +73,7 @@ def environment_from_pixels(pixels: Array, name: str, clamp: float | None = None
 
 
 def usable_radiance(pixels: Array, name: str, clamp: float | None = None) -> Array:
-    """Make radiance of what a picture holds.
+    """Make a picture's values usable as radiance.
 
     Parameters
     ----------
@@ -86,9 +86,9 @@ def usable_radiance(pixels: Array, name: str, clamp: float | None = None) -> Arr
     Returns
     -------
     ndarray, shape of `pixels`, float32
-        At least 0 and finite: `pixels` itself, where it is such; what is above `clamp` is `clamp`, or without
-        it what is infinite, as a sun that half floats cannot hold, the greatest finite value; NaN and what is
-        negative, which no light is, is 0.
+        At least 0 and finite; `pixels` itself, where it already is. Values above `clamp` become `clamp`.
+        Without it infinite values, such as a sun that half floats cannot hold, become the greatest finite
+        value. NaN and negative values, which no light has, become 0.
 
     Raises
     ------

@@ -7,7 +7,7 @@ traceback.
 
 
 class RsibrError(Exception):
-    """Something a user can put right; the message says what and how."""
+    """Something that a user can put right; the message says what and how."""
 
 
 class RangeError(RsibrError):
@@ -15,7 +15,7 @@ class RangeError(RsibrError):
 
 
 class ShapeError(RsibrError):
-    """An array has not the shape that its function states."""
+    """An array does not have the shape that its function states."""
 
 
 class SchemaError(RsibrError):

@@ -1,4 +1,4 @@
-"""Whether floats of 16 bits can hold light: neither too bright for them nor too dark."""
+"""Whether floats of 16 bits can hold light that may be very bright or very dark."""
 
 from collections.abc import Sequence
 
@@ -7,10 +7,10 @@ import numpy as np
 from .conventions import Array
 
 PRECISION = 1e-3
-"""Relative error that is allowed; 11 significant bits keep half of it."""
+"""Allowed relative error; 11 significant bits keep half of it."""
 
 DARKNESS = 1e-3
-"""Of the mean: darker values may err as much as one of this."""
+"""Share of the mean; darker values may have the absolute error of a value of this size."""
 
 
 def half_holds(maps: Sequence[Array]) -> bool:
@@ -19,13 +19,14 @@ def half_holds(maps: Sequence[Array]) -> bool:
     Parameters
     ----------
     maps : sequence of ndarray
-        Of any shapes, finite.
+        Arrays of any shapes, finite.
 
     Returns
     -------
     bool
-        Rounding changes no value by more than `PRECISION` of itself, or of `DARKNESS` of the mean magnitude:
-        from 65520 on half floats are infinite, below 6e-5 they get coarser, and below 3e-8 they are 0.
+        Rounding changes no value by more than `PRECISION` of itself, or of `DARKNESS` times the mean
+        magnitude. From 65520 on half floats are infinite, below 6e-5 they get coarser, and below 3e-8 they
+        are 0.
     """
     count = sum(pixels.size for pixels in maps)
     mean = sum(float(np.sum(np.abs(pixels), dtype=np.float64)) for pixels in maps) / count
@@ -33,7 +34,7 @@ def half_holds(maps: Sequence[Array]) -> bool:
 
 
 def _held(pixels: Array, floor: float) -> bool:
-    # The largest, 65504, is what suns are clipped to: with the last bit of a mean it may be a little more
+    # Suns are clipped to the largest, 65504: with the last bit of a mean a value may be a little above
     with np.errstate(over="ignore"):
         error = np.abs(pixels.astype(np.float16).astype(np.float32) - pixels)
     return bool(np.all(error <= PRECISION * np.maximum(np.abs(pixels), floor)))

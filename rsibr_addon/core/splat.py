@@ -1,10 +1,10 @@
-"""The power of one map, laid down on the texels of another by the area that they share.
+"""The power of one map, splatted onto the texels of another by the area that they share.
 
-A texel stands for a constant radiance over its solid angle. Seen on a sheet of another map it is nearly a
-parallelogram: its middle is where its centre falls, its edges reach half-way to where its neighbours'
-centres fall. Its solid angle is divided among the texels beneath by the parts of the parallelogram that
-lie on each, exactly. A texel that is larger than those beneath is quartered until it is not. All of it is
-laid down somewhere, so that power is kept to the last digits, whatever the maps.
+A texel has constant radiance over its solid angle. On a sheet of another map it is nearly a parallelogram:
+its middle is where its centre falls, and its edges reach half-way to its neighbours' centres. Its solid angle
+is divided exactly among the texels beneath, by the parts of the parallelogram that lie on each. A texel that
+is larger than those beneath is quartered until it is not. All of it goes somewhere, so power is kept to the
+last digits in all maps.
 """
 
 from dataclasses import dataclass
@@ -18,10 +18,10 @@ from .maps.representation import Representation
 from .ties import TIE
 
 BLOCK = 1 << 17
-"""Texels at a time, so that what is known of them takes some 50 MB, however large the map."""
+"""Texels at a time, so that their data take some 50 MB however large the map is."""
 
 DEEPEST = 4
-"""Quarterings at most, for a texel around a pole or on a rim that is a single direction."""
+"""Most quarterings of a texel around a pole, or on a rim that is a single direction."""
 
 
 @dataclass(frozen=True)
@@ -31,10 +31,10 @@ class _Texels:
     Attributes
     ----------
     uv : ndarray, shape (grids, rows, columns, 2)
-        Their centres on their own map.
+        The texels' centres on their own map.
     sheet : ndarray of int, shape (grids, rows, columns)
     step : ndarray, shape (2,)
-        Their width and height in uv.
+        The texels' width and height in uv.
     solid_angle : ndarray, shape (grids, rows, columns)
         [sr]
     radiance : ndarray, shape (grids, rows, columns, channels)
@@ -177,7 +177,7 @@ class Deposit:
         edges : ndarray, shape (2, 2, M)
             Two vectors of x and y.
         extent : ndarray, shape (2, M)
-            Of the parallelogram along x and y, at most 1.
+            Width and height of the parallelogram along x and y, at most 1.
         sheet : ndarray of int, shape (M,)
         weight : ndarray, shape (M,)
             [sr]
@@ -186,7 +186,7 @@ class Deposit:
         texel = centre.astype(np.intp)
         np.minimum(texel, [[self._width - 1], [self._height - 1]], out=texel)
         own = (sheet * self._height + texel[1]) * self._width + texel[0]
-        # So small a parallelogram reaches over one line beside its centre and one above or below at most.
+        # So small a parallelogram crosses at most one line beside its centre and one above or below.
         within = centre - texel
         distance = np.minimum(within, 1.0 - within)
         reaches = distance < 0.5 * extent
@@ -221,7 +221,7 @@ class Deposit:
 
 
 def parts_beyond(distance: Array, edges: Array) -> Array:
-    """How a parallelogram is divided by a vertical line right of its centre and a horizontal one above.
+    """Parts of a parallelogram beyond a vertical line right of its centre, and a horizontal one above.
 
     Parameters
     ----------

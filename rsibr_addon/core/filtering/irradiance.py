@@ -1,9 +1,9 @@
 """Irradiance: from a few spherical harmonics, and exactly.
 
-Irradiance is the environment filtered with the cosine lobe. That lobe is so wide that harmonics up to
-degree 2, nine numbers for each channel, give it within a few per cent [Ramamoorthi2001], as
-[Kautz2004] section 4.1 uses them; degree 4 is closer still. The lobe's kink at the horizon keeps harmonics
-from ever being exact, so the exact sum over all texels is made otherwise.
+Irradiance is the environment filtered with the cosine lobe. That lobe is so wide that harmonics up to degree
+2, nine numbers for each channel, give it within a few per cent [Ramamoorthi2001], as [Kautz2004] section 4.1
+uses them; degree 4 is closer still. The lobe's kink at the horizon keeps harmonics from ever being exact, so
+the exact sum over all texels takes another way.
 
 >>> harmonics = analyse_environment(environment.radiance, degree=2)
 >>> irradiance = irradiance_from_harmonics(harmonics.real(2), normals)
@@ -68,7 +68,7 @@ def irradiance_from_harmonics(coefficients: ArrayLike, normal: ArrayLike) -> Arr
     Parameters
     ----------
     coefficients : array_like, shape ((degree + 1)**2, channels)
-        Of `real_harmonics`: nine for degree 2.
+        Coefficients of `real_harmonics`: nine for degree 2.
     normal : array_like, shape (..., 3)
         Unit vectors.
 
@@ -98,7 +98,7 @@ def irradiance_matrix(coefficients: ArrayLike) -> Array:
     Parameters
     ----------
     coefficients : array_like, shape (9, channels)
-        Of `real_harmonics`.
+        Coefficients of `real_harmonics`.
 
     Returns
     -------
@@ -137,7 +137,7 @@ def turned_harmonics(coefficients: Array, rotation: Array) -> Array:
     Parameters
     ----------
     coefficients : ndarray, shape (9, channels)
-        Of `real_harmonics`.
+        Coefficients of `real_harmonics`.
     rotation : ndarray, shape (3, 3)
         New directions from old ones.
 
@@ -147,8 +147,8 @@ def turned_harmonics(coefficients: Array, rotation: Array) -> Array:
 
     Notes
     -----
-    A turned harmonic is a sum of those of its own degree. So what nine functions say in more than nine
-    directions determines the new coefficients exactly.
+    A turned harmonic is a sum of those of its own degree. So the values of nine functions in more than nine
+    directions determine the new coefficients exactly.
     """
     direction = normalize(np.stack(np.meshgrid(*3 * [[-1.0, 0.3, 0.8]]), axis=-1).reshape(-1, 3))
     radiance = real_harmonics(direction @ rotation, 2) @ coefficients
@@ -202,7 +202,7 @@ def irradiance_exact(radiance: Array, normal: ArrayLike) -> Array:
         # Columns run against phi; the first whose centre is inside, and the first beyond.
         first = np.ceil(width * (0.5 - (azimuth + half_arc) / (2.0 * np.pi)) - 0.5).astype(np.intp)
         beyond = np.ceil(width * (0.5 - (azimuth - half_arc) / (2.0 * np.pi)) - 0.5).astype(np.intp)
-        # A row that is lit all around has no ends: what rounding makes of them could drop the texel there.
+        # A row that is lit all around has no ends: rounded ends could drop the texel there.
         beyond = np.where(edge <= -1.0, first + width, beyond)
         lap = beyond // width - first // width
         arc = running[beyond % width] - running[first % width] + lap[:, None, None] * running[-1]

@@ -94,7 +94,7 @@ def mirror_normal(view_dir: ArrayLike, mirror_dir: ArrayLike) -> Array:
 
 
 def refract(view_dir: ArrayLike, normal: ArrayLike, eta: float) -> Array:
-    """Direction in which an eye sees on through a surface that refracts.
+    """Direction in which an eye sees through a refracting surface.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def transformed_normal(matrix: ArrayLike, normal: ArrayLike) -> Array:
     Parameters
     ----------
     matrix : array_like, shape (..., 3, 3)
-        What the points are multiplied by; it may mirror, and flatten.
+        Matrix that transforms the points; it may mirror and flatten.
     normal : array_like, shape (..., 3)
 
     Returns
@@ -138,9 +138,9 @@ def transformed_normal(matrix: ArrayLike, normal: ArrayLike) -> Array:
 
     Notes
     -----
-    The matrix's cofactors are its inverse, transposed, times its determinant; they are there also where a
-    scale is 0. GLSL twin: gpu_shaders/lib/directions_lib.glsl `transformed_normal`, 1e-6 of the product of
-    the columns' lengths.
+    The matrix's cofactors are its inverse, transposed, times its determinant; they exist even where a scale
+    is 0. GLSL twin: gpu_shaders/lib/directions_lib.glsl `transformed_normal`, 1e-6 of the product of the
+    columns' lengths.
     """
     matrix = np.asarray(matrix, dtype=np.float64)
     columns = np.moveaxis(matrix, -1, 0)

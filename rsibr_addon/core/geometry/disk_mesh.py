@@ -14,9 +14,9 @@ from ..conventions import Array, ArrayLike, Indices
 RINGS = 32
 SECTORS = 64
 MARGIN = 1.25
-"""Radius of the outermost vertices: the disk is drawn beyond its rim, whose texture coordinates
-are kept, so that bilinear lookups at the rim find the rim's own radiance. That much covers the
-texels that such a lookup can reach, a diagonal beyond the rim, of maps of 12 texels or more."""
+"""Radius of the outermost vertices. The disk is drawn beyond its rim, with the rim's texture coordinates, so
+that bilinear lookups at the rim find the rim's own radiance. This margin covers the texels that such a lookup
+can reach, a diagonal beyond the rim, in maps of 12 texels or more."""
 
 
 @dataclass(frozen=True)
@@ -86,14 +86,14 @@ def interpolate(points: ArrayLike, values: ArrayLike) -> Array:
     Returns
     -------
     ndarray, shape (..., channels), float64
-        What a rasteriser interpolates at those points.
+        Values that a rasteriser interpolates at those points.
     """
     points = np.asarray(points, dtype=np.float64)
     values = np.asarray(values)
     step = 2.0 * np.pi / SECTORS
     angle = np.mod(np.arctan2(points[..., 1], points[..., 0]), 2.0 * np.pi)
     sector = np.minimum((angle / step).astype(np.intp), SECTORS - 1)
-    # Rings are polygons: a point's ring is told by its distance along the sector's bisector.
+    # Rings are polygons: the distance along the sector's bisector tells a point's ring.
     along = np.linalg.norm(points, axis=-1) * np.cos(angle - (sector + 0.5) * step) / np.cos(0.5 * step)
     ring = np.searchsorted(_ring_radii(), along, side="right") - 1
     corners = _corners(ring, sector)

@@ -14,7 +14,7 @@ from ..errors import RangeError
 from .directions import dot, normalize
 
 VERTEX_COUNTS = (12, 42, 162)
-"""Numbers of views that can be had: the icosahedron, once and twice subdivided."""
+"""Possible numbers of views: the icosahedron, once and twice subdivided."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class GeodesicSphere:
 
     @property
     def centres(self) -> Array:
-        """Towards the middles of the icosahedron's 20 triangles, all of one length, shape (20, 3)."""
+        """Vectors of equal length towards the middles of the icosahedron's 20 triangles, shape (20, 3)."""
         centres: Array = self.vertices[self.levels[0]].sum(axis=1)
         return centres
 

@@ -1,4 +1,4 @@
-"""A sphere of a material in an environment, exactly: what every approximation is to be held against.
+"""A sphere of a material in an environment, exactly: the reference for every approximation.
 
 Seen from afar, radiance depends on the normal alone. With the view as the pole, surface points of equal
 mu = n.v form a ring, and turning a point along its ring by an angle turns its whole reflectance about
@@ -27,7 +27,7 @@ _EQUIRECT = representation("equirect")
 
 @dataclass(frozen=True)
 class LitSphere:
-    """Radiance of a sphere seen from afar, by its normals; and so of anything convex seen from afar.
+    """Radiance of a sphere seen from afar, by its normals; it holds for anything convex seen from afar.
 
     Attributes
     ----------
@@ -52,8 +52,8 @@ class LitSphere:
         Returns
         -------
         ndarray, shape (..., 3), float64
-            Interpolated with a cubic through four rings, so that few of them will do, and linearly
-            along each.
+            Interpolated with a cubic through four rings, so that few rings are enough, and linearly along
+            each.
         """
         rings = len(self.radiance)
         uv = equirect.uv_from_direction(np.asarray(normal, dtype=np.float64) @ self.frame)
@@ -81,7 +81,7 @@ def lit_spheres(
     view_dirs : sequence of array_like, shape (3,)
         Unit vectors from the sphere to the camera.
     rings : int
-        R of each, at least 4.
+        Number R of rings of each sphere, at least 4.
 
     Yields
     ------
@@ -140,8 +140,8 @@ def ring_radiance(brdf: BrdfFunction, radiance: Array, mu: Sequence[float]) -> A
 
     Notes
     -----
-    Texels count as all their light at their centres, as in `core.filtering.prefilter`: repeat texels along
-    both axes for lobes that are not much wider. Brute force in disguise, to rounding.
+    All light of a texel is at its centre, as in `core.filtering.prefilter`: repeat texels along both axes for
+    lobes that are not much wider. The result is that of brute force, to rounding.
     """
     if not all(0.0 < cosine <= 1.0 for cosine in mu):
         raise RangeError(f"Elevations have cosines greater than 0 and at most 1, not all of {list(mu)}.")
@@ -150,7 +150,7 @@ def ring_radiance(brdf: BrdfFunction, radiance: Array, mu: Sequence[float]) -> A
 
 
 def environment_about(radiance: Array, frame: Array) -> Array:
-    """An environment as a map about a camera's view, which is where `ring_radiance` wants it.
+    """An environment as a map about a camera's view, as `ring_radiance` takes it.
 
     Parameters
     ----------
@@ -189,7 +189,7 @@ def _ring(brdf: BrdfFunction, spectrum: Complex, mu: float) -> Array:
 
 
 def _kernel_spectrum(brdf: BrdfFunction, mu: float, height: int) -> Array:
-    """Fourier transform along each row of what a texel counts for a point of a ring.
+    """Fourier transform along each row of a texel's weight for a point of a ring.
 
     Returns
     -------

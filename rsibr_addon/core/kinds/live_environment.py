@@ -1,7 +1,7 @@
-"""Light that changes while one looks: a cube map rendered around a point, filtered anew.
+"""Light that changes with the scene: a cube map rendered around a point, filtered after every change.
 
-[Kautz2004] section 5: six renders with a right angle of view, one for every face; nine harmonics of
-what they show for diffuse light, their mips for glossy light.
+[Kautz2004] section 5: six renders with a right angle of view, one for every face; their nine harmonics give
+diffuse light, their mips glossy light.
 """
 
 from collections.abc import Callable, Sequence
@@ -19,19 +19,19 @@ from .mip_chain.texture_space import filtered_mips
 FACE_COUNT = 6
 
 FLATNESS = 1e-4
-"""Of an object's reach: vertices that are no deeper below its outermost make a flat side."""
+"""Depth of a flat side's vertices below the outermost, relative to an object's reach."""
 
 LARGEST_TIP = 0.05
-"""Of an object's reach: outermost vertices that lie closer together are a tip, not a side."""
+"""Width of the largest tip, relative to an object's reach: wider outermost parts are flat sides."""
 
 TIP_SHOWN = 1e-5
-"""Of an object's reach: what of a round object is seen from its middle is a cap of a quarter degree."""
+"""Depth of a tip that is not cut off, relative to an object's reach: on a ball, a cap of 1/4 degree."""
 
 _CUBE = representation("cube_map")
 
 
 def chain_of_faces(faces: Array, halved: Callable[[Array], Array]) -> MipChain:
-    """What an object is shaded from, of six renders.
+    """The mip chain of six renders, from which an object is shaded.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def solid_angle_texels(size: int) -> Array:
     Parameters
     ----------
     size : int
-        Of the first mip, a power of 2.
+        Width of the first mip, a power of 2.
 
     Returns
     -------
@@ -152,7 +152,7 @@ def face_projection(near: float, far: float) -> Array:
 
 
 def near_distances(points: Array) -> Array:
-    """How far from an object's middle what surrounds it begins, on each face.
+    """Near distance of each face, at which an object's surroundings begin.
 
     Parameters
     ----------
@@ -162,7 +162,7 @@ def near_distances(points: Array) -> Array:
     Returns
     -------
     ndarray, shape (6,), float64
-        So that the object itself is cut off. On a side that is flat, just beyond it. On others just
+        Distances that cut the object itself off. On a flat side it is just beyond the object, on others just
         before the outermost point, so that a floor which the object touches is seen.
     """
     near = np.empty(FACE_COUNT)
@@ -176,20 +176,20 @@ def near_distances(points: Array) -> Array:
 
 
 def faces_within(budget: float, seconds_per_face: Sequence[float]) -> int:
-    """How many faces a frame may render.
+    """Number of faces that a frame may render.
 
     Parameters
     ----------
     budget : float
         [s] that a frame may spend.
     seconds_per_face : sequence of float
-        What a face took in late updates, with its share of the filtering; > 0.
+        Times of a face in late updates, with its share of the filtering; > 0.
 
     Returns
     -------
     int
-        1 to 6: one while nothing is known, and the budget by the median of what is, as a single update
-        may take long for other reasons, such as programs that are compiled.
+        1 to 6: one while no times are known, else the budget over their median, because a single update may
+        take long for other reasons, such as programs that are compiled.
     """
     if not seconds_per_face:
         return 1
@@ -198,16 +198,16 @@ def faces_within(budget: float, seconds_per_face: Sequence[float]) -> int:
 
 
 def faces_due(due: int, next_face: int, most: int) -> tuple[int, ...]:
-    """The faces that a frame renders: in turn, as many as are due and as it may.
+    """The faces that a frame renders, in turn: as many as are due and allowed.
 
     Parameters
     ----------
     due : int
-        How many faces are older than the scene.
+        Number of faces that are older than the scene.
     next_face : int
         The oldest of them.
     most : int
-        How many a frame may render.
+        Number of faces that a frame may render.
 
     Returns
     -------

@@ -9,7 +9,7 @@ from ..errors import RangeError
 from ..maps import cube_map
 
 MOST_GAIN = 64.0
-"""Photographs that seem to differ by more are taken to show different things."""
+"""Greatest gain: photographs that seem to differ by more show different things."""
 
 
 def edge_pairs(cube: Array) -> tuple[Indices, Indices, Array, Array]:
@@ -47,7 +47,7 @@ def balancing_gains(cube: Array, white: float) -> Array:
     cube : ndarray, shape (6, size, size, channels)
         Radiance, each face up to factors of its own.
     white : float
-        Values from this on are taken for saturated and count nothing; infinite for none.
+        Values from this on are taken for saturated and count nothing; infinite if none are.
 
     Returns
     -------
@@ -57,13 +57,13 @@ def balancing_gains(cube: Array, white: float) -> Array:
     Raises
     ------
     RangeError
-        Too little of the edges is neither black nor white to tell.
+        Too few texels of the edges are neither black nor white.
 
     Notes
     -----
-    For each channel, weighted least squares in the logarithm: the median ratio across each of the
-    twelve edges shall be the inverse ratio of the gains. A median because things near the camera
-    do not meet across an edge.
+    For each channel, weighted least squares in the logarithm: the median ratio across each of the twelve
+    edges shall be the inverse ratio of the gains. It takes a median because things near the camera do not
+    meet across an edge.
     """
     face, other, texel, across = edge_pairs(cube)
     usable = (texel > 0.0) & (across > 0.0) & (texel < white) & (across < white)

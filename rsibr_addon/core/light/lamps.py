@@ -1,4 +1,4 @@
-"""Lamps in an environment: light that is too small to be sampled, as energy in the texels that hold it.
+"""Lamps in an environment: sources too small to be sampled, as energy in the texels that hold them.
 
 [Miller1984] section 5.2: "For each point source, determine its direction and add the energy divided by
 distance squared into the illumination table."
@@ -28,7 +28,7 @@ class LampLight:
     directions : ndarray, shape (count, 3)
         Unit directions to equal parts of the lamp; one is enough for a point.
     irradiance : ndarray, shape (3,)
-        On a surface that faces the lamp, by all of it: for a point, its radiant intensity over distance
+        Irradiance on a surface that faces the whole lamp; for a point, its radiant intensity over distance
         squared.
     """
 
@@ -37,12 +37,12 @@ class LampLight:
 
 
 def directions_in_cap(axis: ArrayLike, half_angle: float, count: int) -> Array:
-    """Directions spread evenly over a cap of the sphere: a round lamp as it is seen.
+    """Directions spread evenly over a cap of the sphere, such as a round lamp covers.
 
     Parameters
     ----------
     axis : array_like, shape (3,)
-        Unit direction of its middle.
+        Unit direction of the cap's middle.
     half_angle : float
         [rad], in [0, pi].
     count : int
@@ -61,7 +61,7 @@ def directions_in_cap(axis: ArrayLike, half_angle: float, count: int) -> Array:
     if not 0.0 <= half_angle <= np.pi or count < 1:
         raise RangeError("A cap takes a half-angle from 0 to 180 degrees and at least one direction.")
     seed = np.arange(count) + 0.5
-    # 1 - cos, which is proportional to the solid angle within; as a square it keeps its digits.
+    # 1 - cos is proportional to the solid angle within; as a square it keeps its digits.
     rise = 2.0 * np.sin(0.5 * half_angle) ** 2 * seed / count
     radius = np.sqrt(rise * (2.0 - rise))
     turn = GOLDEN_ANGLE * seed
@@ -71,18 +71,18 @@ def directions_in_cap(axis: ArrayLike, half_angle: float, count: int) -> Array:
 
 
 def angular_width(directions: ArrayLike) -> float:
-    """How wide a lamp is seen.
+    """Angular width of a lamp.
 
     Parameters
     ----------
     directions : array_like, shape (count, 3)
-        Unit directions to parts of it.
+        Unit directions to parts of the lamp.
 
     Returns
     -------
     float
-        [rad]; twice the largest angle to their mean, up to 2 pi, which is also given for directions all
-        around, which have none.
+        [rad]; twice the largest angle to their mean, up to 2 pi. Directions all around have no mean and get 2
+        pi.
     """
     parts: Array = np.asarray(directions, dtype=np.float64)
     total = parts.sum(axis=0)
@@ -99,15 +99,14 @@ def add_lamps(radiance: Array, lamps: Iterable[LampLight]) -> Array:
     Parameters
     ----------
     radiance : ndarray, shape (height, width, 3)
-        What else there is.
+        All other light.
     lamps : iterable of LampLight
 
     Returns
     -------
     ndarray, shape (height, width, 3), float64
-        With the irradiance of each lamp, part by part, divided by the solid angle of the texel that
-        holds the part: so much radiance over the texel gives that irradiance, and so does whatever the
-        map is filtered to.
+        With the irradiance of each part of each lamp, divided by the solid angle of the texel that holds it.
+        This radiance over the texel gives that irradiance, and so does any filtered map.
     """
     height, width = radiance.shape[:2]
     energy = np.zeros((height * width, 3))

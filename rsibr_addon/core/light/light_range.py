@@ -1,4 +1,4 @@
-"""How bright and how dark a picture is."""
+"""The range of a picture's values."""
 
 from dataclasses import dataclass
 
@@ -7,19 +7,19 @@ import numpy as np
 from ..conventions import Array
 
 ROWS = 64
-"""That are looked at in one go."""
+"""Rows of a picture that are examined at once."""
 
 
 @dataclass(frozen=True)
 class LightRange:
-    """What a picture's values are.
+    """The range of a picture's values, and counts of special ones.
 
     Attributes
     ----------
     peak, dark_end : float
         The greatest finite value, and the least above 0; 0 where there is none.
     mean : float
-        Of the finite values from 0, as they lie in the picture.
+        Mean of the finite values from 0 on, over the picture's pixels.
     black, negative, infinite, undefined : int
         Values that are 0, below 0, infinite, and NaN.
     """
@@ -34,7 +34,7 @@ class LightRange:
 
 
 def light_range(picture: Array) -> LightRange:
-    """Look through a picture.
+    """Examine a picture's values.
 
     Parameters
     ----------

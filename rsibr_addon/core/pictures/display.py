@@ -1,7 +1,7 @@
-"""A display's look as a table: what radiance becomes on screen, looked up instead of computed.
+"""A display's look as a table, from radiance to the colour on screen.
 
-Blender alone knows its view transforms. Asked once for the colours at the table's nodes, it need not be
-asked again: between nodes the table is interpolated.
+Only Blender can compute its view transforms. It is asked once for the colours at the table's nodes; between
+nodes the table is interpolated.
 """
 
 import numpy as np
@@ -24,7 +24,7 @@ KNEE_RADIANCE = float(2.0 ** ((KNEE - NODE_OF_ONE) / NODES_PER_STOP))
 
 
 def node_radiance(node: ArrayLike) -> Array:
-    """The radiance that a node stands for.
+    """The radiance of a node.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def node_radiance(node: ArrayLike) -> Array:
 
 
 def node_from_radiance(radiance: ArrayLike) -> Array:
-    """The inverse of `node_radiance`; what lies outside the table gets its first or last node.
+    """The inverse of `node_radiance`; radiance outside the table gets its first or last node.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def table_radiance() -> Array:
     Returns
     -------
     ndarray, shape (TABLE_SIZE, TABLE_SIZE, TABLE_SIZE, 3), float64
-        At [blue, green, red], as a texture's texels lie.
+        Indexed [blue, green, red], in the order of a texture's texels.
     """
     nodes = node_radiance(np.arange(TABLE_SIZE))
     blue, green, red = np.meshgrid(nodes, nodes, nodes, indexing="ij")
@@ -78,7 +78,7 @@ def table_radiance() -> Array:
 
 
 def displayed(table: Array, radiance: ArrayLike) -> Array:
-    """What radiance looks like.
+    """Colours of radiance on a display.
 
     Parameters
     ----------
@@ -93,9 +93,9 @@ def displayed(table: Array, radiance: ArrayLike) -> Array:
 
     Notes
     -----
-    Interpolated in the tetrahedron of nodes that holds the colour [Kasson1995]: grey is between two
-    greys alone, where eight nodes would mix in coloured ones; view transforms have their kinks along it.
-    GLSL twin: gpu_shaders/lib/display_lib.glsl `displayed`.
+    Interpolated in the tetrahedron of nodes that holds the colour [Kasson1995]. So a grey lies between two
+    greys, along which view transforms have their kinks; interpolation of eight nodes would mix in coloured
+    ones. GLSL twin: gpu_shaders/lib/display_lib.glsl `displayed`.
     """
     place = node_from_radiance(radiance)
     corner = np.minimum(place.astype(np.intp), TABLE_SIZE - 2)

@@ -6,12 +6,12 @@ from ..conventions import Array, ArrayLike
 
 
 def heat(number: ArrayLike) -> Array:
-    """Black, red, yellow, white: as iron that is heated, and ever brighter.
+    """From black over red and yellow to white, like heated iron, and always brighter.
 
     Parameters
     ----------
     number : array_like, any shape
-        From 0, black, to 1, white; outside of it as at its ends.
+        From 0, black, to 1, white; values outside are clipped.
 
     Returns
     -------

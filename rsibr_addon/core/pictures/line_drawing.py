@@ -1,35 +1,35 @@
-"""Lines as pixels, with smooth edges: for plots where nothing shows vector drawings."""
+"""Lines as pixels, with smooth edges, for plots where vector drawings cannot be shown."""
 
 import numpy as np
 
 from ..conventions import Array, ArrayLike
 
 SPACING = 0.5
-"""Between the points that stand for a line, in pixels."""
+"""Distance between the points that sample a line, in pixels."""
 
 DASH, GAP = 7.0, 4.0
 """Lengths along a dashed line, in pixels."""
 
 
 def line_coverage(points: ArrayLike, shape: tuple[int, int], width: float, dashed: bool = False) -> Array:
-    """How much of each pixel a line covers.
+    """Share of each pixel that a line covers.
 
     Parameters
     ----------
     points : array_like, shape (N, 2)
-        Its corners, two or more: (x, y) in pixels from the top left corner of the picture, y downwards, as
-        in vector drawings; what lies outside is left out.
+        The line's corners, two or more: (x, y) in pixels from the top left corner of the picture, y
+        downwards, as in vector drawings. Parts outside the picture are left out.
     shape : tuple of two int
         Height and width of the picture.
     width : float
-        Of the line in pixels, at least 1.
+        Width of the line in pixels, at least 1.
     dashed : bool
 
     Returns
     -------
     ndarray, shape (height, width)
-        In [0, 1]; row 0 is the bottom row. A pixel counts by how far its centre is from the line: exactly
-        what a straight line along an axis covers, and nearly so at any other angle.
+        In [0, 1]; row 0 is the bottom row. Computed from the distance of a pixel's centre to the line: exact
+        for a straight line along an axis, nearly exact at other angles.
     """
     corners = np.asarray(points, dtype=np.float64)
     along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(corners, axis=0), axis=1))])

@@ -39,8 +39,8 @@ def analyse_environment(radiance: Array, degree: int, texels: Texels = "points")
 
     Notes
     -----
-    Fourier transforms along longitude (equation 5) and colatitude (7, 8) reduce the map to
-    degree + 1 rings without loss; there a matrix product per order is all that remains (9).
+    Fourier transforms along longitude (equation 5) and colatitude (7, 8) reduce the map to degree + 1 rings
+    without loss; then one matrix product per order remains (9).
     """
     if radiance.ndim != 3 or 0 in radiance.shape:
         raise ShapeError(f"A map has rows, columns and channels, but this one has shape {radiance.shape}.")
@@ -51,7 +51,7 @@ def analyse_environment(radiance: Array, degree: int, texels: Texels = "points")
 
 
 def _ring_weights(radiance: Array, degree: int, texels: Texels) -> tuple[Complex, Array]:
-    """Weights of few rings that stand for the map, and its flux.
+    """Weights of a few rings that replace the map, and its flux.
 
     Returns
     -------
@@ -83,7 +83,7 @@ def _row_spectra(radiance: Array, degree: int) -> tuple[Complex, Array]:
     """
     height, width, channels = radiance.shape
     m = np.arange(degree + 1)
-    # Frequencies beyond the map's own fold back: m and m + width mean the same on the texels.
+    # Frequencies beyond the map's own fold back: m and m + width are the same on the texels.
     folded = m % width
     mirrored = folded > width // 2
     folded = np.where(mirrored, width - folded, folded)

@@ -1,4 +1,4 @@
-"""What an environment is in spherical harmonics."""
+"""An environment in spherical harmonics."""
 
 from dataclasses import dataclass
 
@@ -48,7 +48,7 @@ class EnvironmentHarmonics:
         return power
 
     def ceilings(self) -> Array:
-        """The largest value anywhere that the power of every degree allows (equation 14).
+        """The largest value that the power of every degree allows anywhere (equation 14).
 
         Returns
         -------

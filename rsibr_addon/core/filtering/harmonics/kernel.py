@@ -1,4 +1,4 @@
-"""The window that interpolates between grid points, and what it gets wrong."""
+"""The window that interpolates between grid points, and its error."""
 
 import functools
 from collections.abc import Iterator
@@ -23,15 +23,15 @@ class Kernel:
     Attributes
     ----------
     width : int
-        Grid points, in each direction, that an interpolated value is made of.
+        Number of grid points, in each direction, that make an interpolated value.
     """
 
     width: int
 
     @property
     def _beta(self) -> float:
-        # Frequencies from 1.7 times the grid's own limit upwards leak by exp(-beta) only; those
-        # between carry, after a lobe's tail, little to leak (docs/prefiltering.md, section 5).
+        # Frequencies from 1.7 times the grid's own limit upwards leak by exp(-beta) only; beyond a lobe's
+        # tail, those between have little to leak (docs/prefiltering.md, section 5).
         return 0.5 * np.pi * _STOP_BAND * self.width
 
     def __call__(self, distance: Array) -> Array:
@@ -61,7 +61,7 @@ class Kernel:
         return transformed
 
     def leakage(self, frequency: Array) -> Array:
-        """How far an interpolated wave of unit amplitude strays from the wave.
+        """Error of an interpolated wave of unit amplitude.
 
         Parameters
         ----------
@@ -91,7 +91,7 @@ def _quadrature(nodes: int) -> tuple[Array, Array]:
 
 
 def kernels_for(tolerance: float) -> Iterator[Kernel]:
-    """Windows that may do, ascending: from the narrowest that leaks less than `tolerance` of long waves."""
+    """Candidate windows, ascending: from the narrowest that leaks less than `tolerance` of long waves."""
     # At low frequencies a window leaks less than 8 exp(-beta).
     narrowest = int(np.ceil(np.log(8.0 / tolerance) / (0.5 * np.pi * _STOP_BAND)))
     for width in range(min(max(narrowest, _NARROWEST), WIDEST), WIDEST + 1):

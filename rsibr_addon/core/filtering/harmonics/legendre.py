@@ -8,7 +8,8 @@ import numpy as np
 from ...conventions import Array, Indices
 
 MAX_DEGREE = 3000
-"""Up to here every value that matters is within a double's range (docs/prefiltering.md, section 4)."""
+"""Largest degree: up to it, every value that matters is within a double's range (docs/prefiltering.md,
+section 4)."""
 
 _SCALE = 2.0**900
 _PANEL_ROWS = 64
@@ -42,7 +43,7 @@ class Panel:
 
 
 def first_point(order: int, degree: int, sine: Array) -> int:
-    """Where order `order` begins to matter.
+    """First point at which an order matters.
 
     Parameters
     ----------
@@ -53,8 +54,8 @@ def first_point(order: int, degree: int, sine: Array) -> int:
     Returns
     -------
     int
-        At points before it |lambda_lm| is below 1e-16 for all l up to `degree`: m exceeds the turning
-        point l sin(theta) by far (docs/prefiltering.md, section 4).
+        Index. At points before it |lambda_lm| is below 1e-16 for all l up to `degree`: m far exceeds the
+        turning point l sin(theta) (docs/prefiltering.md, section 4).
     """
     margin = max(100.0, 0.01 * degree)
     return int(np.searchsorted(sine, (order - margin) / max(degree, 1)))
@@ -68,7 +69,7 @@ def legendre_panels(degree: int, cosine: Array, sine: Array) -> Iterator[Panel]:
     degree : int
         At most `MAX_DEGREE`.
     cosine, sine : ndarray, shape (points,), float64
-        Of the colatitudes; `sine` ascending.
+        Cosines and sines of the colatitudes; `sine` ascending.
 
     Yields
     ------
@@ -85,7 +86,7 @@ def legendre_panels(degree: int, cosine: Array, sine: Array) -> Iterator[Panel]:
     for first_order in range(0, orders, block):
         m = np.arange(first_order, min(first_order + block, orders))
         start = first_point(first_order, degree, sine)
-        # The square of a root, as sine**m may underflow where its multiple does not.
+        # Squared after scaling, because sine**m may underflow where its multiple does not.
         root = np.sqrt(_SCALE) * sine[start:] ** (0.5 * m[:, None])
         seed = norms[m, None] * root * root
         yield from _block_panels(degree, m, start, seed, cosine[start:])
@@ -124,8 +125,8 @@ def _sectoral_norms(orders: int) -> Array:
 def _ratios(m: Indices, rows: int) -> Array:
     """g_lm = lambda_lm / mu_lm for l = m + row, shape (rows, orders): equation 11.
 
-    g_m = 1 and g_l g_{l-1} = A_l, where A_l^2 = (4 l^2 - 1) / (l^2 - m^2). Every other g is a product of
-    all before it, those between are quotients: so rounding never adds up in g_l g_{l-1}.
+    g_m = 1 and g_l g_{l-1} = A_l, where A_l^2 = (4 l^2 - 1) / (l^2 - m^2). Every second g is a product of all
+    before it; those between are quotients. So rounding never adds up in g_l g_{l-1}.
     """
     row = np.arange(rows)[:, None]
     l = m + row

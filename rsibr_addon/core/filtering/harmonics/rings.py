@@ -15,7 +15,7 @@ from ...conventions import Array, Indices
 from .coefficients import Complex
 
 type Texels = Literal["points", "areas"]
-"""What a texel stands for: all its light at its centre, or constant radiance over its solid angle."""
+"""The meaning of a texel: all its light at its centre, or constant radiance over its solid angle."""
 
 
 def fast_even(least: float) -> int:
@@ -66,7 +66,7 @@ def _sine_weights(frequencies: Indices, half_cell: float, texels: Texels) -> Arr
 
 
 def moment_matching_rings(rows: Complex, degree: int, count: int, texels: Texels) -> Complex:
-    """Few rings that stand for the many rows of a map, exactly, for all harmonics of a degree.
+    """A few rings that exactly replace the many rows of a map, for all harmonics up to a degree.
 
     Parameters
     ----------
@@ -75,9 +75,9 @@ def moment_matching_rings(rows: Complex, degree: int, count: int, texels: Texels
         north to south.
     degree : int
     count : int
-        Rings to be made, more than `degree`.
+        Number of rings to make, more than `degree`.
     texels : {"points", "areas"}
-        What a row's value means.
+        The meaning of a row's value.
 
     Returns
     -------
@@ -90,8 +90,8 @@ def moment_matching_rings(rows: Complex, degree: int, count: int, texels: Texels
     Equations 7 and 8.
     """
     height = rows.shape[-1]
-    # Row j at theta_j and its mirror image beyond the pole: odd orders change their sign there, and
-    # sin(theta), which is still to come, changes its own.
+    # Row j at theta_j and its mirror image beyond the pole, where odd orders change their sign, and so does
+    # sin(theta), a factor that follows.
     circle = np.concatenate([rows[:, 0] + rows[:, 1], (rows[:, 1] - rows[:, 0])[..., ::-1]], axis=-1)
     k = np.arange(-degree - 1, degree + 2)
     half_cell = 0.5 * np.pi / height
@@ -168,7 +168,7 @@ def ring_resampler(given: int, made: int, gains: Array) -> RingResampler:
 
 
 def _split(circle: Complex, out: Complex) -> None:
-    """Twice the even and the odd order, from their sum over the circle."""
+    """Twice the even and twice the odd order, from their sum over the circle."""
     count = out.shape[-1]
     near, far = circle[..., :count], circle[..., : count - 1 : -1]
     np.add(near, far, out=out[0])

@@ -106,7 +106,7 @@ def _panel_coefficients(harmonics: EnvironmentHarmonics, gains: Array, panel: Pa
 def _ring_functions(harmonics: EnvironmentHarmonics, gains: Array, rows: int, kernel: Kernel) -> Complex:
     """Fourier coefficients of the grid's rows, shape (pairs, 2, slices * channels, rows), complex128.
 
-    They come divided by the kernel's transform, in both directions, which interpolation undoes.
+    They are divided by the kernel's transform, in both directions; interpolation undoes this.
     """
     degree = gains.shape[1] - 1
     columns = len(gains) * len(harmonics.flux)
@@ -128,7 +128,7 @@ def _ring_functions(harmonics: EnvironmentHarmonics, gains: Array, rows: int, ke
         for parity in (0, 1):
             halves[parity, ..., panel.first_point :] += flat[..., parity::2] @ values[:, parity::2]
         if panel.first_row + len(panel.values) + panel.first_order > degree:
-            # Pair by pair, so that it happens within the cache.
+            # Pair by pair, to stay within the cache.
             for pair in range(0, block, 2):
                 resample(_unfold(halves[:, pair : pair + 2]), functions[(panel.first_order + pair) // 2])
     return functions
@@ -140,7 +140,7 @@ def _unfold(halves: Array) -> Complex:
     Parameters
     ----------
     halves : ndarray, shape (2, 2, 2 * columns, rings / 2)
-        Of two orders; real and imaginary parts take turns.
+        Parts of two orders; real and imaginary parts alternate.
 
     Returns
     -------
@@ -157,7 +157,7 @@ def _unfold(halves: Array) -> Complex:
 
 
 def _grid(functions: Complex, degree: int, border: int) -> Array:
-    """Values on the grid, and beyond its edges what lies there on the sphere.
+    """Values on the grid, continued beyond its edges as on the sphere.
 
     Parameters
     ----------
@@ -215,7 +215,7 @@ def _interpolate(grid: Array, row: Array, column: Array, kernel: Kernel, values:
         part = slice(start, start + chunk)
         weights = row_weights[part, :, None] * column_weights[part, None, :]
         count = len(weights)
-        # The indices are within the grid; mode "clip" only spares take a copy.
+        # The indices are within the grid; mode "clip" only saves a copy.
         np.take(points, corner[part, None] + neighbours, axis=0, out=gathered[:count], mode="clip")
         np.matmul(weights.reshape(count, 1, -1), gathered[:count], out=values[part, None])
 

@@ -13,25 +13,25 @@ from .motion import Motion, covers, looked_up, motion_between, pixel_points
 from .response import Response, recover_response
 
 SAMPLES = 40_000
-"""Points from which the camera's curve is recovered, about."""
+"""Approximate number of points from which the camera's curve is recovered."""
 
 GREEN = 1
-"""The colour in which movement is looked for: it has the least noise, and in most cameras the most pixels."""
+"""Channel in which movement is looked for: it has the least noise, and in most cameras the most pixels."""
 
 WHITE = 0.97
-"""Encoded values above this may well be more."""
+"""Encoded value above which a pixel may be saturated."""
 
 BLACK = 2.0 / 255.0
-"""Encoded values up to this are black: rounding alone makes a quarter of them."""
+"""Encoded value up to which a pixel is black: rounding alone is a quarter of it."""
 
 ROUNDING = 1e-6
-"""Of encoded values in single precision, and more than that: 2 of 255 is black."""
+"""Rounding of encoded values, ample for single precision, so that 2 of 255 still is black."""
 
 FALL = 0.02
-"""A longer exposure that is darker by this is not what it seems."""
+"""Fall of the encoded value in a longer exposure from which on that pixel is not trusted."""
 
 STILL = 0.1
-"""Movements of less than this [pixels] are left alone: making up for them would blur."""
+"""[pixels] Movements below this are left alone: correcting them would blur."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,11 +43,11 @@ class Merged:
     radiance : ndarray, shape (height, width, 3), float32
         In units of sRGB's white over those of the exposure times.
     saturated, black : float
-        Shares of the pixels that are white in the shortest exposure, or black in the longest, in some
-        colour, so that radiance there is too small a number, or too large.
+        Shares of the pixels that are white in the shortest exposure, or black in the longest, in some colour;
+        their radiance is too small, or too large.
     response : Response
     motions : tuple of Motion
-        Of each photograph, from points of the picture to its own.
+        Movement of each photograph, from points of the picture to those of the photograph.
     """
 
     radiance: Array
@@ -58,7 +58,7 @@ class Merged:
 
 
 def certainty(encoded: Array) -> Array:
-    """How well the pixels of a photograph tell their exposure.
+    """Confidence in the exposures that a photograph's pixels tell.
 
     Parameters
     ----------
@@ -68,13 +68,13 @@ def certainty(encoded: Array) -> Array:
     Returns
     -------
     ndarray, shape of `encoded`, float64
-        1 in the middle, falling to 0 at black, which drowns in noise, and at white, which may be more.
+        1 in the middle, falling to 0 at black, which is noise, and at white, which may be saturated.
 
     Notes
     -----
-    [Debevec1997] Eq. 4. But white counts, too, if it is in one of the eight pixels around: sensors,
-    filters and resampling take some of it over the edge, clipped, and the pixel beside it is then
-    darker than the scene and does not look it.
+    [Debevec1997] Eq. 4. But a pixel beside a white one, among the eight around it, counts as white too:
+    sensors, filters and resampling spread clipped light over the edge, so that the pixel is darker than the
+    scene without looking so.
     """
     brightest = encoded
     for axis in (0, 1):
@@ -107,20 +107,20 @@ def merge_bracket(
     Returns
     -------
     Merged
-        Lies as the photograph that tells most does.
+        Aligned with the photograph that has most confidence.
 
     Raises
     ------
     RangeError
-        There is one photograph only; exposures are not positive, not in order or all the same; nothing in the
-        photographs is between black and white or, where the curve is to be recovered, in two.
+        There is only one photograph; exposures are not positive, not in order or all the same; no pixel is
+        between black and white, in two photographs if the curve is to be recovered.
 
     Notes
     -----
-    [Debevec1997] Eq. 6: the mean of the logarithms, weighted with `certainty`. Such a mean, other
-    than one by photons, is not ruled by the longest exposure's errors: in pictures of 8 bits, times
-    that are not what they say cost more than noise does. A pixel that no photograph is certain of
-    has what the shortest exposure shows where that is more than half of white, else the longest's.
+    [Debevec1997] Eq. 6: the mean of the logarithms, weighted with `certainty`. Unlike a mean by photons, it
+    is not dominated by the errors of the longest exposure: in pictures of 8 bits, wrong times cost more than
+    noise. A pixel without confidence in any photograph takes the value of the shortest exposure if that is
+    more than half of white, else that of the longest.
     """
     _check(photographs, times)
     weights = [certainty(photograph) for photograph in photographs]
@@ -136,7 +136,7 @@ def merge_bracket(
     by_shortest = curve.logarithm(shortest) - np.log(times[0])
     by_longest = curve.logarithm(longest) - np.log(times[-1])
     rest = np.where(shortest > 0.5, by_shortest, by_longest)
-    # The curves' upper ends are extrapolated, each for itself: that is no reason to give a lamp a colour
+    # Each colour's curve is extrapolated at its upper end: a lamp must not get a colour from this
     white = np.all(unsure & (shortest > WHITE), axis=-1, keepdims=True)
     rest = np.where(white, rest.mean(axis=-1, keepdims=True), rest)
     return Merged(
@@ -158,7 +158,7 @@ def _check(photographs: Sequence[Array], times: Sequence[float]) -> None:
 
 
 def _motions(photographs: Sequence[Array], weights: Sequence[Array]) -> list[Motion]:
-    """Movements of all photographs from the one that tells most, by those from each to the next."""
+    """Movements of all photographs from the most confident one, composed of those from each to the next."""
     motions = [Motion()]
     for first, second in pairwise(photographs):
         motions.append(motion_between(first[..., GREEN], second[..., GREEN]).after(motions[-1]))
@@ -216,7 +216,7 @@ def _mean(
 
 
 def _ends(photographs: Sequence[Array], motions: Sequence[Motion]) -> tuple[Array, Array]:
-    """The shortest and the longest exposure, as seen from the picture's points."""
+    """The shortest and the longest exposure at the picture's points."""
     height, width = photographs[0].shape[:2]
     points = pixel_points(width, height)
     shortest, longest = (looked_up(photographs[i], motions[i].of(points)) for i in (0, -1))

@@ -1,4 +1,4 @@
-"""How a hand-held camera moved from one photograph to the next."""
+"""Movement of a hand-held camera from one photograph to the next."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -17,22 +17,22 @@ NOISE = 0.03
 """[white] Step between pixels two apart that counts half as an edge."""
 
 FINEST = 1536
-"""Longer side of the pictures in which movements are looked for: a larger one is shrunk."""
+"""Longer side of the pictures in which movements are looked for; larger ones are shrunk."""
 
 TILE, SPACING = 96, 72
-"""Side of the tiles that show how each part of a picture moved, and their distance [pixels]."""
+"""[pixels] Side of the tiles that show the movement of each part of a picture, and their distance."""
 
 ROUNDS = 3
-"""Of looking where the tiles went, each from where the last one left them."""
+"""Rounds of search for the tiles' movement, each from the result of the last."""
 
 FEWEST = 4
-"""Tiles with edges in both pictures that a rotation is believed from."""
+"""Fewest tiles with edges in both pictures from which a rotation is accepted."""
 
 CLEAR = 0.2
-"""A tile counts whose coefficient of correlation is as high; noise in one of `TILE` makes some 0.05."""
+"""Least coefficient of correlation at which a tile counts; noise in a tile of `TILE` makes some 0.05."""
 
 OUTLIER = 0.5
-"""A tile that misses the common movement by so many pixels counts half."""
+"""[pixels] Distance of a tile's movement from the common one at which the tile counts half."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class Motion:
         return Motion(self.turn * first.turn, self.turn * first.shift + self.shift)
 
     def of(self, points: ComplexArray) -> ComplexArray:
-        """Where points go."""
+        """Images of points."""
         return self.turn * points + self.shift
 
     def inverse(self) -> "Motion":
@@ -65,7 +65,7 @@ class Motion:
         return Motion(self.turn, self.shift * factor)
 
     def most(self, width: int, height: int) -> float:
-        """How far the corners of a picture move at most [pixels]."""
+        """Largest movement of a picture's corners [pixels]."""
         corners = np.array([1.0 + 1.0j, 1.0 - 1.0j]) * 0.5
         corners = corners.real * width + 1j * corners.imag * height
         away = (self.turn - 1.0) * np.concatenate([corners, -corners]) + self.shift
@@ -80,7 +80,7 @@ def pixel_points(width: int, height: int) -> ComplexArray:
 
 
 def looked_up(image: Array, points: ComplexArray) -> Array:
-    """What a picture shows at given points.
+    """Colours of a picture at given points.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def looked_up(image: Array, points: ComplexArray) -> Array:
     Returns
     -------
     ndarray, shape (..., channels), float64
-        Bilinear; beyond the edge, what the edge shows.
+        Interpolated bilinearly; beyond the edge, the edge is repeated.
     """
     height, width = image.shape[:2]
     return bilinear(image, _uv(points, width, height), _clamp)
@@ -103,7 +103,7 @@ def covers(points: ComplexArray, width: int, height: int) -> NDArray[np.bool]:
 
 
 def motion_between(first: Array, second: Array) -> Motion:
-    """How a camera moved between two photographs, whatever their exposures.
+    """Movement of a camera between two photographs of any exposures.
 
     Parameters
     ----------
@@ -117,12 +117,12 @@ def motion_between(first: Array, second: Array) -> Motion:
 
     Notes
     -----
-    Orientation correlation [Fitch2002]: an edge has the same direction at any exposure at which it
-    shows, so what is correlated, by Fourier transform, are unit vectors along the gradients. Where
-    nothing but noise shows they are short. Unlike the bitmaps of [Ward2003] it takes no median,
-    which in a dark photograph is noise, nor a pyramid; and it sees fractions of a pixel. First the
-    pictures as wholes, then tiles, from whose movements rotation and scale follow by least squares.
-    Tiles that disagree, which show things that moved, lose their weight.
+    Orientation correlation [Fitch2002]: an edge has the same direction at any exposure at which it shows, so
+    unit vectors along the gradients are correlated by Fourier transform. They are shorter where there may be
+    only noise. Unlike the bitmaps of [Ward2003] this needs no median, which in a dark photograph is noise,
+    and no pyramid; and it finds fractions of a pixel. First whole pictures are compared, then tiles, from
+    whose movements rotation and scale follow by least squares. Tiles that disagree, because they show things
+    that moved, lose their weight.
     """
     factor = max(1, -(-max(first.shape) // FINEST))
     first, second = _shrunk(first, factor), _shrunk(second, factor)
@@ -132,7 +132,7 @@ def motion_between(first: Array, second: Array) -> Motion:
     motion = Motion(1.0, step)
     for _ in range(ROUNDS):
         there = motion.of(points)
-        # Beyond the edge nothing shows
+        # Nothing is known beyond the edge
         moved = looked_up(second[..., None], there)[..., 0] * covers(there, width, height)
         found = _tile_steps(points, field, _orientation(moved))
         if len(found) < FEWEST:
@@ -144,7 +144,7 @@ def motion_between(first: Array, second: Array) -> Motion:
 def _tile_steps(
     points: ComplexArray, first: ComplexArray, second: ComplexArray
 ) -> list[tuple[complex, complex]]:
-    """Middles of the tiles that show something in both fields, and where in the second they are."""
+    """Middles of the tiles with edges in both fields, and their places in the second."""
     height, width = first.shape
     steps = []
     for row in range(0, height - TILE + 1, SPACING):
@@ -158,7 +158,7 @@ def _tile_steps(
 
 
 def _fitted(pairs: ComplexArray) -> Motion:
-    """The similarity that takes points, shape (n, 2), nearest to their partners, but for outliers."""
+    """The similarity that best takes points, shape (n, 2), to their partners, without outliers."""
     here, there = pairs.T
     motion = Motion()
     for _ in range(10):
@@ -188,7 +188,7 @@ def _peak(first: ComplexArray, second: ComplexArray) -> tuple[complex, float]:
 
 
 def _rounded(correlation: Array) -> Array:
-    """Blur by a pixel: unit vectors correlate to a cusp, whose place between pixels a parabola misses."""
+    """Blur by a pixel: unit vectors correlate to a cusp, and a parabola would misplace it between pixels."""
     for axis in (0, 1, 0, 1):
         beside = np.roll(correlation, 1, axis) + np.roll(correlation, -1, axis)
         correlation = 0.5 * correlation + 0.25 * beside
@@ -196,7 +196,7 @@ def _rounded(correlation: Array) -> Array:
 
 
 def _vertex(three: Array) -> float:
-    """Where a parabola through three neighbours is highest, from the middle one, which is no lower."""
+    """Top of a parabola through three neighbours, relative to the middle one, which is the highest."""
     bend = 2.0 * three[1] - three[0] - three[2]
     return 0.5 * float((three[2] - three[0]) / bend) if bend > 0.0 else 0.0
 
@@ -218,7 +218,7 @@ def _orientation(picture: Array) -> ComplexArray:
 
 
 def _shrunk(picture: Array, factor: int) -> Array:
-    """Means over squares of `factor` pixels; what is left over at the top and right is cut off."""
+    """Means over squares of `factor` pixels; incomplete squares at the top and right are cut off."""
     height, width = (size // factor for size in picture.shape)
     squares = picture[: height * factor, : width * factor].reshape(height, factor, width, factor)
     means: Array = squares.mean(axis=(1, 3))

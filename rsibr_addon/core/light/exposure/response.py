@@ -1,4 +1,4 @@
-"""What a camera makes of light: the curve from its pictures' numbers to exposure."""
+"""A camera's curve, from its pictures' numbers to exposure."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,13 +10,13 @@ from ...errors import RangeError
 from ..transfer_curve import linear_from_srgb
 
 LEVELS = 256
-"""Of encoded values that a curve is known at; between them it is interpolated."""
+"""Encoded values at which a curve is known; between them it is interpolated."""
 
 MIDDLE = 128
 """The level at which recovered curves agree with sRGB's: their scale cannot be known."""
 
 DARKEST = 12
-"""Up to this level a value is more noise or fog than light, and would bend the curve's foot."""
+"""Level up to which a value is more noise or fog than light, and would bend the curve's foot."""
 
 SMOOTHNESS = 50.0
 """Weight of a curve's squared second differences over that of the photographs, level by level."""
@@ -40,7 +40,7 @@ class Response:
         Parameters
         ----------
         encoded : ndarray, shape (..., 3)
-            Numbers as a picture's file holds them, in [0, 1].
+            Numbers of a picture's file, in [0, 1].
 
         Returns
         -------
@@ -53,7 +53,7 @@ class Response:
 
 
 def srgb_response() -> Response:
-    """The curve of pictures that keep to sRGB, IEC 61966-2-1; level 0 stands for half of level 1."""
+    """The curve of sRGB pictures, IEC 61966-2-1; level 0 stands for half of level 1."""
     return _response_of(linear_from_srgb(np.arange(LEVELS) / (LEVELS - 1.0)))
 
 
@@ -70,15 +70,15 @@ def recover_response(samples: Array, weights: Array, times: Sequence[float]) -> 
     samples : ndarray, shape (photographs, pixels, 3)
         The same points in each photograph, encoded, in [0, 1].
     weights : ndarray, shape of `samples`
-        How well each tells its exposure, in [0, 1]: `merge.certainty`.
+        Confidence in each sample's exposure, in [0, 1]: `merge.certainty`.
     times : sequence of float, one for each photograph
         Their exposures, in seconds or any other unit.
 
     Returns
     -------
     Response
-        In units of `times`, so that level 128 is the exposure that sRGB has for it in every colour: a
-        grey that the photographs show as grey is grey.
+        In units of `times`. Level 128 has sRGB's exposure in every colour, so that a grey of the photographs
+        stays grey.
 
     Raises
     ------
@@ -87,11 +87,11 @@ def recover_response(samples: Array, weights: Array, times: Sequence[float]) -> 
 
     Notes
     -----
-    [Debevec1997] Eq. 3: minimise sum_ij w_ij (g(z_ij) - ln E_i - ln t_j)^2 + smoothness. For given
-    g the best ln E_i is a weighted mean over the photographs j; with that put in, the problem is
-    quadratic in the 256 values of g alone, and its matrix a sum over pairs of photographs. So it
-    takes as many pixels as one likes, where the paper takes some fifty. Weights are w, the paper's
-    w^2; the smoothness is the same at every level. Then g is made not to fall.
+    [Debevec1997] Eq. 3: minimise sum_ij w_ij (g(z_ij) - ln E_i - ln t_j)^2 + smoothness. For given g the best
+    ln E_i is a weighted mean over the photographs j; with that put in, the problem is quadratic in the 256
+    values of g alone, and its matrix a sum over pairs of photographs. So it can take any number of pixels,
+    where the paper takes some fifty. Weights are w, the paper's w^2; the smoothness is the same at every
+    level. Then g is made not to fall.
     """
     levels = np.rint(samples * (LEVELS - 1.0)).astype(np.intp)
     weights = np.where(levels > DARKEST, weights, 0.0)
@@ -127,7 +127,7 @@ def _log_curve(levels: Indices, weights: Array, log_times: Array) -> Array:
 
 def _normal_equations(levels: Indices, weights: Array, log_times: Array) -> tuple[Array, Array]:
     """Matrix and right-hand side for the values of the curve, without ln E and without smoothness."""
-    # A pixel that one photograph alone tells of says nothing of the curve
+    # A pixel that only one photograph tells of says nothing about the curve
     useful = np.count_nonzero(weights, axis=0) >= 2
     levels, weights = levels[:, useful], weights[:, useful]
     total = weights.sum(axis=0)

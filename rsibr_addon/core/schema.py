@@ -42,6 +42,9 @@ DEEPEST = 32
 LARGEST_INTEGER = 2**53
 """Every whole number up to it is a float too."""
 
+LARGEST_FLOAT = 1e60
+"""Products of five such numbers are finite; no light is beyond it, as pictures hold 3e38 at most."""
+
 
 @dataclasses.dataclass(frozen=True)
 class Rule:
@@ -171,7 +174,7 @@ def _refused(constant: str) -> NoReturn:
 
 def _float(digits: str) -> float:
     number = float(digits)
-    if not math.isfinite(number):
+    if not abs(number) <= LARGEST_FLOAT:
         raise SchemaError(f"the number {_shortened(digits)} is too large")
     return number
 

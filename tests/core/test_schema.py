@@ -10,6 +10,7 @@ import pytest
 from rsibr.rsibr_addon.core.errors import RangeError, SchemaError
 from rsibr.rsibr_addon.core.schema import (
     DEEPEST,
+    LARGEST_FLOAT,
     LARGEST_INTEGER,
     LARGEST_TEXT,
     Rule,
@@ -58,7 +59,7 @@ class Scene(TypedDict):
         None,
         -0.0,
         "Wald über \N{SNOWMAN} \N{GRINNING FACE}",
-        [LARGEST_INTEGER, -LARGEST_INTEGER, 1e308, 5e-324],
+        [LARGEST_INTEGER, -LARGEST_INTEGER, LARGEST_FLOAT, 5e-324],
         {"a": {"b": [[], {}, True, False]}},
     ],
 )
@@ -78,6 +79,7 @@ def test_what_json_writes_comes_back(value: Any) -> None:
         ('{"a": [NaN]}', "it is not JSON: NaN is no number there"),
         ("-Infinity", "it is not JSON: -Infinity is no number there"),
         ("1e999", "the number 1e999 is too large"),
+        ("-1.1e60", "the number -1.1e60 is too large"),
         (str(LARGEST_INTEGER + 1), "the number 9007199254740993 is too large"),
         ("-" + "9" * 5000, "the number -999999999999999... is too large"),
         ('{"a": 1, "b": 2, "a": 1}', "'a' is there twice"),

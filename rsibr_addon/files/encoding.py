@@ -98,7 +98,7 @@ def profile_encoding(profile: bytes) -> Encoding:
     Raises
     ------
     ValueError
-        It is damaged, or neither of grey nor of primaries with curves.
+        It is damaged, or neither of grey nor of primaries with curves, from black to finite light.
     """
     try:
         tags = _tags(profile)
@@ -112,7 +112,10 @@ def profile_encoding(profile: bytes) -> Encoding:
     except (KeyError, IndexError, struct.error, ZeroDivisionError) as error:
         raise ValueError("it has no primaries with curves") from error
     levels = np.linspace(0.0, 1.0, 256)
-    straight = all(np.abs(curve(levels) - levels).max() < STRAIGHT for curve in curves)
+    light = np.array([curve(levels) for curve in curves])
+    if not np.isfinite(light).all():
+        raise ValueError("its curves are too steep")
+    straight = np.abs(light - levels).max() < STRAIGHT
     told = None if straight else (curves[0], curves[1], curves[2])
     return Encoding(told, to_rec709, "linear, by its profile" if straight else "by its profile")
 
@@ -138,7 +141,7 @@ def _curve(tag: bytes) -> Curve:
         if count == 0:
             return power_curve(1.0)
         if count == 1:
-            return power_curve(values[0] / 256.0)
+            return power_curve(_exponent(values[0] / 256.0))
         levels = np.linspace(0.0, 1.0, count)
         return lambda encoded: np.interp(np.asarray(encoded, np.float64), levels, values / 65535.0)
     if tag[:4] != b"para":
@@ -147,6 +150,7 @@ def _curve(tag: bytes) -> Curve:
     numbers = [each / 65536.0 for each in struct.unpack_from(f">{(1, 3, 4, 5, 7)[kind]}i", tag, 12)]
     # All kinds are the last one, of which the shorter ones leave parts out
     g, a, b = numbers[:3] if kind else (numbers[0], 1.0, 0.0)
+    _exponent(g)
     c, d, e, f = 0.0, -b / a, 0.0, 0.0
     if kind == 2:
         e = f = numbers[3]
@@ -155,7 +159,14 @@ def _curve(tag: bytes) -> Curve:
 
     def curve(encoded: ArrayLike) -> Array:
         encoded = np.asarray(encoded, dtype=np.float64)
-        light: Array = np.where(encoded >= d, np.maximum(a * encoded + b, 0.0) ** g + e, c * encoded + f)
+        with np.errstate(over="ignore"):  # it may, where it does not count
+            light: Array = np.where(encoded >= d, np.maximum(a * encoded + b, 0.0) ** g + e, c * encoded + f)
         return light
 
     return curve
+
+
+def _exponent(exponent: float) -> float:
+    if exponent <= 0.0:
+        raise KeyError("no curve that begins in black")
+    return exponent

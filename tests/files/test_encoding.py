@@ -69,6 +69,25 @@ def test_a_profile_that_cannot_be_used_is_told(damaged: bytes) -> None:
         profile_encoding(damaged)
 
 
+@pytest.mark.parametrize(
+    ("curve", "why"),
+    [
+        (parametric(0, 0.0), "no primaries with curves"),
+        (parametric(0, -2.2), "no primaries with curves"),
+        (sampled(0), "no primaries with curves"),
+        (parametric(1, 300.0, 300.0, 0.0), "too steep"),
+    ],
+)
+def test_a_curve_that_ends_nowhere_is_refused(curve: bytes, why: str) -> None:
+    with pytest.raises(ValueError, match=why):
+        profile_encoding(profile(P3, curve))
+
+
+def test_what_is_too_steep_where_it_does_not_count_does_no_harm() -> None:
+    encoding = profile_encoding(profile(P3, parametric(3, 300.0, -300.0, 300.0, 1.0, 2.0)))
+    assert encoding.curves is None
+
+
 def test_a_picture_goes_on_without_its_profile(tmp_path: Path) -> None:
     # A head that promises a table of colours, as printers have
     write_picture(tmp_path / "a.tif", PIXELS, ICCProfile=profile(P3, SRGB).replace(b"TRC", b"xxx"))

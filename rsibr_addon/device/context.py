@@ -25,6 +25,18 @@ def ensure_context() -> None:
         gpu.init()
     except (DeviceError, OSError, SystemError, RuntimeError) as error:
         raise DeviceError(
-            f"Blender found no graphics driver ({error}): install one; Mesa's software driver "
+            f"Blender found no graphics driver ({error}): {_limit()}install one; Mesa's software driver "
             f"(Debian: libegl1 and libgl1-mesa-dri) is enough."
         ) from error
+
+
+def _limit() -> str:
+    """What to do first where drivers may be there and find no place in memory."""
+    if sys.platform == "win32":
+        return ""
+    import resource
+
+    limit = resource.getrlimit(resource.RLIMIT_AS)[0]
+    if limit == resource.RLIM_INFINITY:
+        return ""
+    return f"raise the limit of {limit / 1e9:.1f} GB on its addresses (ulimit -v), or "

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ..core.errors import OutputFileError
 from .outputs import Output, not_written, outputs_now
-from .staging import clear_strays, staging_name
+from .staging import clear_old_strays, clear_strays, staging_name
 
 
 def check_target(path: str | Path, force: bool = False) -> None:
@@ -78,6 +78,7 @@ def check_name(path: Path) -> None:
     if not os.access(folder, os.W_OK | os.X_OK):
         raise OutputFileError(f"{folder} cannot be written to: change its permissions, or write elsewhere.")
     clear_strays(folder)
+    clear_old_strays(path.resolve())
 
 
 def is_read_only(path: Path) -> bool:

@@ -8,8 +8,13 @@ from pathlib import Path
 
 from ..core.errors import RangeError
 
+ROOT = Path("/")
+"""Of the file system in which Linux tells of itself."""
 
-def check_memory(needed: float, what: str, size: tuple[int, int], besides: float = 0.0) -> None:
+
+def check_memory(
+    needed: float, what: str, size: tuple[int, int], besides: float = 0.0, powers: bool = False
+) -> None:
     """Refuse work that this machine has not the memory for, before it begins.
 
     Parameters
@@ -22,6 +27,8 @@ def check_memory(needed: float, what: str, size: tuple[int, int], besides: float
         Width and height of the picture, in texels.
     besides : float
         Bytes that are needed whatever the size.
+    powers : bool
+        Whether sizes are powers of two.
 
     Raises
     ------
@@ -31,6 +38,8 @@ def check_memory(needed: float, what: str, size: tuple[int, int], besides: float
     left = max(0.0, memory_left() - besides)
     if needed > left:
         scale = math.sqrt(left / needed)
+        if powers and scale > 0.0:
+            scale = 2.0 ** math.floor(math.log2(scale))
         fitting = "x".join(str(max(1, math.floor(side * scale))) for side in size)
         raise RangeError(
             f"{what} takes {needed / 1e9:.1f} GB of memory at {size[0]}x{size[1]}, and {left / 1e9:.1f} GB "
@@ -54,7 +63,7 @@ def _machine() -> float:
         kilobytes = ctypes.c_ulonglong()
         ctypes.windll.kernel32.GetPhysicallyInstalledSystemMemory(ctypes.byref(kilobytes))
         return 1024.0 * kilobytes.value or math.inf
-    for line in _lines(Path("/proc/meminfo")):
+    for line in _lines(ROOT / "proc/meminfo"):
         if line.startswith("MemAvailable:"):
             return 1024.0 * int(line.split()[1])
     return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
@@ -71,22 +80,24 @@ def address_limit() -> float:
 
 
 def _address_space() -> float:
-    pages = _lines(Path("/proc/self/statm"))
+    pages = _lines(ROOT / "proc/self/statm")
     return address_limit() - int(pages[0].split()[0]) * os.sysconf("SC_PAGE_SIZE") if pages else math.inf
 
 
 def _control_groups() -> Iterator[float]:
     """What each group above this process leaves, of either version of Linux's control groups."""
-    for line in _lines(Path("/proc/self/cgroup")):
+    for line in _lines(ROOT / "proc/self/cgroup"):
         _, controllers, group = line.split(":", 2)
         if controllers == "":
-            root, limit, used = "/sys/fs/cgroup", "memory.max", "memory.current"
+            root, limit, used = ROOT / "sys/fs/cgroup", "memory.max", "memory.current"
         elif "memory" in controllers.split(","):
-            root, limit, used = "/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes"
+            root = ROOT / "sys/fs/cgroup/memory"
+            limit, used = "memory.limit_in_bytes", "memory.usage_in_bytes"
         else:
             continue
-        folder = Path(root + group)
-        for level in (folder, *folder.parents[: len(Path(group).parts) - 1]):
+        names = Path(group.lstrip("/")).parts
+        for depth in range(len(names) + 1):
+            level = root.joinpath(*names[:depth])
             numbers = [_number(level / name) for name in (limit, used)]
             if None not in numbers:
                 # Files that the system keeps in memory go when they must

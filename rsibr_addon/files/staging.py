@@ -5,6 +5,7 @@ that looks there removes what no living process holds.
 """
 
 import contextlib
+import errno
 import os
 import re
 import shutil
@@ -13,13 +14,13 @@ import zlib
 from collections.abc import Iterator
 from pathlib import Path
 
-from .locks import LOCK, held
+from .locks import LOCK, TRIES, held
 
 REPLACED = "replaced"
 """Folder in a staging folder, for what had the final name before."""
 
 STRANGE_SECONDS = 24 * 60 * 60.0
-"""How long another machine's folder is left alone: on a shared disk it may not show us its locks."""
+"""How long is left alone what shows no lock: another machine's, on a shared disk, or an older version's."""
 
 _NAME = re.compile(r"\.rsibr-([0-9a-f]{8})-[0-9a-f]{8}")
 _BLENDERS_NAME = re.compile(r"blender_\w{6}")
@@ -57,18 +58,24 @@ def staging_folder(around: Path) -> Iterator[Path]:
     """
     clear_strays(around)
     with contextlib.ExitStack() as stack:
-        while True:
-            folder = around / staging_name()
-            # Another process may think that it is a stray before it is held
-            with contextlib.suppress(BlockingIOError):
-                stack.enter_context(held(folder))
-                break
+        folder = _new_folder(around, stack)
         _own.add(folder)
         try:
             yield folder
         finally:
             _remove(folder)
             _own.discard(folder)
+
+
+def _new_folder(around: Path, stack: contextlib.ExitStack) -> Path:
+    """Make a folder, held as long as `stack` is open."""
+    for _ in range(TRIES):
+        folder = around / staging_name()
+        # Another process may think that it is a stray before it is held
+        with contextlib.suppress(BlockingIOError):
+            stack.enter_context(held(folder))
+            return folder
+    raise BlockingIOError(errno.EWOULDBLOCK, "other processes hold each new folder", str(around))
 
 
 def remove_own() -> None:
@@ -97,6 +104,22 @@ def clear_strays(around: Path) -> None:
                     _remove(folder)
 
 
+def clear_old_strays(output: Path) -> None:
+    """Remove what version 0.1.0 left beside an output when it was killed: .NAME.HEX.SUFFIX, a day old.
+
+    Parameters
+    ----------
+    output : Path
+        Without links.
+    """
+    old = re.compile(rf"\.{re.escape(output.stem)}\.[0-9a-f]{{8}}{re.escape(output.suffix)}")
+    with contextlib.suppress(OSError):
+        for entry in os.scandir(output.parent):
+            ours = old.fullmatch(entry.name) and entry.is_file(follow_symlinks=False)
+            if ours and _age(entry) > STRANGE_SECONDS:
+                os.unlink(entry)
+
+
 def _may_be_stray(entry: os.DirEntry[str]) -> bool:
     if not entry.is_dir(follow_symlinks=False):
         return False
@@ -107,7 +130,7 @@ def _may_be_stray(entry: os.DirEntry[str]) -> bool:
 
 
 def _age(entry: os.DirEntry[str]) -> float:
-    """Seconds since something was last made in a folder, by the clock of the disk that it is on."""
+    """Seconds since a file or a folder was last written to, by the clock of the disk that it is on."""
     around = Path(entry).parent
     return around.stat().st_mtime - entry.stat().st_mtime
 

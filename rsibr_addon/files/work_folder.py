@@ -70,6 +70,24 @@ def work_folder(path: Path, work: dict[str, Any]) -> Iterator[Path]:
         _empty(path)
 
 
+def clear_work_folder(path: Path) -> None:
+    """Remove what a process that was killed has left of work that it had just finished.
+
+    Parameters
+    ----------
+    path : Path
+        See `work_folder`.
+
+    Raises
+    ------
+    OutputFileError
+        As `work_folder`.
+    """
+    _make(path)
+    with _alone(path):
+        _empty(path)
+
+
 def _make(path: Path) -> None:
     if path.is_dir() and not (path / LOCK).exists() and any(path.iterdir()):
         raise OutputFileError(f"{path} holds something else than our work: move it, or write elsewhere.")

@@ -22,6 +22,9 @@ WHOLLY = 0.999
 ROUNDING = 1e-5
 """Share of a sum of float32 radiance that may be rounding: a metal's diffuse part is nothing else."""
 
+BYTES_BESIDES = 5e8
+"""Memory that Cycles takes whatever it renders, most of it addresses that are never used."""
+
 PASSES = ("use_pass_glossy_direct", "use_pass_glossy_color")
 
 
@@ -85,6 +88,23 @@ class RenderedView:
     def rgba(self) -> Array:
         """The whole radiance times coverage, and coverage, shape (size, size, 4)."""
         return np.concatenate([self.diffuse + self.glossy, self.coverage[..., None]], axis=-1)
+
+
+def bytes_needed(size: int, denoised: bool) -> float:
+    """Memory that it takes to render a view.
+
+    Parameters
+    ----------
+    size : int
+        Width and height in pixels.
+    denoised : bool
+
+    Returns
+    -------
+    float
+        Measured; what does not depend on the size, `BYTES_BESIDES`, left out.
+    """
+    return (1500.0 if denoised else 400.0) * size**2
 
 
 def render_view(scene: bpy.types.Scene, settings: RenderSettings) -> RenderedView:

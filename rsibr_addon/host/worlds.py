@@ -17,6 +17,9 @@ from .working_space import rec709_from_working, working_from_rec709
 LARGEST_IMPORTANCE_MAP = 8192
 """Width of the largest map that Cycles chooses light directions from."""
 
+LIGHT_OF_TEXEL = 90.0
+"""Bytes of memory for each texel of an environment that lights a scene, in Blender and in Cycles."""
+
 FEWEST_WORLD_SAMPLES, MOST_WORLD_SAMPLES = 16, 1024
 WORLD_ERROR = 0.01
 """Texels of a world take more samples until their relative error is this: a sun has an edge."""

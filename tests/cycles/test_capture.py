@@ -24,10 +24,11 @@ from rsibr.rsibr_addon.core.errors import (
 from rsibr.rsibr_addon.core.geometry.directions import reflect
 from rsibr.rsibr_addon.core.maps import equirect, sphere_map
 from rsibr.rsibr_addon.core.progress import Progress, drain
+from rsibr.rsibr_addon.files import memory
 from rsibr.rsibr_addon.files.map_set import read_map_set
 from rsibr.rsibr_addon.files.pictures import write_exr
-from rsibr.rsibr_addon.host.cycles import render_view
-from rsibr.rsibr_addon.host.worlds import light_with
+from rsibr.rsibr_addon.host.cycles import BYTES_BESIDES, bytes_needed, render_view
+from rsibr.rsibr_addon.host.worlds import LIGHT_OF_TEXEL, light_with
 from rsibr.rsibr_addon.job import CaptureJob
 from rsibr.rsibr_addon.tasks.light import environments
 from rsibr.rsibr_addon.tasks.methods import radiance_views as task
@@ -166,6 +167,43 @@ def test_a_killed_capture_goes_on_bit_for_bit(job: CaptureJob, partial: Path, re
     assert len(rendered) == 6
     assert Path(job.output).read_bytes() == uninterrupted
     assert not partial.exists()
+
+
+@pytest.mark.parametrize("described", [True, False])
+def test_a_capture_killed_after_it_named_its_output_needs_no_force(
+    described: bool, job: CaptureJob, partial: Path, rendered: list[int]
+) -> None:
+    drain(capture(job))
+    whole = Path(job.output).read_bytes()
+    Path(job.output).unlink()
+    steps(job, 11).close()
+    Path(job.output).write_bytes(whole)
+    if not described:
+        (partial / "job.json").unlink()  # it goes before the views do
+    rendered.clear()
+    with pytest.raises(OutputFileError, match=r"exists: .*--force"):
+        drain(capture(replace(job, seed=50)))
+    assert len(list(partial.glob("view*.exr"))) == 11
+    drain(capture(job))
+    assert not partial.exists()
+    assert rendered == []
+    assert Path(job.output).read_bytes() == whole
+    # Now nothing tells that it was interrupted
+    with pytest.raises(OutputFileError, match=r"exists: .*--force"):
+        drain(capture(job))
+
+
+@pytest.mark.parametrize("denoise", [False, True])
+def test_a_size_that_memory_does_not_hold_is_refused_before_any_view(
+    denoise: bool, job: CaptureJob, partial: Path, rendered: list[int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    left = BYTES_BESIDES + LIGHT_OF_TEXEL * 16 * 32 + bytes_needed(100, denoise)
+    monkeypatch.setattr(memory, "memory_left", lambda: left)
+    with pytest.raises(RangeError, match=r" at 200x200, .*: shrink it to (100x100|99x99) at most"):
+        drain(capture(replace(job, size=200, denoise=denoise)))
+    assert rendered == []
+    assert not partial.exists()
+    drain(capture(replace(job, size=99, denoise=denoise, samples=2)))
 
 
 def test_views_of_another_job_are_not_taken(job: CaptureJob, partial: Path, rendered: list[int]) -> None:

@@ -156,7 +156,9 @@ def test_a_kill_leaves_nothing_half_and_nothing_for_ever(
     assert outputs in ({}, truth.contents)
     if name == "capture" and not outputs:
         assert views >= finished_views(place.told()) - 1
-    place.run([*truth.argv, *(["--force"] if outputs and name != "job" else [])])
+    # A capture that was killed at its very end is told to be done
+    again = outputs and name != "job" and not any(".partial/" in path for path in seen)
+    place.run([*truth.argv, *(["--force"] if again else [])])
     assert place.contents() == truth.contents
     assert list(place.temporary.iterdir()) == []
 

@@ -8,7 +8,8 @@ import time
 from pathlib import Path
 
 import pytest
-from rsibr.rsibr_addon.files import locks
+from rsibr.rsibr_addon.core.errors import OutputFileError
+from rsibr.rsibr_addon.files import locks, staging
 from rsibr.rsibr_addon.files.atomic import check_target, written_aside
 from rsibr.rsibr_addon.files.folders import check_folder_target, folder_written_aside
 from rsibr.rsibr_addon.files.locks import LOCK, held
@@ -157,4 +158,33 @@ def test_a_file_system_that_does_not_show_what_it_made_is_an_error(
     (folder / LOCK).unlink()
     (folder / LOCK).symlink_to(tmp_path / "none" / "none")
     with pytest.raises(OSError, match=f"does not show what was made.*{LOCK}"), held(folder):
+        pass
+
+
+def test_what_an_older_version_left_goes_after_a_day(tmp_path: Path) -> None:
+    out = tmp_path / "out.rsibr.exr"
+    stray, young = tmp_path / ".out.rsibr.0123abcd.exr", tmp_path / ".out.rsibr.89abcdef.exr"
+    others = [
+        tmp_path / name for name in (".other.0123abcd.exr", ".out.rsibr.0123abcd.hdr", ".out.rsibr.exr")
+    ]
+    for path in (stray, young, *others):
+        path.touch()
+    yesterday = time.time() - 25 * 3600
+    for path in (stray, *others):
+        os.utime(path, (yesterday, yesterday))
+    check_target(out)
+    assert sorted(tmp_path.iterdir()) == sorted([young, *others])
+
+
+def test_folders_that_others_hold_each_time_are_an_error(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refused(folder: Path) -> None:
+        raise BlockingIOError
+
+    monkeypatch.setattr(staging, "held", refused)
+    with (
+        pytest.raises(OutputFileError, match="other processes hold each new folder"),
+        written_aside(tmp_path / "a.exr"),
+    ):
         pass

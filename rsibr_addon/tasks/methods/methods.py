@@ -13,6 +13,8 @@ from ...core.brdf.spec import MEASURED, brdf_from_spec
 from ...core.errors import InputFileError
 from ...core.filtering.prefilter import BYTES_BESIDES, bytes_needed
 from ...core.lobes.bake import SIZES
+from ...host import cycles
+from ...host.worlds import LIGHT_OF_TEXEL
 
 BLENDER_MEMORY = 350e6
 """Bytes that a background Blender takes with a small file, before any work."""
@@ -132,12 +134,12 @@ class Views:
         texels = self.views * self.size**2
         rendering = self.views * (0.5 + 1.5 * self.denoise) + 2.5e-6 * texels * self.samples
         maps = 2 * texels * RGB
-        environment = ENVIRONMENT_TEXELS * RGB
+        light = LIGHT_OF_TEXEL * ENVIRONMENT_TEXELS
         albedo = 4.0
         return Cost(
             BLENDER_SECONDS + albedo + rendering,
-            BLENDER_MEMORY + 2 * maps + 8 * environment,
-            STORED * (maps + environment),
+            BLENDER_MEMORY + cycles.bytes_needed(self.size, self.denoise) + light,
+            STORED * (maps + ENVIRONMENT_TEXELS * RGB),
         )
 
 

@@ -129,6 +129,7 @@ def bake_mips(
         str(output),
         (settings.size, settings.size),
         BYTES_BESIDES,
+        powers=True,
     )
     total = settings.size.bit_length() + 2
     yield Progress(0, total, "reading the environment")

@@ -1,32 +1,35 @@
 """Radiance views of a material, rendered by Cycles into a map set."""
 
 import dataclasses
+import json
 import warnings
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ...core.conventions import Array
-from ...core.errors import InputFileError, RsibrWarning, SceneError
+from ...core.errors import InputFileError, MapSetError, RsibrWarning, SceneError
 from ...core.geometry.camera import Camera
 from ...core.geometry.geodesic import geodesic_sphere
 from ...core.maps.sphere_map import fill_rim
 from ...core.progress import Progress, Steps
 from ...files.atomic import check_target, written_aside
-from ...files.exr import Part, read_parts, write_parts
-from ...files.map_set import MapSet, write_map_set
+from ...files.exr import Part, read_attributes, read_parts, write_parts
+from ...files.map_set import MapsInTurn, read_map_set_header, write_map_set
 from ...files.map_set_header import ENVIRONMENT, make_header
-from ...files.work_folder import work_folder, work_folder_beside
+from ...files.memory import check_memory
+from ...files.work_folder import clear_work_folder, work_folder, work_folder_beside
 from ...host.cameras import add_camera
-from ...host.cycles import RenderedView, RenderSettings, render_view
+from ...host.cycles import BYTES_BESIDES, RenderedView, RenderSettings, bytes_needed, render_view
 from ...host.furnace import directional_albedo
 from ...host.materials import fingerprint, lasting_spec, load_material, material_name
 from ...host.scenes import temporary_scene
 from ...host.shape_dependence import shape_dependence
 from ...host.spheres import add_sphere
 from ...host.version import software
-from ...host.worlds import light_with
+from ...host.worlds import LIGHT_OF_TEXEL, light_with
 from ...job import CaptureJob
 from ..light.environments import load_environment
 
@@ -57,7 +60,7 @@ def capture(job: CaptureJob) -> Steps[Path]:
     Raises
     ------
     RangeError, InputFileError, SceneError, OutputFileError
-        The job cannot be done; found before the first view is rendered.
+        The job cannot be done, or takes more memory than there is; found before the first view is rendered.
     RenderError, SceneError, OutputFileError
         Cycles did not deliver; the material was changed meanwhile; the disk is full.
 
@@ -70,15 +73,28 @@ def capture(job: CaptureJob) -> Steps[Path]:
     Notes
     -----
     Each finished view is kept in OUTPUT.partial until the map set is whole. A job that was
-    interrupted, even killed, goes on with them, and the result is the same, bit by bit.
+    interrupted, even killed, goes on with them, and the result is the same, bit by bit. Never more than
+    one view is in memory.
     """
     settings = [
         RenderSettings(job.size, job.samples, job.denoise, job.seed + view) for view in range(job.views)
     ]
-    check_target(job.output, job.force)
+    output = Path(job.output)
+    # A capture that was killed at its very end has named its output, and its views are still there
+    named = not job.force and output.is_file() and work_folder_beside(output).is_dir()
+    check_target(output, job.force or named)
     yield Progress(0, job.views, "reading the environment")
     subject = _Subject(job)
-    output = Path(job.output)
+    if named and subject.is_in(output):
+        clear_work_folder(work_folder_beside(output))
+        return output
+    check_target(output, job.force)
+    check_memory(
+        bytes_needed(job.size, job.denoise),
+        str(output),
+        (job.size, job.size),
+        BYTES_BESIDES + LIGHT_OF_TEXEL * subject.environment.radiance[..., 0].size,
+    )
     with work_folder(work_folder_beside(output), subject.identity) as folder:
         paths = [folder / f"view{view:03d}.exr" for view in range(job.views)]
         for view, path in enumerate(paths):
@@ -120,6 +136,16 @@ class _Subject:
             "software": software(),
         }
 
+    def is_in(self, path: Path) -> bool:
+        """Whether a map set is a capture of this, with the same settings."""
+        try:
+            found = read_map_set_header(path)
+        except MapSetError:
+            return False
+        wanted = json.loads(json.dumps(_header(self, [], 0.0)))
+        fields = ("layout", "environment", "material", "settings", "software")
+        return all(found.get(field) == wanted[field] for field in fields)
+
     def render(self, view: int, settings: RenderSettings) -> RenderedView:
         with temporary_scene() as scene:
             material = self._material()
@@ -160,18 +186,27 @@ def _is_finished(path: Path) -> bool:
         return False
 
 
-def _map_set(subject: _Subject, paths: list[Path]) -> MapSet:
-    maps: dict[str, Array] = {ENVIRONMENT: subject.environment.radiance, ALBEDO: subject.albedo()}
-    parts: list[dict[str, Any]] = [{"name": name, "role": name} for name in maps]
+def _map_set(subject: _Subject, paths: list[Path]) -> MapsInTurn:
+    environment, albedo = subject.environment.radiance, subject.albedo()
+    shapes = {ENVIRONMENT: environment.shape[:2], ALBEDO: albedo.shape[:2]}
+    parts: list[dict[str, Any]] = [{"name": name, "role": name} for name in shapes]
     variance = 0.0
     for view, path in enumerate(paths):
-        for part in read_parts(path):
-            name = f"view{view:03d}.{part.name}"
-            maps[name] = np.stack([part.channels[channel] for channel in "RGB"], axis=-1)
-            view_dir = subject.view_dirs[view].tolist()
-            parts.append({"name": name, "role": part.name, "view": view, "view_dir": view_dir})
-        variance += float(part.attributes[NOISE]) ** 2 / len(paths)
-    return MapSet("radiance_views", maps, _header(subject, parts, variance**0.5))
+        view_dir = subject.view_dirs[view].tolist()
+        for attributes in read_attributes(path):
+            role = attributes["name"]
+            name = f"view{view:03d}.{role}"
+            shapes[name] = (subject.job.size,) * 2
+            parts.append({"name": name, "role": role, "view": view, "view_dir": view_dir})
+        variance += float(attributes[NOISE]) ** 2 / len(paths)
+
+    def maps() -> Iterator[Array]:
+        yield from (environment, albedo)
+        for path in paths:
+            for part in read_parts(path):
+                yield np.stack([part.channels[channel] for channel in "RGB"], axis=-1)
+
+    return MapsInTurn("radiance_views", shapes, maps(), _header(subject, parts, variance**0.5))
 
 
 def _header(subject: _Subject, parts: list[dict[str, Any]], noise: float) -> dict[str, Any]:

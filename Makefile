@@ -44,7 +44,7 @@ lint: $(READY)
 	$(PYTHON) -m mypy
 
 docs: $(READY)
-	$(PYTHON) -m sphinx --quiet --fail-on-warning --keep-going docs site
+	$(PYTHON) -m sphinx --quiet --fresh-env --fail-on-warning --keep-going docs site
 
 extension: $(READY)
 	$(PYTHON) .ci/build_extension.py

@@ -55,31 +55,128 @@ class Part:
     attributes: dict[str, Any] = field(default_factory=dict)
 
 
-def read_attributes(path: str | Path) -> list[dict[str, Any]]:
-    """Read the headers of a file, not its pixels.
+class OpenExr:
+    """An open file: its headers, and its pixels when they are asked for.
 
     Parameters
     ----------
     path : str or Path
+        Of the file, for messages.
+    stream : BinaryIO
+        Its bytes, at any place.
 
-    Returns
-    -------
-    list of dict
+    Attributes
+    ----------
+    headers : list of dict
         For each part its attributes by name, as the OpenEXR package gives them.
 
     Raises
     ------
     InputFileError
-        The file is missing, unreadable, not OpenEXR, or damaged in its headers.
+        The file is not OpenEXR, or damaged in its headers.
     """
-    with opened(path) as stream, _package_file(path, stream, header_only=True) as file:
-        headers = [dict(part.header) for part in file.parts]
-    try:
+
+    def __init__(self, path: str | Path, stream: BinaryIO) -> None:
+        self._path, self._stream = path, stream
+        stream.seek(0)
+        if stream.read(len(MAGIC)) != MAGIC:
+            raise InputFileError(f"{path} is not an OpenEXR file: convert it, or give another.")
+        with self._package_file(header_only=True) as file:
+            self.headers = [dict(part.header) for part in file.parts]
+        try:
+            for header in self.headers:
+                [channel.name for channel in header["channels"]]
+        except UnicodeDecodeError as error:
+            raise InputFileError(
+                f"{path} has names of channels that are not UTF-8: save it again."
+            ) from error
+
+    def parts(self) -> list[Part]:
+        """Read all pixels.
+
+        Returns
+        -------
+        list of Part
+            Every part that the headers announce, each with the pixels of its data window.
+
+        Raises
+        ------
+        InputFileError
+            Pixels of a part are missing or damaged; a part has deep pixels.
+        RangeError
+            The file is too large for this machine's memory.
+
+        Notes
+        -----
+        Subsampled channels are interpolated: see `exr_sampling`.
+        """
+        path, headers = self._path, self.headers
         for header in headers:
-            [channel.name for channel in header["channels"]]
-    except UnicodeDecodeError as error:
-        raise InputFileError(f"{path} has names of channels that are not UTF-8: save it again.") from error
-    return headers
+            if header["type"] not in (OpenEXR.scanlineimage, OpenEXR.tiledimage):
+                raise InputFileError(f"{path} holds deep pixels: flatten it, and save it as a plain OpenEXR.")
+        sizes = [window_size(header["dataWindow"]) for header in headers]
+        texels = sum(
+            width * height * len(header["channels"])
+            for header, (width, height) in zip(headers, sizes, strict=True)
+        )
+        check_memory(BYTES_OF_SAMPLE * texels, str(path), max(sizes))
+        with self._package_file(separate_channels=True) as file:
+            # The package leaves out, without an exception, each part whose pixels it cannot read
+            if len(file.parts) != len(headers):
+                raise InputFileError(
+                    f"{path} is truncated or damaged (pixels of {len(headers) - len(file.parts)} of its "
+                    f"{len(headers)} parts cannot be read): fetch or make it again."
+                )
+            return [
+                Part(
+                    part.header.get("name", ""),
+                    {
+                        name: _full(channel, part.header["dataWindow"])
+                        for name, channel in part.channels.items()
+                    },
+                    dict(part.header),
+                )
+                for part in file.parts
+            ]
+
+    @contextlib.contextmanager
+    def _package_file(self, **options: bool) -> Iterator[Any]:
+        """The package's view of the file; its complaints become one sentence."""
+        self._stream.seek(0)
+        try:
+            with unheard():
+                file = OpenEXR.File(self._stream, **options)
+        except (RuntimeError, ValueError) as error:
+            raise InputFileError(f"{self._path} is truncated or damaged: fetch or make it again.") from error
+        with file:
+            yield file
+
+
+@contextlib.contextmanager
+def open_exr(path: str | Path) -> Iterator[OpenExr]:
+    """Open a file to read its headers, or all of it.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Yields
+    ------
+    OpenExr
+
+    Raises
+    ------
+    InputFileError
+        The file is missing or unreadable, or as `OpenExr`.
+    """
+    with opened(path) as stream:
+        yield OpenExr(path, stream)
+
+
+def read_attributes(path: str | Path) -> list[dict[str, Any]]:
+    """Read the headers of a file, not its pixels: `OpenExr.headers`, with what `open_exr` raises."""
+    with open_exr(path) as file:
+        return file.headers
 
 
 def read_parts(path: str | Path) -> list[Part]:
@@ -92,44 +189,15 @@ def read_parts(path: str | Path) -> list[Part]:
     Returns
     -------
     list of Part
-        Every part that the headers announce, each with the pixels of its data window.
+        See `OpenExr.parts`.
 
     Raises
     ------
-    InputFileError
-        As `read_attributes`; pixels of a part are missing or damaged; a part has deep pixels.
-    RangeError
-        It is too large for this machine's memory.
-
-    Notes
-    -----
-    Subsampled channels are interpolated: see `exr_sampling`.
+    InputFileError, RangeError
+        As `open_exr` and `OpenExr.parts`.
     """
-    headers = read_attributes(path)
-    for header in headers:
-        if header["type"] not in (OpenEXR.scanlineimage, OpenEXR.tiledimage):
-            raise InputFileError(f"{path} holds deep pixels: flatten it, and save it as a plain OpenEXR.")
-    sizes = [window_size(header["dataWindow"]) for header in headers]
-    texels = sum(
-        width * height * len(header["channels"])
-        for header, (width, height) in zip(headers, sizes, strict=True)
-    )
-    check_memory(BYTES_OF_SAMPLE * texels, str(path), max(sizes))
-    with opened(path) as stream, _package_file(path, stream, separate_channels=True) as file:
-        # The package leaves out, without an exception, each part whose pixels it cannot read
-        if len(file.parts) != len(headers):
-            raise InputFileError(
-                f"{path} is truncated or damaged (pixels of {len(headers) - len(file.parts)} of its "
-                f"{len(headers)} parts cannot be read): fetch or make it again."
-            )
-        return [
-            Part(
-                part.header.get("name", ""),
-                {name: _full(channel, part.header["dataWindow"]) for name, channel in part.channels.items()},
-                dict(part.header),
-            )
-            for part in file.parts
-        ]
+    with open_exr(path) as file:
+        return file.parts()
 
 
 def _full(channel: Any, window: tuple[Indices, Indices]) -> Array:
@@ -259,18 +327,3 @@ def _described(part: Part, largest: Sequence[int]) -> Any:
         {name: np.ascontiguousarray(pixels[::-1]) for name, pixels in part.channels.items()},
         part.name,
     )
-
-
-@contextlib.contextmanager
-def _package_file(path: str | Path, stream: BinaryIO, **options: bool) -> Iterator[Any]:
-    """The package's view of an open file; its complaints become one sentence."""
-    if stream.read(len(MAGIC)) != MAGIC:
-        raise InputFileError(f"{path} is not an OpenEXR file: convert it, or give another.")
-    stream.seek(0)
-    try:
-        with unheard():
-            file = OpenEXR.File(stream, **options)
-    except (RuntimeError, ValueError) as error:
-        raise InputFileError(f"{path} is truncated or damaged: fetch or make it again.") from error
-    with file:
-        yield file

@@ -73,7 +73,7 @@ def meaning(header: dict[str, Any]) -> Meaning:
     Parameters
     ----------
     header : dict
-        As `exr.read_attributes` gives it.
+        One of `exr.OpenExr.headers`.
 
     Returns
     -------

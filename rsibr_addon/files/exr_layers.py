@@ -69,7 +69,7 @@ def layers_of(headers: Sequence[dict[str, Any]]) -> list[Layer]:
     Parameters
     ----------
     headers : sequence of dict
-        Of the file's parts, as `exr.read_attributes` gives them.
+        Of the file's parts, as `exr.OpenExr.headers` has them.
 
     Returns
     -------

@@ -24,7 +24,7 @@ from ..core.errors import (
 from ..core.half_floats import half_holds
 from ..core.schema import loads
 from .atomic import check_target, written_aside
-from .exr import MAGIC, Part, read_attributes, read_parts
+from .exr import MAGIC, OpenExr, Part, open_exr
 from .exr_in_turn import PartsInTurn
 from .map_set_header import FORMAT, check_header
 from .reading import opened
@@ -175,11 +175,13 @@ def read_map_set(path: str | Path, kind: str | None = None) -> MapSet:
         As `read_map_set_header`; or the set is of another kind, too large for this machine's memory, or
         pixels are missing, differ from what was written, or are not finite.
     """
-    header = read_map_set_header(path)
-    if kind not in (None, header["kind"]):
-        raise MapSetError(f"{path} holds {header['kind']}, but {kind} are needed here: give another map set.")
-    with _as_map_set_error():
-        found = {part.name: part for part in read_parts(path)}
+    with _as_map_set_error(), open_exr(path) as file:
+        header = _checked_header(path, file)
+        if kind not in (None, header["kind"]):
+            raise MapSetError(
+                f"{path} holds {header['kind']}, but {kind} are needed here: give another map set."
+            )
+        found = {part.name: part for part in file.parts()}
     # Most of the time goes into sums and copies, for which Python lets other threads run
     with ThreadPoolExecutor() as threads:
         checked = threads.map(lambda part: _checked_pixels(path, part, found[part["name"]]), header["parts"])
@@ -209,9 +211,7 @@ def is_map_set(path: str | Path) -> bool:
         The file is missing, unreadable, or damaged in its headers.
     """
     with opened(path) as stream:
-        if stream.read(len(MAGIC)) != MAGIC:
-            return False
-    return _description(read_attributes(path)) is not None
+        return stream.read(len(MAGIC)) == MAGIC and _description(OpenExr(path, stream)) is not None
 
 
 def read_map_set_header(path: str | Path) -> dict[str, Any]:
@@ -233,9 +233,12 @@ def read_map_set_header(path: str | Path) -> dict[str, Any]:
         version or an unknown kind; the description is damaged, incomplete, or lists other parts or
         sizes than the file holds.
     """
-    with _as_map_set_error():
-        attributes = read_attributes(path)
-    text = _description(attributes)
+    with _as_map_set_error(), open_exr(path) as file:
+        return _checked_header(path, file)
+
+
+def _checked_header(path: str | Path, file: OpenExr) -> dict[str, Any]:
+    text = _description(file)
     if text is None:
         raise MapSetError(f"{path} is a picture, not a map set: make one with `rsibr capture`.")
     try:
@@ -246,7 +249,7 @@ def read_map_set_header(path: str | Path) -> dict[str, Any]:
         ) from error
     check_header(header, str(path))
     listed = {part["name"]: part["size"] for part in header["parts"]}
-    found = {part.get("name", ""): _size(part) for part in attributes}
+    found = {part.get("name", ""): _size(part) for part in file.headers}
     if SMALLEST_TEXEL * sum(width * height for width, height in found.values()) > Path(path).stat().st_size:
         raise MapSetError(f"{path} is truncated: it states more than it can hold; fetch or make it again.")
     found.pop(COVER, None)
@@ -259,9 +262,9 @@ def read_map_set_header(path: str | Path) -> dict[str, Any]:
     return header
 
 
-def _description(attributes: list[dict[str, Any]]) -> str | None:
+def _description(file: OpenExr) -> str | None:
     """The first part's description, as it stands."""
-    text = attributes[0].get(ATTRIBUTE) if attributes else None
+    text = file.headers[0].get(ATTRIBUTE) if file.headers else None
     return text if isinstance(text, str) else None
 
 

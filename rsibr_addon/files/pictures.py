@@ -3,6 +3,7 @@
 import re
 import warnings
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from ..core.conventions import Array
 from ..core.errors import InputFileError, RsibrWarning, ShapeError
 from .atomic import written_aside
 from .chromaticities import XYZ, rec709_from
-from .exr import Part, in_display_window, read_attributes, read_parts, window_size, write_parts
+from .exr import OpenExr, Part, in_display_window, open_exr, read_attributes, window_size, write_parts
 from .exr_header import Meaning, meaning
 from .exr_layers import Layer, choose, layers_of
 from .picture_facts import GREY, PictureFacts
@@ -71,10 +72,16 @@ def read_exr(path: str | Path) -> Array:
     RsibrWarning
         Something that the header says is not used; says what.
     """
-    file, layer, meant, remarks = _chosen(path)
+    with open_exr(split_layer(path)[0]) as file:
+        return picture_of(path, file)
+
+
+def picture_of(path: str | Path, file: OpenExr) -> Array:
+    """The picture of an open file: see `read_exr`, whose `path` names it."""
+    layer, meant, remarks = _chosen(path, file.headers)
     for remark in remarks:
-        warnings.warn(f"{path} {remark}", RsibrWarning, stacklevel=2)
-    part = read_parts(file)[layer.part]
+        warnings.warn(f"{path} {remark}", RsibrWarning, stacklevel=3)
+    part = file.parts()[layer.part]
     wanted = {role: name for role, name in layer.channels.items() if part.channels[name].dtype.kind == "f"}
     if wanted.keys() | {"A"} != layer.channels.keys() | {"A"}:
         raise InputFileError(
@@ -122,8 +129,8 @@ def describe_exr(path: str | Path) -> PictureFacts:
     InputFileError
         As `read_exr`, but for the pixels.
     """
-    file, layer, meant, remarks = _chosen(path)
-    headers = read_attributes(file)
+    headers = read_attributes(split_layer(path)[0])
+    layer, meant, remarks = _chosen(path, headers)
     header = headers[layer.part]
     return PictureFacts(
         format="OpenEXR",
@@ -140,10 +147,9 @@ def describe_exr(path: str | Path) -> PictureFacts:
 LAYER_OF_FILE = re.compile(r"(.+\.exr):([^:/\\]+)", re.IGNORECASE | re.DOTALL)
 
 
-def _chosen(path: str | Path) -> tuple[Path, Layer, Meaning, list[str]]:
-    """The file, its picture, what that means, and what is left of the file."""
+def _chosen(path: str | Path, headers: list[dict[str, Any]]) -> tuple[Layer, Meaning, list[str]]:
+    """A file's picture, what that means, and what is left of the file."""
     file, wanted = split_layer(path)
-    headers = read_attributes(file)
     layers = layers_of(headers)
     if not layers:
         found = ", ".join(sorted({channel.name for header in headers for channel in header["channels"]}))
@@ -160,7 +166,7 @@ def _chosen(path: str | Path) -> tuple[Path, Layer, Meaning, list[str]]:
             f"has {', '.join(layer.left)} beside {layer.channels['Y']}, but not the other channels of a "
             f"colour: it is taken as grey."
         )
-    return file, layer, meant, [*left, *meant.remarks]
+    return layer, meant, [*left, *meant.remarks]
 
 
 def _rec709_picture(channels: dict[str, Array], meant: Meaning) -> Array:

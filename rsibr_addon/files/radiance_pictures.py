@@ -9,10 +9,12 @@ from ..core.errors import InputFileError, OutputFileError
 from . import exr, radiance_hdr
 from .atomic import check_target, written_aside
 from .picture_facts import PictureFacts
-from .pictures import describe_exr, read_exr, split_layer
+from .pictures import describe_exr, picture_of, split_layer
 from .reading import opened
 
 NEITHER = "is neither OpenEXR nor Radiance HDR: give one, or make light of photographs by rsibr illuminate."
+
+_LONGEST_MAGIC = max(len(exr.MAGIC), len(radiance_hdr.MAGIC))
 
 
 def holds_radiance(path: str | Path) -> bool:
@@ -59,13 +61,15 @@ def read_radiance(path: str | Path) -> Array:
     RsibrWarning
         Something that the header says is not used; says what.
     """
-    start = _start(path)
-    if start.startswith(exr.MAGIC):
-        pixels = read_exr(path)[..., :3]
-    elif start.startswith(radiance_hdr.MAGIC):
-        pixels = radiance_hdr.read_hdr(path)
-    else:
-        raise InputFileError(f"{path} {NEITHER}")
+    file = split_layer(path)[0]
+    with opened(file) as stream:
+        start = stream.read(_LONGEST_MAGIC)
+        if start.startswith(exr.MAGIC):
+            pixels = picture_of(path, exr.OpenExr(file, stream))[..., :3]
+        elif start.startswith(radiance_hdr.MAGIC):
+            pixels = radiance_hdr.read_hdr(path)
+        else:
+            raise InputFileError(f"{path} {NEITHER}")
     height, width = pixels.shape[:2]
     return np.broadcast_to(pixels, (height, width, 3))
 
@@ -155,4 +159,4 @@ def write_radiance(path: str | Path, radiance: Array, force: bool = False) -> No
 
 def _start(path: str | Path) -> bytes:
     with opened(split_layer(path)[0]) as stream:
-        return stream.read(max(len(exr.MAGIC), len(radiance_hdr.MAGIC)))
+        return stream.read(_LONGEST_MAGIC)

@@ -1,0 +1,39 @@
+"""A file is opened once to be read: each time costs, over a network most."""
+
+import io
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.files.exr import read_parts
+from rsibr.rsibr_addon.files.map_set import is_map_set, read_map_set, read_map_set_header
+from rsibr.rsibr_addon.files.pictures import describe_exr, read_exr
+from rsibr.rsibr_addon.files.radiance_pictures import read_radiance, write_radiance
+from rsibr.tests.flat_capture import write_flat_capture
+
+
+def opens(read: Callable[[Path], Any], path: Path, monkeypatch: pytest.MonkeyPatch) -> int:
+    """How often a function opens a file."""
+    seen, really_open = [], io.open
+
+    def noted(file: Any, *arguments: Any, **options: Any) -> Any:
+        seen.append(file)
+        return really_open(file, *arguments, **options)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(io, "open", noted)  # what `Path.open` calls
+        read(path)
+    return seen.count(path)
+
+
+@pytest.mark.parametrize("read", [read_parts, is_map_set, read_map_set, read_map_set_header])
+def test_a_map_set(read: Callable[[Path], Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert opens(read, write_flat_capture(tmp_path / "a.rsibr.exr", (0.5, 0.5, 0.5)), monkeypatch) == 1
+
+
+@pytest.mark.parametrize("read", [read_parts, read_exr, read_radiance, describe_exr])
+def test_a_picture(read: Callable[[Path], Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write_radiance(tmp_path / "a.exr", np.ones((2, 4, 3)))
+    assert opens(read, tmp_path / "a.exr", monkeypatch) == 1

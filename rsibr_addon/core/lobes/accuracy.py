@@ -1,4 +1,4 @@
-"""How far a fit is from what it stands for."""
+"""Errors of a fit."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from ..conventions import Array
 from .fit import Fit
 
 GRAZING = 0.1
-"""Elevations with n.v below this count as grazing."""
+"""n.v below which elevations count as grazing."""
 
 _RADIAL_NODES, _ARC_NODES = 16, 32
 
@@ -29,8 +29,8 @@ class FitErrors:
     albedo : ndarray, shape (S, 3)
         Integral of the fit over that of the model, minus 1; 0 where the model is black.
     amplification : ndarray, shape (S,)
-        Sum over lobes and taps of sqrt(integral of their squares) over that of the model: how much larger
-        errors of single maps become in their sum.
+        Sum over lobes and taps of sqrt(integral of their squares) over that of the model: the factor by which
+        errors of single maps may grow in their sum.
     """
 
     mu: Array
@@ -64,7 +64,7 @@ def fit_errors(fit: Fit, brdf: BrdfFunction, mu: Sequence[float] | Array | None 
     brdf : callable
         A `Brdf`, or any isotropic function called like one.
     mu : sequence of float, optional
-        Elevations in (0, 1]; those of the fit where not given. Between them the fit is interpolated.
+        Elevations in (0, 1], by default those of the fit; between those the fit is interpolated.
 
     Returns
     -------

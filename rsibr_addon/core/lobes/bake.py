@@ -25,12 +25,12 @@ ALLOWED_INTERPOLATION = 0.0025
 """Relative root-mean-square error that bilinear lookups may cost where no size is asked for."""
 
 ALLOWED_OF_A_KERNEL = 0.05
-"""What they may cost a bank's sharpest kernel: in a material's lobes it is the small tip of the peak."""
+"""The same error allowed for a bank's sharpest kernel, which is only the small tip of a lobe's peak."""
 
 _SHARPEST_BY_TEXELS = 0.25
 
 Afford = Callable[[float, int], None]
-"""Told, before maps are made, how many bytes of memory that takes, and their width; raises to prevent it."""
+"""Called before maps are made with their bytes of memory and their width; raises to prevent it."""
 
 
 def _at_any_cost(needed: float, size: int) -> None:
@@ -39,16 +39,16 @@ def _at_any_cost(needed: float, size: int) -> None:
 
 @dataclass(frozen=True)
 class BakedStack:
-    """What a stack is summed from, and how near it is to what its fit promises.
+    """The parts from which a stack is summed, and the error of lookups in it.
 
     Attributes
     ----------
     filtered : FilteredBank
-        Of the kernels that the fit uses; all maps of the stack together can take many times as much.
+        Maps of the kernels that the fit uses; all maps of the stack together can take many times as much
+        memory.
     fit : Fit
     interpolation : float
-        What bilinear lookups between texels are expected to cost on a sphere: relative
-        root-mean-square error.
+        Relative root-mean-square error that bilinear lookups between texels are expected to cost on a sphere.
     """
 
     filtered: FilteredBank
@@ -57,7 +57,7 @@ class BakedStack:
 
     @property
     def stack(self) -> LobeStack:
-        """The stack, with all maps at once."""
+        """The stack, with all its maps in memory."""
         return stack_from_bank(self.filtered, self.fit)[0]
 
     @property
@@ -68,13 +68,13 @@ class BakedStack:
 
 @dataclass(frozen=True)
 class BakedBank:
-    """A bank, and how near lookups in it are to its kernels.
+    """A bank, and the error of lookups in it.
 
     Attributes
     ----------
     filtered : FilteredBank
     interpolation : tuple of float
-        What bilinear lookups in each kernel's map are expected to cost: relative root-mean-square error.
+        Relative root-mean-square error that bilinear lookups in each kernel's map are expected to cost.
     """
 
     filtered: FilteredBank
@@ -87,7 +87,7 @@ def sharpest_resolved(height: int) -> float:
     Parameters
     ----------
     height : int
-        Of the environment in rows.
+        Height of the environment in rows.
 
     Returns
     -------
@@ -97,7 +97,7 @@ def sharpest_resolved(height: int) -> float:
     Raises
     ------
     RangeError
-        It resolves none.
+        It resolves no kernel.
     """
     bank, least = octaves(SHARPEST), (1.0 - TIE) * resolved_width(height)
     resolved = [
@@ -129,12 +129,12 @@ def bake_bank(radiance: Array, layout: str, size: int, afford: Afford = _at_any_
     Returns
     -------
     BakedBank
-        Of the kernels of `bank.octaves` for which `ALLOWED_OF_A_KERNEL` is kept.
+        Bank of the kernels of `bank.octaves` that keep `ALLOWED_OF_A_KERNEL`.
 
     Raises
     ------
     RangeError
-        The layout is none, the size is out of range, or nothing is resolved.
+        There is no such layout, the size is out of range, or no kernel is resolved.
     """
     stack_representation(layout, size)
     yield Progress(0, 2, "analysing the environment")
@@ -178,7 +178,8 @@ def bake_stack(
     Raises
     ------
     RangeError
-        The layout is none, the size is out of range, or a lobe is narrower than the environment resolves.
+        There is no such layout, the size is out of range, or a lobe is narrower than the environment
+        resolves.
     """
     if size is not None:
         stack_representation(layout, size)
@@ -224,7 +225,7 @@ def _light(harmonics: EnvironmentHarmonics, degree: int) -> Array:
 
 
 def _laplacian(degree: int) -> Array:
-    """What degree l of a map has times itself for a Laplacian: l (l + 1), shape (degree + 1, 1)."""
+    """Factors l (l + 1) by which the Laplacian multiplies the degrees of a map, shape (degree + 1, 1)."""
     l = np.arange(degree + 1.0)[:, None]
     return l * (l + 1.0)
 
@@ -238,15 +239,15 @@ def _curvature_of_kernel(kernel: ZonalSeries, harmonics: EnvironmentHarmonics) -
 def _curvature(fit: Fit, weights: Array, series: list[ZonalSeries], harmonics: EnvironmentHarmonics) -> float:
     """Root mean square of the maps' Laplacians over that of the radiance, on a sphere seen from afar.
 
-    A sphere's rings count by mu. What several lookups get wrong is taken as independent; radiance is taken as
-    if the lobes of a view had one axis.
+    A sphere's rings count by mu. Errors of several lookups are taken as independent, and radiance as if all
+    lobes of a view had one axis.
     """
     degree = analysis_degree(series)
     gains = np.zeros((len(series), degree + 1))
     for row, lobe in zip(gains, series, strict=True):
         row[: lobe.degree + 1] = lobe.coefficients
     light = _light(harmonics, degree)
-    # Of every lobe and elevation, degree by degree
+    # Power of every lobe and elevation, degree by degree
     amplitude = fit.scale[:, :, None] * np.einsum("lpkc,kd->lpdc", weights, gains)
     lookups = np.sum(fit.taps**2, axis=2)
     bent = np.einsum("s,ls,lsdc,dc->", fit.mu, lookups, amplitude**2, light * _laplacian(degree) ** 2)

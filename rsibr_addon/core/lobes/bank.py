@@ -1,4 +1,4 @@
-"""The bank of kernels that every profile is a sum of: spherical Gaussians, each twice as sharp as the last.
+"""The kernels whose sums are the lobes' profiles: spherical Gaussians, each twice as sharp as the last.
 
 Scalar products of von Mises-Fisher kernels are known in closed form, as are their zonal coefficients. An
 environment that was filtered once with every kernel of a bank therefore holds the maps of every fit that
@@ -77,7 +77,7 @@ class KernelBank:
         return values
 
     def falls(self, half_chord_squared: Array) -> Iterator[Array]:
-        """Kernels over their peaks, one after the other, for less than `values` costs.
+        """Kernels over their peaks, one after the other, faster than `values`.
 
         Parameters
         ----------
@@ -87,7 +87,7 @@ class KernelBank:
         Yields
         ------
         ndarray, shape of `half_chord_squared`
-            exp(kappa (cos - 1)), valid until the next is asked for.
+            exp(kappa (cos - 1)), valid until the next one is taken.
         """
         held: dict[float, Array] = {}
         for kappa in self.concentrations:
@@ -100,7 +100,7 @@ class KernelBank:
             yield fall
 
     def products(self, angle: Array) -> tuple[Array, Array, Array]:
-        """Scalar products over the sphere of kernels about two axes, and how they change.
+        """Scalar products over the sphere of kernels about two axes, and their derivatives.
 
         Parameters
         ----------
@@ -127,7 +127,7 @@ class KernelBank:
         fall = np.exp(-4.0 * product * half / (length + together))
         lost = np.exp(-2.0 * length)
         products = (2.0 * np.pi * self.peaks[:, None] * self.peaks) * fall * (1.0 - lost) / length
-        # Of log(sinh(R) / R): coth R - 1 / R
+        # Slope of log(sinh(R) / R): coth R - 1 / R
         langevin = (1.0 + lost) / -np.expm1(-2.0 * length) - 1.0 / length
         turn = -product * sine / length
         bend = -(product * cosine + turn**2) / length
@@ -136,7 +136,7 @@ class KernelBank:
         return products, first, second
 
     def lobes(self) -> tuple[ZonalLobe, ...]:
-        """Every kernel as a lobe to filter environments with, K of them."""
+        """The K kernels as lobes to filter environments with."""
         return tuple(von_mises_fisher_lobe(kappa) for kappa in self.concentrations)
 
     def mixture(self, weights: Array) -> ZonalLobe:
@@ -145,7 +145,7 @@ class KernelBank:
         Parameters
         ----------
         weights : ndarray, shape (K,)
-            Of each kernel; their sum is the lobe's integral.
+            Weights of the kernels; their sum is the lobe's integral.
 
         Returns
         -------
@@ -175,7 +175,7 @@ def octaves(sharpest: float) -> KernelBank:
     Parameters
     ----------
     sharpest : float
-        At least up to this concentration, but not beyond `SHARPEST`.
+        Concentration that the last kernel reaches, up to `SHARPEST`.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Which lobe of one elevation continues which of the next: [Kautz2000] section 3.3, Figure 5."""
+"""Matching of lobes from one elevation to the next: [Kautz2000] section 3.3, Figure 5."""
 
 import numpy as np
 
@@ -12,17 +12,17 @@ def clustered(offsets: Array) -> Indices:
     Parameters
     ----------
     offsets : ndarray, shape (S, L, 2)
-        Of the lobes' axes, in any order at each of S elevations.
+        Offsets of the lobes' axes, in any order at each of S elevations.
 
     Returns
     -------
     ndarray, shape (S, L)
-        Which lobe of an elevation belongs to each sequence.
+        Number of the lobe of each elevation that belongs to each sequence.
 
     Notes
     -----
-    From the last elevation, nearest to the normal, towards grazing: of all pairs of sequences and lobes the
-    nearest go together, then the nearest of the others, and so on.
+    From the last elevation, nearest to the normal, towards grazing: the nearest pair of a sequence and a lobe
+    is matched first, then the nearest of the others, and so on.
     """
     slices, lobes = offsets.shape[:2]
     order = np.tile(np.arange(lobes), (slices, 1))

@@ -1,4 +1,4 @@
-"""Down to the best axes of one elevation: Levenberg-Marquardt over variable projection."""
+"""The best axes of one elevation: Levenberg-Marquardt over variable projection."""
 
 import numpy as np
 
@@ -16,7 +16,7 @@ _ENOUGH = 1e-4
 def descend(
     projector: Projector, lookups: Lookups, with_taps: bool, tie: float = 0.0
 ) -> tuple[Lookups, Projection]:
-    """Move axes, and the weights of taps, to where the error is least nearby.
+    """Move axes, and the weights of taps, to the nearest least error.
 
     Parameters
     ----------
@@ -26,14 +26,14 @@ def descend(
     with_taps : bool
         Whether the taps' weights move too.
     tie : float
-        What must be gained for every squared radian that axes move, and every squared unit that taps do,
-        over the error at the start or, where that is less, `_ENOUGH`: what little depends on stays as it is.
+        Penalty on each squared radian by which axes move, and each squared unit by which taps do, relative to
+        the error at the start or, where that is less, `_ENOUGH`: unknowns that matter little stay in place.
 
     Returns
     -------
     lookups : Lookups
     projection : Projection
-        Of these.
+        The projection of these lookups.
     """
     count = lookups.angles.size
     free = slice(None) if with_taps else slice(count)
@@ -64,7 +64,7 @@ def descend(
 
 
 def _change(start: Lookups, end: Lookups) -> Array:
-    """Of all angles, then of all taps."""
+    """Changes of all angles, then of all taps."""
     return np.concatenate([(end.angles - start.angles).ravel(), (end.taps - start.taps).ravel()])
 
 
@@ -74,5 +74,5 @@ def _moved(lookups: Lookups, step: Array, non_negative: bool) -> Lookups:
     taps = lookups.taps + change.reshape(lookups.taps.shape)
     if non_negative:
         taps = np.maximum(taps, 0.0)
-    # A factor of a lobe's taps is one of its profile: fixed, or rounding alone would choose it
+    # A factor of a lobe's taps is also one of its profile: it is fixed, or rounding alone would choose it
     return Lookups(lookups.angles + turn, taps / np.abs(taps).sum(axis=1, keepdims=True))

@@ -1,7 +1,7 @@
 """A fit: reflectance as a few radially symmetric lobes for each view elevation.
 
-What is fitted is the whole brdf * n.l over the sphere, 0 below the horizon: the cosine is in the lobes.
-[Kautz2000] Eq. 2 takes it outside the integral as n.r, which doubles the error and more.
+The fit approximates the whole brdf * n.l over the sphere, 0 below the horizon: the lobes include the cosine.
+[Kautz2000] Eq. 2 takes it out of the integral as n.r, which at least doubles the error.
 """
 
 from collections.abc import Sequence
@@ -24,27 +24,27 @@ class Fit:
 
         sum over lobes and taps of taps * scale * sum over kernels of weights * kernel(l . axis)
 
-    with the axis from `lobe_axes`. Between two elevations everything is linear in mu = n.v, beyond the
-    first and the last it is theirs.
+    with the axis from `lobe_axes`. Between two elevations everything is linear in mu = n.v; beyond the first
+    and the last, the values of these hold.
 
     Attributes
     ----------
     brdf : str
         The text of the model.
     method : str
-        How it was fitted: "joint", "greedy", "single" or "single-2d".
+        Method of the fit: "joint", "greedy", "single" or "single-2d".
     mu : ndarray, shape (S,)
         Cosines of the view elevations, ascending, in (0, 1].
     bank : KernelBank
         K kernels, which integrate to 1.
     weights : ndarray, shape (L, P, K, 3)
-        Profiles of the lobes in linear Rec. 709, each channel with its own, as sums of the kernels: signed,
-        and not normalised, because the integral of a signed lobe may be 0. P is S, or 1 where all
-        elevations share one profile, and so one map.
+        Weights of the kernels whose sums are the lobes' profiles, one for each channel of linear Rec. 709.
+        They are signed, and not normalised, because the integral of a signed lobe may be 0. P is S, or 1
+        where all elevations share one profile, and so one map.
     scale : ndarray, shape (L, S, 3)
         Factor of the profile: k(theta) of [Kautz2000] section 3.2, and 1 in other methods.
     offsets : ndarray, shape (L, S, T, 2)
-        Where the axis lies from the mirror direction: see `lobe_axes`.
+        Offsets of the axes from the mirror direction: see `lobe_axes`.
     taps : ndarray, shape (L, S, T)
         Weights of the taps; the first is 1 where there is only one.
 
@@ -121,7 +121,7 @@ class Fit:
         axes : ndarray, shape (L * T, 3)
             Unit vectors.
         weights : ndarray, shape (L * T, K, 3)
-            Of the kernels about each axis.
+            Weights of the kernels about each axis.
         """
         below, share = self._neighbours(mu)
 
@@ -155,7 +155,7 @@ class Fit:
         return total
 
     def evaluate_lobes(self, light_dir: ArrayLike, mu: float) -> Array:
-        """What each lobe adds to `evaluate`, shape (L, ..., 3)."""
+        """The share of each lobe in `evaluate`, shape (L, ..., 3)."""
         light_dir = np.asarray(light_dir, dtype=np.float64)
         values = np.zeros((len(self.weights), *light_dir.shape))
         taps = self.taps.shape[2]
@@ -228,7 +228,7 @@ def offsets_from_axes(normal: ArrayLike, reflect_dir: ArrayLike, axes: ArrayLike
 
 
 def joined(fits: Sequence[Fit], brdf: str) -> Fit:
-    """The sum of several fits, such as of the layers of a material.
+    """The sum of several fits, such as those of a material's layers.
 
     Parameters
     ----------
@@ -240,7 +240,7 @@ def joined(fits: Sequence[Fit], brdf: str) -> Fit:
     Returns
     -------
     Fit
-        With all their lobes, in their order; its taps are as many as the largest number among them.
+        All lobes of the fits, in their order, with as many taps as the fit that has most.
     """
     kappas = sorted({kappa for fit in fits for kappa in fit.bank.concentrations})
     taps = max(fit.taps.shape[2] for fit in fits)

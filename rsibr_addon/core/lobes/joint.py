@@ -1,12 +1,12 @@
-"""All profiles of a fit together, with axes by variable projection, tracked over the elevations.
+"""The joint fit: all profiles at once, with axes by variable projection, tracked over the elevations.
 
-Fits grow lobe by lobe. A new lobe is tried at every angle, and by spreading those that are there; the better
-start is followed to its optimum at one elevation. Taps start there from several spreads, and the best is
-kept. From there the fit goes to grazing and to normal incidence, each elevation starting from its neighbour's
-tilts.
+Fits grow lobe by lobe. A new lobe is tried at every angle, and by spreading the present lobes; the better
+start is followed to its optimum at one elevation. Taps start there from several spreads, and the best result
+is kept. From there the fit goes on to grazing and to normal incidence, each elevation starting from its
+neighbour's tilts.
 
 A fit is the same on every processor, although the last bits of sums are not: no step depends on rounding.
-Taps have one scale, axes are tied to where they start, and of equals the first is taken.
+Taps have one scale, axes are tied to their start, and of equal results the first is taken.
 """
 
 from collections.abc import Sequence
@@ -23,7 +23,7 @@ from .smoothing import smoothed_lookups, smoothed_weights
 from .target import TargetSlice
 
 MOST_AMPLIFICATION, MOST_OF_ONE = 8.0, 2.0
-"""Ridges grow until several lobes, or the taps of one, keep these: see `amplification`."""
+"""Greatest `amplification` of several lobes, and of the taps of one; ridges grow until it is kept."""
 
 _SHARPNESS, _THINNEST = 20.0, 3.0
 _START = 0.25
@@ -42,7 +42,7 @@ class State:
     ----------
     lookups : Lookups
     weights : ndarray, shape (J, K, 3)
-        Of the kernels.
+        Weights of the kernels.
     error : float
         sqrt(integral of |fit - target|^2 / integral of |target|^2), with what ridges add to it.
     """
@@ -92,7 +92,7 @@ class JointFitter:
 
     @property
     def lobes(self) -> int:
-        """How many lobes there are: at first none."""
+        """Number of lobes, at first 0."""
         return len(self._angles)
 
     def grow(self) -> None:
@@ -105,7 +105,7 @@ class JointFitter:
         Parameters
         ----------
         fit : Fit
-            That `fit` returned.
+            Result of `fit`.
         price : float
             See `smoothing`.
 
@@ -144,7 +144,7 @@ class JointFitter:
 
 
 def amplification(bank: KernelBank, state: State, target: TargetSlice) -> float:
-    """How loud lobes and taps are together, over their sum.
+    """Norms of all lobes with their taps, added up, over the norm of their sum.
 
     Parameters
     ----------
@@ -155,9 +155,9 @@ def amplification(bank: KernelBank, state: State, target: TargetSlice) -> float:
     Returns
     -------
     float
-        Sum over lobes of sqrt(integral of lobe^2) * sum of |taps|, over sqrt(integral of target^2). Where
-        each map has a relative error of its own, in half floats 2^-11 say, the sum has up to so many times
-        it.
+        Sum over lobes of sqrt(integral of lobe^2) * sum of |taps|, over sqrt(integral of target^2). A
+        relative error of each map, such as 2^-11 of half floats, becomes at most so many times larger in the
+        sum.
     """
     own = bank.products(np.zeros(()))[0]
     loudness = np.sqrt(np.einsum("jkc,kl,jlc->j", state.weights, own, state.weights))
@@ -178,8 +178,8 @@ def _added_lobe(projector: Projector, angles: Array) -> Array:
 def _best_taps(projector: Projector, angles: Array, taps: int) -> Lookups:
     """Taps about given angles, shape (J, 1), from several distances between them.
 
-    Taps are tied to where they start, and more loosely then. Let go at once, they run through long valleys
-    in steps whose direction rounding decides, and end in another place on every processor.
+    Taps are tied to their start, first strongly, then more loosely. Without ties they run through long
+    valleys in steps whose direction rounding decides, and end in another place on every processor.
     """
     if taps == 1:
         return Lookups(angles, np.ones_like(angles))
@@ -194,7 +194,7 @@ def _best_taps(projector: Projector, angles: Array, taps: int) -> Lookups:
 
 
 def _first_of_the_best(settled: Sequence[tuple[Lookups, Projection]]) -> Lookups:
-    """The best, or the first that is nearly as good: rounding chooses between equals."""
+    """The first that is as good as the best or nearly so: among equals, rounding would choose."""
     best = settled[0]
     for each in settled[1:]:
         if each[1].objective < _BETTER * best[1].objective:
@@ -232,7 +232,7 @@ def _tracked(
 
 
 def _settled(target: TargetSlice, bank: KernelBank, lookups: Lookups, non_negative: bool) -> State:
-    """The optimum nearby that is not too loud."""
+    """The nearest optimum that keeps the greatest amplification."""
     most = MOST_AMPLIFICATION if len(lookups.taps) > 1 else MOST_OF_ONE
     stiffness = 1.0
     while True:
@@ -256,7 +256,7 @@ def _fit(slices: Sequence[TargetSlice], bank: KernelBank, states: Sequence[State
     taps = np.stack([state.lookups.taps for state in states], axis=1)
     tilts = [_tilts(target, state.lookups.angles) for target, state in zip(slices, states, strict=True)]
     offsets = np.stack([np.stack(tilts, axis=1), np.zeros_like(taps)], axis=-1)
-    # One sign for all elevations, or interpolation between them would cancel
+    # One sign at all elevations, or interpolation between them would cancel lobes
     sign = np.where(taps.sum(axis=(1, 2), keepdims=True) < 0.0, -1.0, 1.0)
     total = sign * np.abs(taps).sum(axis=2, keepdims=True)
     return Fit(

@@ -1,6 +1,7 @@
 """The fits of Kautz & McCool: one lobe by a mean profile, several by minimum profiles, one for all views.
 
-Fitted is brdf * n.l, as everywhere here; [Kautz2000] fits the brdf and approximates the cosine (its Eq. 2).
+As everywhere here, lobes approximate brdf * n.l. [Kautz2000] fits the brdf, and approximates the cosine (its
+Eq. 2).
 """
 
 from collections.abc import Callable, Sequence
@@ -38,7 +39,7 @@ class Remainder:
     mu : float
         n.v; the mirror direction is (sqrt(1 - mu^2), 0, mu).
     angles : ndarray, shape (N,)
-        Where profiles are sampled, ascending from 0 to pi [rad].
+        Angles at which profiles are sampled, ascending from 0 to pi [rad].
     clamped : bool
         Whether profiles are kept from becoming negative.
     lobes : list of RadialProfile
@@ -47,7 +48,7 @@ class Remainder:
     weight : ndarray, shape (M,)
         Solid angles [sr]; 0 along the plane of incidence, where nodes are added for the peaks.
     values : ndarray, shape (M, 3)
-        What remains there.
+        The remainder in these directions.
     power : float
         Integral of the square of the whole.
     """
@@ -72,7 +73,7 @@ class Remainder:
         self.power = float(np.sum(self.weight @ self.values**2))
 
     def at(self, directions: Array) -> Array:
-        """What remains in some directions, shape (..., 3)."""
+        """The remainder in some directions, shape (..., 3)."""
         view_dir = np.array([-np.sqrt(1.0 - self.mu**2), 0.0, self.mu])
         rest = self.brdf(directions, view_dir) * np.maximum(directions[..., 2:], 0.0)
         for lobe in self.lobes:
@@ -80,7 +81,7 @@ class Remainder:
         return rest
 
     def peak(self) -> Array:
-        """Direction in which most remains, shape (3,)."""
+        """Direction of the largest remainder, shape (3,)."""
         peak: Array = self.nodes[first_greatest(self.values.sum(axis=1))]
         return peak
 
@@ -95,7 +96,7 @@ class Remainder:
         return RadialProfile(axis, self.angles, np.maximum(least, 0.0) if self.clamped else least)
 
     def subtract(self, lobe: RadialProfile) -> None:
-        """Take a lobe away from what remains."""
+        """Subtract a lobe from the remainder."""
         self.lobes.append(lobe)
         self.values -= lobe(self.nodes)
 
@@ -109,7 +110,7 @@ type Seek = Callable[[Remainder], Array]
 
 
 def graded_angles(innermost: float) -> Array:
-    """Where profiles are sampled: evenly in the logarithm from `innermost` [rad], shape (N,)."""
+    """Angles at which profiles are sampled, even in the logarithm from `innermost` [rad] on, shape (N,)."""
     return np.concatenate([[0.0], np.geomspace(innermost, np.pi, _RINGS - 1)])
 
 
@@ -125,7 +126,7 @@ def greedy_errors(
         View elevations.
     lobes : int
     angles : ndarray, shape (N,)
-        Where profiles are sampled.
+        Angles at which profiles are sampled.
     clamped : bool
         Whether profiles are kept from becoming negative.
 
@@ -136,8 +137,8 @@ def greedy_errors(
 
     Notes
     -----
-    [Kautz2000] finds the error rise after six to eight lobes. It does where coarse samples let what remains
-    become negative and profiles follow it; clamped, it falls on.
+    [Kautz2000] finds that the error rises after six to eight lobes. It does where coarse samples make the
+    remainder negative and profiles follow it; clamped, the error keeps falling.
     """
     squares = np.empty((len(mu), lobes))
     for row, cosine in zip(squares, mu, strict=True):
@@ -186,7 +187,7 @@ def single_2d_fit(brdf: BrdfFunction, spec: str, mu: Array, sharpest: float = SH
     Returns
     -------
     Fit
-        With one lobe and one profile: one map does.
+        With one lobe and one profile, so that one map is enough.
     """
     each = single_fit(brdf, spec, mu, sharpest)
     albedo = each.albedo
@@ -224,7 +225,7 @@ def greedy_fit(
         View elevations, ascending.
     lobes : int
     seek : callable
-        Where to place the next lobe: at the highest peak, or as `seeking` has it.
+        Finds the axis of the next lobe: the highest peak, or a way of `seeking`.
     sharpest : float
         Concentration that no kernel exceeds, one of `bank.octaves`.
 

@@ -17,14 +17,14 @@ from .smoothing import PRICES, TOLERATED
 from .target import TargetSlice, target_slices
 
 NEGLIGIBLE = 0.1
-"""A layer whose error is below this share of the whole's gets no more lobes."""
+"""Share of the whole error below which a layer gets no more lobes."""
 
 CLOSE, TAPS = 0.1, 3
-"""Where E stays above, each lobe is looked up so many times: that costs no maps, only time to draw."""
+"""E above which lobes get more lookups, and their number: they cost no maps, only time to draw."""
 
 PAYS = 0.8
-"""If that leaves so much of E, or less, at elevations that were not fitted: taps that follow the noise of a
-measurement do not, and flicker from one elevation to the next."""
+"""Greatest share of E, at elevations that were not fitted, that taps may leave to be kept: taps that follow a
+measurement's noise leave more, and flicker from one elevation to the next."""
 
 
 @dataclass
@@ -34,7 +34,7 @@ class _Layer:
     Attributes
     ----------
     share : ndarray, shape (S,)
-        Of its power in that of the whole model.
+        Share of the layer's power in that of the whole model.
     """
 
     brdf: Brdf
@@ -44,7 +44,7 @@ class _Layer:
     error: float = np.inf
 
     def track(self, taps: int) -> None:
-        """Fit the lobes that there are."""
+        """Fit the present lobes."""
         self.fit, errors = self.fitter.fit(taps)
         self.error = float(np.sqrt(np.mean(errors**2 * self.share)))
 
@@ -81,12 +81,12 @@ def layered_fit(
     mu : sequence of float
         Cosines of the view elevations, ascending, in (0, 1].
     lobes : int
-        At most so many for each layer; where there are several layers, fewer for those that are `NEGLIGIBLE`.
+        Most lobes of each layer; where there are several layers, those that are `NEGLIGIBLE` get fewer.
     error : float, optional
-        Stop adding lobes, to the layer that is furthest off, where E of the whole is at most this.
+        E of the whole at which no more lobes are added, each to the layer with the largest error.
     taps : int, optional
-        Directions in which each lobe's map is looked up; where not given, 1, and `TAPS` where a whole is
-        further off than `CLOSE`, in its layers that are not `NEGLIGIBLE` and where that pays.
+        Directions in which each lobe's map is looked up. By default 1; where E of the whole exceeds `CLOSE`,
+        `TAPS` in layers that are not `NEGLIGIBLE` and where it pays.
     non_negative : bool
         Whether no kernel may have a negative weight.
     sharpest : float
@@ -126,7 +126,7 @@ def layered_fit(
 
 
 def _between(mu: Array) -> Array:
-    """Some elevations halfway between those that are fitted; of one or two, themselves."""
+    """Some elevations halfway between the fitted ones; one or two elevations themselves."""
     halfway: Array = 0.5 * (mu[1:] + mu[:-1])
     return halfway[1::4] if len(halfway) > 1 else mu
 
@@ -145,7 +145,7 @@ def _grown_at_once(layer: _Layer, lobes: int, taps: int) -> Steps[None]:
 
 
 def _grown_in_turn(layers: Sequence[_Layer], lobes: int, error: float | None, taps: int) -> Steps[None]:
-    """Give each next lobe to the layer that is furthest off."""
+    """Give each next lobe to the layer with the largest error."""
     total = len(layers) * lobes
     for done in range(total):
         together = _together(layers)
@@ -165,7 +165,7 @@ def _layers(
 ) -> Iterator[_Layer]:
     whole = target_slices(brdf, mu)
     for layer in brdf.layers:
-        # Most models are their own and only layer: sampling costs as much as fitting
+        # Most models are their own only layer; sampling them again would cost as much as fitting
         slices = whole if layer is brdf else target_slices(layer, mu)
         share = np.array([part.power / all_.power for part, all_ in zip(slices, whole, strict=True)])
         yield _Layer(layer, fitter(slices), share)

@@ -9,7 +9,7 @@ _TOLERANCE = 1e-10
 
 
 def nonnegative_inverse(system: Array, right: Array) -> Array:
-    """What a least-squares problem with non-negative unknowns is solved by multiplying with.
+    """The matrix that solves a least-squares problem with non-negative unknowns.
 
     Parameters
     ----------

@@ -1,10 +1,10 @@
 """The best profiles for given axes, and how the error changes with the axes: variable projection.
 
 Everything is a scalar product over the sphere. Those of kernels are known in closed form, those of kernels
-with the target are one quadrature, and so the profiles of all lobes and all channels are one small linear
-system. [Golub1973] eliminate such linear unknowns from a least-squares problem; what is left is a function of
-the axes (and of the weights of taps) alone, with the gradient and, as [Kaufman1975] simplifies it, the
-Gauss-Newton matrix below.
+with the target are one quadrature. So the profiles of all lobes and all channels are one small linear system.
+[Golub1973] eliminate such linear unknowns from a least-squares problem. There remains a function of the axes
+(and of the weights of taps) alone, with the gradient and, as [Kaufman1975] simplifies it, the Gauss-Newton
+matrix below.
 """
 
 from dataclasses import dataclass
@@ -17,12 +17,11 @@ from .nonnegative import nonnegative_inverse
 from .target import TargetSlice
 
 UNIFORM_LIGHT = 10.0
-"""How much an error under uniform light counts, in units of the same relative error of the lobe's shape."""
+"""Weight of an error under uniform light, relative to the same error of the lobe's shape."""
 
 SHAPE_RIDGE, LIGHT_RIDGE = 5e-5, 1e-6
-"""Prices of the lobes' own power, and of what uniform light makes of each kernel, in units of the target's.
-
-They keep signed lobes from cancelling each other, and cost next to nothing in error.
+"""Penalties on the lobes' own power, and on each kernel under uniform light, in units of the target's. They
+keep signed lobes from cancelling each other, and hardly raise the error.
 """
 
 _RANK = 1e-6
@@ -30,12 +29,12 @@ _RANK = 1e-6
 
 @dataclass(frozen=True)
 class Lookups:
-    """Where lobes are looked up at one elevation, all in the plane of incidence.
+    """Lookups of lobes at one elevation, all in the plane of incidence.
 
     Attributes
     ----------
     angles : ndarray, shape (J, T)
-        Of the axes from the normal, positive on the side of the mirror direction [rad].
+        Angles of the axes from the normal, positive on the side of the mirror direction [rad].
     taps : ndarray, shape (J, T)
         Weights of each lobe's taps.
     """
@@ -55,7 +54,7 @@ class Projection:
     objective : float
         Squared error with what `UNIFORM_LIGHT` and the ridges add, over the target's power.
     gradient : ndarray, shape (2 J T,)
-        Of the objective with respect to all angles and then all taps.
+        Gradient of the objective with respect to all angles and then all taps.
     hessian : ndarray, shape (2 J T, 2 J T)
         The Gauss-Newton approximation of its second derivatives.
     """
@@ -110,7 +109,7 @@ class Projector:
         return self._solve(lookups, moments, products)[2]
 
     def equations(self, lookups: Lookups) -> tuple[Array, Array]:
-        """What the coefficients of given lookups solve; see `weights`.
+        """Equations of the coefficients for given lookups; see `weights`.
 
         Parameters
         ----------
@@ -193,7 +192,8 @@ class Projector:
     def _products(self, angles: Array) -> tuple[Array, Array, Array]:
         """Products of kernels with kernels, and derivatives, shapes (count * K, count * K).
 
-        Uniform light is one more place where functions are compared, and the ridge one more for every axis.
+        Uniform light is one more place where functions are compared, and the ridge is one more for every
+        axis.
         """
         size = len(angles) * len(self.bank)
         units = np.outer(self._unit, self._unit)
@@ -215,7 +215,7 @@ class Projector:
         else:
             inverse = np.broadcast_to(np.linalg.inv(system), (3, *system.shape))
         coefficients = np.einsum("crs,sc->rc", inverse, right)
-        # Written so, what the inverse loses in digits counts squared only
+        # In this form, rounding of the inverse counts only squared
         error = system @ coefficients - 2.0 * right
         objective = 1.0 + UNIFORM_LIGHT + float(np.sum(coefficients * error))
         return coefficients.reshape(len(lookups.taps), -1, 3), inverse, objective

@@ -1,4 +1,4 @@
-"""Profiles as [Kautz2000] has them: samples over the angle from an axis, linear in between."""
+"""Profiles as in [Kautz2000]: samples over the angle from an axis, linear in between."""
 
 from dataclasses import dataclass
 
@@ -37,7 +37,7 @@ class RadialProfile:
 
     @property
     def integral(self) -> Array:
-        """Over the sphere, shape (3,)."""
+        """Integral over the sphere, shape (3,)."""
         rings = 2.0 * np.pi * np.sin(self.angles)[:, None] * self.values
         integral: Array = 0.5 * np.diff(self.angles) @ (rings[1:] + rings[:-1])
         return integral
@@ -52,7 +52,7 @@ class RadialProfile:
         Returns
         -------
         ndarray, shape (K, 3)
-            Least squares over solid angle; what rings can't be told apart by share their weight.
+            Least squares over solid angle; kernels that the rings cannot tell apart share their weight.
         """
         cells = np.gradient(self.angles) * np.sin(self.angles)
         root = np.sqrt(cells)[:, None]

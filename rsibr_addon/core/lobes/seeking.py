@@ -1,4 +1,4 @@
-"""Where to place the next lobe: at the highest peak, or as [Kautz2000] section 7 proposes.
+"""The place of the next lobe: the highest peak, or as [Kautz2000] section 7 proposes.
 
 A peak may be a noisy sample, and a lobe may have its maximum on a ring instead of its axis. Both extensions
 therefore look for the lobe of most volume, which here is the integral of its minimum profile.
@@ -52,7 +52,7 @@ def search(rest: Remainder) -> Array:
     Notes
     -----
     A copy is blurred with a spherical Gaussian as wide as the spacing of the axes that are tried: its values
-    are volumes. The best axes of every copy meet in the end, by the lobes that they really have.
+    are volumes. In the end the best axes of all copies are compared by the volume of their actual lobes.
     """
     spacing = _SPACING
     axes = _everywhere(spacing)
@@ -66,7 +66,7 @@ def search(rest: Remainder) -> Array:
 
 
 SEEKING: dict[str, Seek] = {"peaks": Remainder.peak, "places": best_place, "search": search}
-"""Name -> how the axis of the next lobe is chosen."""
+"""Name -> the choice of the next lobe's axis."""
 
 
 def _most_volume(rest: Remainder, axes: Sequence[Array]) -> Array:
@@ -92,7 +92,7 @@ def _neighbours(axis: Array, spacing: float) -> Array:
 
 
 def _blurred(rest: Remainder, axes: Array, spacing: float) -> Array:
-    """What remains, summed over the channels and blurred, about some axes, shape (A,)."""
+    """The remainder, summed over the channels and blurred, about some axes, shape (A,)."""
     light = rest.weight * rest.values.sum(axis=1)
     kernel = KernelBank((1.0 / spacing**2,))
     return kernel.values(np.clip(0.5 * (1.0 - axes @ rest.nodes.T), 0.0, 1.0))[..., 0] @ light

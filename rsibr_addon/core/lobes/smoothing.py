@@ -1,10 +1,11 @@
 """Fits of noisy measurements: axes and profiles that change as evenly over the elevations as the data allow.
 
 Each elevation of a measurement has an error of its own, and a fit follows it: highlights then wobble as a
-view passes from one elevation to the next. So all elevations are solved for together, at a price for how far
-axes and profiles are from the line between their neighbours': the penalty of smoothing splines, in steps. The
-price is the largest at which the error halfway between elevations, which no fit has seen, is within
-`TOLERATED` of the least, as cross-validation takes the simplest model within one standard error.
+view passes from one elevation to the next. So all elevations are solved together, with a penalty on the
+distance of axes and profiles from the line between their neighbours', as in smoothing splines. The weight of
+the penalty, its price, is the largest at which the error halfway between elevations, which no fit has seen,
+is within `TOLERATED` of the least. Cross-validation, likewise, takes the simplest model within one standard
+error.
 """
 
 from collections.abc import Sequence
@@ -16,17 +17,17 @@ from .projection import Lookups, Projector
 from .target import TargetSlice
 
 PRICES = (0.03, 0.1, 0.3, 1.0)
-"""Of profiles' squared distance from the line, in units of the same squared error."""
+"""Prices of profiles' squared distance from the line, in units of the same squared error."""
 
 AXES = 30.0
-"""What the same share counts for axes, which a highlight shows first."""
+"""Factor of the price for axes, whose wobble a highlight shows first."""
 
 TOLERATED = 1.05
-"""Error halfway between elevations over the least."""
+"""Greatest error halfway between elevations, over the least."""
 
 
 def lines(mu: Array) -> Array:
-    """How far values at every elevation but the ends are from the line between their neighbours'.
+    """Distances of values, at every elevation but the ends, from the line between their neighbours'.
 
     Parameters
     ----------
@@ -35,7 +36,7 @@ def lines(mu: Array) -> Array:
     Returns
     -------
     ndarray, shape (max(S - 2, 0), S)
-        To be multiplied with the values.
+        Matrix that multiplies the values.
     """
     matrix = np.zeros((max(len(mu) - 2, 0), len(mu)))
     for row, (below, here, above) in enumerate(zip(mu, mu[1:], mu[2:], strict=False)):
@@ -47,7 +48,7 @@ def lines(mu: Array) -> Array:
 def smoothed_lookups(
     slices: Sequence[TargetSlice], lookups: Sequence[Lookups], price: float
 ) -> list[Lookups]:
-    """Axes whose tilts, and taps whose weights, are near to lines over mu.
+    """Axes whose tilts, and taps whose weights, are nearer to lines over mu.
 
     Parameters
     ----------
@@ -84,7 +85,7 @@ def smoothed_weights(
     lookups : sequence of Lookups
         At each, J lobes.
     price : float
-        Of profiles' squared distance from the line between their neighbours', over the target's power.
+        Price of profiles' squared distance from the line between their neighbours', over the target's power.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""What lobes are fitted to: brdf times cosine over the sphere, one view elevation at a time."""
+"""The target of a fit: brdf times cosine over the sphere, at one view elevation after another."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ class TargetSlice:
     mu : float
         Cosine between normal and view, as between normal and mirror direction, in (0, 1].
     light_dir : ndarray, shape (N, 3)
-        Nodes of the quadrature, those where the lobe is negligible left out.
+        Nodes of the quadrature, without those where the lobe is negligible.
     weight : ndarray, shape (N,)
         Solid angles [sr].
     lobe : ndarray, shape (N, 3)
@@ -115,7 +115,7 @@ def _half(light_dir: Array, weight: Array) -> tuple[Array, Array]:
 
 
 def _sampled(brdf: BrdfFunction, mu: float, light_dir: Array, weight: Array) -> TargetSlice:
-    # The mirror direction is at +x, so the view is at -x
+    # The mirror direction lies towards +x, so the view lies towards -x
     view_dir = np.array([-np.sqrt(1.0 - mu**2), 0.0, mu])
     lobe = brdf(light_dir, view_dir) * light_dir[:, 2:]
     square = weight * np.sum(lobe**2, axis=1)

@@ -100,7 +100,7 @@ def texel_solid_angle(size: int) -> Array:
 
 
 def texel_angle(direction: ArrayLike, size: int) -> Array:
-    """How far texels are apart around a direction.
+    """Distance between texels around a direction.
 
     Parameters
     ----------

@@ -86,7 +86,7 @@ def legendre_panels(degree: int, cosine: Array, sine: Array) -> Iterator[Panel]:
     for first_order in range(0, orders, block):
         m = np.arange(first_order, min(first_order + block, orders))
         start = first_point(first_order, degree, sine)
-        # Squared after scaling, because sine**m may underflow where its multiple does not.
+        # Scaled as a root, then squared: sine**m may underflow where its multiple does not.
         root = np.sqrt(_SCALE) * sine[start:] ** (0.5 * m[:, None])
         seed = norms[m, None] * root * root
         yield from _block_panels(degree, m, start, seed, cosine[start:])

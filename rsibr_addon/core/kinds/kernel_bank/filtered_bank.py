@@ -1,4 +1,4 @@
-"""An environment filtered with every kernel of a bank: the stack of any BRDF is a small matrix times that."""
+"""An environment filtered with every kernel of a bank: any BRDF's stack is a small matrix times its maps."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ from ..lobe_stack.stack import LobeStack, stack_representation
 
 @dataclass(frozen=True, eq=False)
 class FilteredBank:
-    """What the maps of lobes are summed from.
+    """The maps from which those of lobes are summed.
 
     Attributes
     ----------
@@ -56,12 +56,12 @@ class FilteredBank:
 
     @property
     def representation(self) -> Representation:
-        """How the maps are laid out."""
+        """The layout of the maps."""
         return stack_representation(self.layout, self.size)
 
     @property
     def sharpest(self) -> float:
-        """Concentration of the last kernel: a fit that is to be summed from here has none beyond."""
+        """Concentration of the last kernel; no fit that is summed from the bank may exceed it."""
         return self.bank.concentrations[-1]
 
 
@@ -70,20 +70,20 @@ AT_ONCE = 2**24
 
 
 def stack_from_bank(filtered: FilteredBank, fit: Fit) -> tuple[LobeStack, Array]:
-    """Sum the maps of a fit's lobes: filtering is linear, and so the sum of lobes is that of maps.
+    """Sum the maps of a fit's lobes: filtering is linear, so the map of a sum is the sum of maps.
 
     Parameters
     ----------
     filtered : FilteredBank
     fit : Fit
-        Of kernels that the bank has, those of no weight aside.
+        Fit whose kernels, those without weight aside, the bank has.
 
     Returns
     -------
     stack : LobeStack
     bound : ndarray, shape (3,)
-        What the bank promises, carried over: no texel is further from the sum over all texels of the
-        environment, rounding to float32 aside.
+        The bank's bounds, carried over: no texel is further from the sum over all texels of the environment,
+        rounding to float32 aside.
 
     Raises
     ------
@@ -100,7 +100,7 @@ def stack_from_bank(filtered: FilteredBank, fit: Fit) -> tuple[LobeStack, Array]
 
 
 def bound_from_bank(filtered: FilteredBank, fit: Fit) -> Array:
-    """What a bank promises, carried over to a fit's maps: see `stack_from_bank`."""
+    """A bank's bounds, carried over to a fit's maps: see `stack_from_bank`."""
     bound: Array = np.einsum(
         "lpkc,kc->lpc", np.abs(fit.weights[:, :, fit.used]), filtered.bound[_picked(filtered, fit)]
     ).max(axis=(0, 1))
@@ -108,12 +108,12 @@ def bound_from_bank(filtered: FilteredBank, fit: Fit) -> Array:
 
 
 def maps_from_bank(filtered: FilteredBank, fit: Fit) -> Iterator[Array]:
-    """The maps of `stack_from_bank`, a few at a time: lobe by lobe, and of each elevation by elevation.
+    """The maps of `stack_from_bank`, one after another: lobe by lobe, and elevation by elevation within each.
 
     Parameters
     ----------
     filtered, fit
-        As there.
+        See `stack_from_bank`.
 
     Yields
     ------
@@ -131,7 +131,7 @@ def maps_from_bank(filtered: FilteredBank, fit: Fit) -> Iterator[Array]:
     channels = [
         np.ascontiguousarray(of_kernels[..., channel].reshape(len(picked), -1)) for channel in range(3)
     ]
-    # Not one by one, because a row alone is summed in another order
+    # Several at once, because a single row is summed in another order
     step = max(2, AT_ONCE // channels[0][0].nbytes)
     for part in np.array_split(weights, max(1, len(weights) // step)):
         maps = np.empty((len(part), *filtered.maps.shape[1:]), dtype=np.float32)

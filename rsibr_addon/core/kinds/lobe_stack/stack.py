@@ -9,19 +9,19 @@ from ...errors import RangeError, ShapeError
 from ...maps.representation import Representation, representation
 
 LAYOUTS = ("dual_paraboloid", "octahedral")
-"""Map representations that a stack can be laid out in: continuous over the sphere, of square sheets."""
+"""Map representations of a stack: continuous over the sphere, with square sheets."""
 
 LARGEST = 1024
-"""Width of the largest maps: with a border, a 3D texture of every driver holds them."""
+"""Width of the largest maps: with a border, they fit a 3D texture of every driver."""
 
 
 @dataclass(frozen=True, eq=False)
 class LobeStack:
-    """What glossy reflection is looked up from: by a lobe's axis, and by the view's elevation.
+    """Maps from which glossy reflection is looked up, by a lobe's axis and by the view's elevation.
 
     Radiance is the sum over lobes and taps of taps * scale * map, the map looked up along the axis that
-    `fit.lobe_axes` makes of the offsets. Between two elevations all of them are linear in mu = n.v, beyond
-    the first and the last they are theirs.
+    `fit.lobe_axes` makes of the offsets. Between two elevations all of them are linear in mu = n.v; beyond
+    the first and the last, the values of these hold.
 
     Attributes
     ----------
@@ -35,9 +35,9 @@ class LobeStack:
     scale : ndarray, shape (L, S, 3)
         Factor of the map: k(theta) of [Kautz2000] section 3.2, 1 in other stacks.
     offsets : ndarray, shape (L, S, T, 2)
-        Of the T lookups ("taps") of a map: see `fit.lobe_axes`.
+        Offsets of the T lookups ("taps") of a map: see `fit.lobe_axes`.
     taps : ndarray, shape (L, S, T)
-        Their weights.
+        Weights of the taps.
     albedo : ndarray, shape (L, S, 3)
         Directional albedo of each lobe with all its taps.
 
@@ -84,11 +84,11 @@ class LobeStack:
 
     @property
     def representation(self) -> Representation:
-        """How the maps are laid out."""
+        """The layout of the maps."""
         return stack_representation(self.layout, self.size)
 
     def texel_angle(self, direction: ArrayLike) -> Array:
-        """How far texels are apart around a direction.
+        """Distance between texels around a direction.
 
         Parameters
         ----------
@@ -115,7 +115,7 @@ class LobeStack:
         return angle
 
     def elevation(self, mu: ArrayLike) -> tuple[Indices, Array]:
-        """Where views lie among the sampled elevations.
+        """Place of views among the sampled elevations.
 
         Parameters
         ----------
@@ -125,9 +125,9 @@ class LobeStack:
         Returns
         -------
         below : ndarray of int, shape (...,)
-            Number of the elevation below, which counts 1 - share.
+            Number of the elevation below, whose weight is 1 - share.
         share : ndarray, shape (...,), float64
-            What the next one counts, in [0, 1).
+            Weight of the next elevation, in [0, 1).
         """
         position = np.interp(np.asarray(mu, np.float64), self.mu, np.arange(len(self.mu)))
         below = np.floor(position).astype(np.intp)
@@ -135,7 +135,7 @@ class LobeStack:
 
 
 def stack_representation(layout: str, size: int) -> Representation:
-    """How the maps of a stack are laid out.
+    """The layout of a stack's maps.
 
     Parameters
     ----------
@@ -153,7 +153,7 @@ def stack_representation(layout: str, size: int) -> Representation:
     Raises
     ------
     RangeError
-        Layout or size are none of these.
+        There is no such layout, or the size is out of range.
     """
     if layout not in LAYOUTS:
         raise RangeError(f"A lobe stack cannot be laid out as {layout}: choose one of {', '.join(LAYOUTS)}.")

@@ -59,5 +59,5 @@ bench: $(READY)
 	$(PYTHON) .ci/bench_viewport.py
 
 clean:
-	rm -rf $(VENV) build demo dist docs/api site wheels rsibr.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	rm -rf $(VENV) build demo dist docs/api docs/references.md site wheels rsibr.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

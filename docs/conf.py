@@ -13,7 +13,14 @@ sys.path.insert(0, str(HERE))
 project = "RSIBR Reflection Maps"
 author = "The RSIBR authors"
 copyright = "the RSIBR authors, GPL-3.0-or-later"
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "theme.mathml", "theme.rooms"]
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
+    "theme.mathml",
+    "theme.references",
+    "theme.rooms",
+]
 exclude_patterns = ["theme"]
 language = "en"
 

@@ -1,4 +1,4 @@
-"""How far a picture is from its reference."""
+"""Differences of a picture from its reference."""
 
 import numpy as np
 
@@ -15,7 +15,7 @@ def relative_rmse(ours: ArrayLike, reference: ArrayLike, weight: ArrayLike) -> f
     ours, reference : array_like, shape (..., channels)
         Radiance.
     weight : array_like, shape (...,)
-        How much each pixel counts, at least 0: its coverage, say.
+        Weight of each pixel, at least 0: for example its coverage.
 
     Returns
     -------
@@ -40,7 +40,7 @@ def relative_rmse(ours: ArrayLike, reference: ArrayLike, weight: ArrayLike) -> f
 def relative_rmse_beyond_noise(
     ours: ArrayLike, first: ArrayLike, second: ArrayLike, weight: ArrayLike
 ) -> float:
-    """`relative_rmse` against what a noisy reference would be without its noise.
+    """`relative_rmse` against a noisy reference as if it had no noise.
 
     Parameters
     ----------
@@ -60,8 +60,8 @@ def relative_rmse_beyond_noise(
 
     Notes
     -----
-    Independent noises multiply to 0 on average, so the product's mean is the squared error itself:
-    the mean reference's own noise would be counted as error of ours.
+    Independent noises multiply to 0 on average, so the product's mean is the squared error itself. Against
+    the mean of both renders, the noise that it keeps would count as an error of ours.
     """
     first, second = np.asarray(first, dtype=np.float64), np.asarray(second, dtype=np.float64)
     ours, weight = np.asarray(ours, dtype=np.float64), np.asarray(weight, dtype=np.float64)

@@ -1,7 +1,7 @@
-"""How long work tells where it is.
+"""Progress of long work.
 
-Long work is a generator that yields `Progress` and returns its result. Whoever runs it decides
-how: a command drains it and draws a bar, a modal operator takes one step per timer event.
+Long work is a generator that yields `Progress` and returns its result. The caller decides how to run it: a
+command drains it and draws a bar, a modal operator takes one step per timer event.
 """
 
 from collections.abc import Generator
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Progress:
-    """`done` of `total` equal steps are finished; `what` says in words what comes next."""
+    """`done` of `total` equal steps are finished; `what` names the next step."""
 
     done: int
     total: int
@@ -22,7 +22,7 @@ type Steps[Result] = Generator[Progress, None, Result]
 
 
 def drain[Result](steps: Steps[Result]) -> Result:
-    """Run `steps` to its end, unseen, and return its result."""
+    """Run `steps` to its end and return its result."""
     while True:
         try:
             next(steps)

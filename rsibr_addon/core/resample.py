@@ -1,4 +1,4 @@
-"""Looking maps up between their texels, and any map from any other."""
+"""Lookups in maps between texels, and conversion of any map to any other."""
 
 from collections.abc import Callable
 
@@ -11,7 +11,7 @@ from .maps.representation import Representation
 from .splat import BLOCK, Deposit
 
 type Wrap = Callable[[Indices, Indices, int, int], tuple[Indices, Indices]]
-"""`wrap` of a map representation: texel indices beyond the edge to the texels they mean."""
+"""`wrap` of a map representation: from texel indices beyond the edge to the texels that are there."""
 
 
 def bilinear(image: Array, uv: ArrayLike, wrap: Wrap, layer: Indices | None = None) -> Array:
@@ -26,7 +26,7 @@ def bilinear(image: Array, uv: ArrayLike, wrap: Wrap, layer: Indices | None = No
     wrap : callable
         The map representation's own `wrap`.
     layer : ndarray of int, broadcastable to uv's shape (...,), optional
-        Which of several maps to look up.
+        Number of the map to look up, of several.
 
     Returns
     -------
@@ -34,7 +34,7 @@ def bilinear(image: Array, uv: ArrayLike, wrap: Wrap, layer: Indices | None = No
 
     Notes
     -----
-    What graphics hardware does, at full precision: hardware may round the weights to 1/256.
+    The same as in graphics hardware, but at full precision: hardware may round the weights to 1/256.
     """
     height, width = image.shape[-3:-1]
     columns, rows, weights = _four_texels(uv, width, height)
@@ -44,7 +44,7 @@ def bilinear(image: Array, uv: ArrayLike, wrap: Wrap, layer: Indices | None = No
 
 
 def lookup(image: Array, direction: ArrayLike, representation: Representation) -> Array:
-    """Radiance that a map shows in given directions, bilinear between texel centres, across all seams.
+    """Radiance of a map in given directions, bilinear between texel centres, across all seams.
 
     Parameters
     ----------
@@ -61,9 +61,9 @@ def lookup(image: Array, direction: ArrayLike, representation: Representation) -
 
     Notes
     -----
-    Continuous over the sphere for equirect, cube and octahedral maps: where only three texels meet, at a
-    cube's corners, the fourth is their mean, as OpenGL's seamless filtering has it. At a disk's rim
-    it is as continuous as the map's content.
+    Continuous over the sphere for equirect, cube and octahedral maps. At a cube's corners, where only three
+    texels meet, their mean is the fourth, as in OpenGL's seamless filtering. At a disk's rim it is as
+    continuous as the map's content.
     """
     height, width = image.shape[1:3]
     uv, sheet = representation.uv_from_direction(direction)
@@ -81,8 +81,8 @@ def resample(
 ) -> Array:
     """The same light in another representation or size.
 
-    A map of fewer texels gets the mean radiance over each, taking the old texels as constant over
-    their solid angles: `deposit`. A map of as many or more is interpolated: `lookup`.
+    A map of fewer texels gets the mean radiance over each of its texels, with the old texels constant over
+    their solid angles: `deposit`. A map of as many texels or more is interpolated: `lookup`.
 
     Parameters
     ----------
@@ -92,18 +92,18 @@ def resample(
     size : int
         Width of the new map's sheets in texels.
     dtype : dtype
-        Of the new map: single precision halves the memory that the largest take.
+        Type of the new map: single precision halves the memory of the largest.
 
     Returns
     -------
     ndarray, shape (sheets, height, width, channels), `dtype`
-        Laid out as `target`. Every texel can be looked up, those outside a disk too; in a blind spot of
-        the old map is what its edge shows.
+        Laid out as `target`. Every texel can be looked up, those outside a disk too; a blind spot of the old
+        map repeats its edge.
 
     Raises
     ------
     RangeError
-        `target` has no maps so wide.
+        No map of `target` is so wide.
     ShapeError
         `image` is not laid out as `source`.
 
@@ -145,7 +145,7 @@ def _restore_power(made: Array, solid_angle: Array, power: Array) -> None:
 def _fill(
     made: Array, where: NDArray[np.bool] | None, image: Array, source: Representation, target: Representation
 ) -> None:
-    """Fill chosen texels of a map, or all, with what another map shows at their centres."""
+    """Fill chosen texels of a map, or all, with another map's radiance at their centres."""
     shape = made.shape[:-1]
     _, height, width = shape
     chosen = None if where is None else np.flatnonzero(where)
@@ -160,11 +160,11 @@ def _fill(
 
 
 def _repeat_rim(made: Array, outside: NDArray[np.bool]) -> None:
-    """Give texels outside a disk that touches the edges what its rim shows beside them."""
+    """Fill texels outside a disk that touches the edges from its rim beside them."""
     size = made.shape[1]
     sheet, row, column = np.nonzero(outside)
     from_middle = np.stack([row, column]) + 0.5 - 0.5 * size
-    # Half a texel within the rim: such a point's texel is not outside.
+    # Half a texel within the rim, so that the point's texel is not outside.
     on_rim = from_middle * (0.5 * (size - 1.0) / np.linalg.norm(from_middle, axis=0))
     made[sheet, row, column] = made[sheet, *np.floor(on_rim + 0.5 * size).astype(np.intp)]
 

@@ -1,9 +1,9 @@
 """JSON from outside: read strictly, and checked against annotated types before anything uses it.
 
-A schema is a type. Plain types, lists, tuples, enumerations, `Literal` and `X | None` mean what they say,
-and `Annotated[X, Rule(...)]` says more. A `TypedDict` is an object that may have further fields: it comes
-back as it is. A dataclass is an object without further fields: it comes back as an instance, which checks
-itself.
+A schema is a type. Plain types, lists, tuples, enumerations, `Literal` and `X | None` have their usual
+meaning, and `Annotated[X, Rule(...)]` adds a rule. A `TypedDict` is an object that may have further fields;
+it is returned as it is. A dataclass is an object without further fields; it is returned as an instance, which
+checks itself.
 """
 
 import dataclasses
@@ -34,13 +34,13 @@ from .conventions import Array
 from .errors import RangeError, SchemaError, ShapeError
 
 LARGEST_TEXT = 8 * 2**20
-"""Bytes of JSON that are read: a few times what the largest fit takes, and 200 MB of memory at most."""
+"""Most bytes of JSON that are read: a few times the largest fit, and at most 200 MB of memory."""
 
 DEEPEST = 32
-"""Lists and objects within each other."""
+"""Greatest depth of lists and objects within each other."""
 
 LARGEST_INTEGER = 2**53
-"""Every whole number up to it is a float too."""
+"""Largest whole number: up to it, every whole number is a float too."""
 
 LARGEST_FLOAT = 1e60
 """Products of five such numbers are finite; no light is beyond it, as pictures hold 3e38 at most."""
@@ -48,14 +48,14 @@ LARGEST_FLOAT = 1e60
 
 @dataclasses.dataclass(frozen=True)
 class Rule:
-    """What a value must be beyond its type.
+    """A rule for a value, beyond its type.
 
     Attributes
     ----------
     words : str
-        What it must be: "a unit vector".
+        The rule in words: "a unit vector".
     holds : callable
-        Whether a value of the right type is that.
+        Whether a value of the right type keeps the rule.
     """
 
     words: str
@@ -74,7 +74,7 @@ def length(low: int, high: int) -> Rule:
 
 
 def loads(text: str | bytes) -> Any:
-    """Read JSON, and nothing but JSON.
+    """Read strict JSON.
 
     Parameters
     ----------
@@ -113,7 +113,7 @@ def decode(schema: types.UnionType, plain: Any, where: str = "") -> Any: ...
 
 
 def decode(schema: Any, plain: Any, where: str = "") -> Any:
-    """What JSON values stand for.
+    """The values of a schema's type that JSON values describe.
 
     Parameters
     ----------
@@ -122,12 +122,12 @@ def decode(schema: Any, plain: Any, where: str = "") -> Any:
     plain : object
         From `loads`.
     where : str
-        What `plain` is called in messages; empty for a whole file.
+        Name of `plain` in messages; empty for a whole file.
 
     Returns
     -------
     object
-        Of that type.
+        Value of that type.
 
     Raises
     ------
@@ -143,11 +143,11 @@ def array(plain: Any, axes: int, where: str) -> Array:
     Parameters
     ----------
     plain : list
-        Lists of numbers in so many levels: of the type that `decode` has checked.
+        Lists of numbers in so many levels, of a type that `decode` has checked.
     axes : int
-        How many levels there are.
+        Number of levels.
     where : str
-        What it is called in messages.
+        Its name in messages.
 
     Returns
     -------

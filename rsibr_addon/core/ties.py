@@ -1,15 +1,15 @@
-"""Decisions that rounding does not take: of what is equal but for that, the first is chosen."""
+"""Choices that do not depend on rounding: among values that only rounding tells apart, the first wins."""
 
 import numpy as np
 
 from .conventions import Array, Indices
 
 TIE = 1e-9
-"""What differs by less than this, of the largest magnitude or of a unit, is equal but for rounding."""
+"""Difference, relative to the largest magnitude or to 1, below which values are equal but for rounding."""
 
 
 def first_greatest(values: Array) -> int:
-    """Where the greatest of some values is.
+    """Index of the greatest of some values.
 
     Parameters
     ----------
@@ -19,7 +19,7 @@ def first_greatest(values: Array) -> int:
     Returns
     -------
     int
-        The first, in the order of memory, that is the greatest but for rounding.
+        Index of the first value, in the order of memory, that is the greatest but for rounding.
     """
     return int(np.argmax(values >= np.max(values) - _margin(values)))
 
@@ -35,7 +35,7 @@ def greatest_first(values: Array) -> Indices:
     Returns
     -------
     ndarray, shape (n,)
-        Their numbers; those whose values are equal but for rounding are in their own order.
+        Numbers of the values; values that are equal but for rounding keep their order.
     """
     order = np.argsort(-values, kind="stable")
     steps = np.diff(values[order], prepend=values[order[:1]]) < -_margin(values)

@@ -1,8 +1,8 @@
-"""An environment, filtered with radially symmetric lobes: fast, with a promise, and by brute force.
+"""An environment filtered with radially symmetric lobes: fast and with an error bound, or by brute force.
 
-Filtering is a product in spherical harmonics, and exact: what "analyse, multiply, synthesise" gives
-*is* the sum over all texels of radiance times solid angle times lobe, but for the degrees that are left
-out and the interpolation, both of which are bounded (docs/prefiltering.md).
+Filtering is a product in spherical harmonics, and exact: the result of "analyse, multiply, synthesise" *is*
+the sum over all texels of radiance times solid angle times lobe, except for the degrees that are left out and
+the interpolation. The errors of both are bounded (docs/prefiltering.md).
 
 >>> series = [expand(lobe) for lobe in lobes]
 >>> harmonics = analyse_environment(environment.radiance, analysis_degree(series))
@@ -24,7 +24,7 @@ from .harmonics.synthesis import grid_rows, synthesise
 from .zonal import ZonalLobe, ZonalSeries
 
 BYTES_BESIDES = 2e8
-"""Memory for harmonics and their grid, and for maps that are on their way into a file."""
+"""Bytes of memory for harmonics and their grid, and for maps while they are written."""
 
 _CUT_SHARE = 0.5
 _LEAKAGE_SHARE = 0.25
@@ -42,11 +42,11 @@ class Prefiltered:
     Attributes
     ----------
     radiance : ndarray, shape (slices, ..., channels), float64
-        One slice for each lobe, in the given directions; not negative unless its lobe is.
+        One slice for each lobe, in the given directions; not negative, except where the lobe is.
     bound : ndarray, shape (slices, channels)
         No value is further than this from the sum over all texels.
     degrees : tuple of int
-        Where each lobe was cut.
+        Degree after which each lobe was cut.
     """
 
     radiance: Array
@@ -55,17 +55,17 @@ class Prefiltered:
 
 
 def analysis_degree(series: Sequence[ZonalSeries]) -> int:
-    """How far to analyse an environment that is to be filtered with some lobes, at least one."""
+    """Degree to which an environment must be analysed for some lobes, at least one."""
     return max(lobe.degree for lobe in series)
 
 
 def resolved_width(height: int) -> float:
-    """Width [rad] of the narrowest lobe that a map of so many rows is filtered with: three texels."""
+    """Width [rad] of the narrowest lobe that a map of so many rows resolves: three texels."""
     return _TEXELS_ACROSS * np.pi / height
 
 
 def bytes_needed(slices: int, points: int) -> float:
-    """Memory that it takes to filter three channels.
+    """Memory for filtering three channels.
 
     Parameters
     ----------
@@ -75,8 +75,8 @@ def bytes_needed(slices: int, points: int) -> float:
     Returns
     -------
     float
-        For the maps, those of a few lobes once more, and the directions with their angles; what does not
-        depend on the points, `BYTES_BESIDES`, left out.
+        Bytes for the maps, those of a few lobes once more, and the directions with their angles; without
+        `BYTES_BESIDES`, which does not depend on the points.
     """
     return 8.0 * points * (3 * slices + 3 * min(slices, 4) + 8)
 
@@ -89,17 +89,17 @@ def prefilter(
     Parameters
     ----------
     harmonics : EnvironmentHarmonics
-        Of an environment without negative radiance, analysed to `analysis_degree` of the lobes or
+        Harmonics of an environment without negative radiance, up to `analysis_degree` of the lobes or
         further.
     series : sequence of ZonalSeries
-        One lobe for each slice, expanded for the tolerance that its slice is to keep.
+        One lobe for each slice, expanded for the tolerance of its slice.
     directions : array_like, shape (..., 3)
         Where to evaluate: lobe axes, of any positive length.
 
     Returns
     -------
     Prefiltered
-        Its relative root-mean-square error over the sphere, of each slice and each channel, keeps the
+        The relative root-mean-square error over the sphere, of each slice and each channel, is within the
         lobe's tolerance.
 
     Raises
@@ -108,7 +108,7 @@ def prefilter(
         A lobe is narrower than the map resolves or needs a degree that was not analysed; a direction is
         not finite.
     ShapeError
-        Directions have not three components.
+        Directions do not have three components.
     """
     theta, phi, shape = _polar_angles(directions)
     for number, lobe in enumerate(series, 1):
@@ -116,7 +116,7 @@ def prefilter(
     ceilings = harmonics.ceilings()
     degrees = [_cut(lobe, ceilings) for lobe in series]
     channels = len(harmonics.flux)
-    # Channel by channel, as sums of maps go through it
+    # Channel by channel, in the order in which maps are summed
     by_channel = np.empty((channels, len(series), len(theta)))
     bound = np.empty((len(series), channels))
     for group in _groups(degrees, channels):
@@ -130,7 +130,7 @@ def prefilter(
     radiance = np.moveaxis(by_channel, 0, -1)
     for lobe, values in zip(series, radiance, strict=True):
         if not lobe.signed:
-            # What the cut makes negative is nearer to the truth at 0.
+            # Values that the cut makes negative are nearer to the truth at 0.
             np.maximum(values, 0.0, out=values)
     return Prefiltered(radiance.reshape(len(series), *shape, channels), bound, tuple(degrees))
 
@@ -156,7 +156,7 @@ def prefilter_exact(radiance: Array, lobes: Sequence[ZonalLobe], directions: Arr
     RangeError
         A direction is not finite.
     ShapeError
-        Directions have not three components.
+        Directions do not have three components.
 
     Notes
     -----
@@ -212,7 +212,7 @@ def _power(gains: Array, ceilings: Array) -> Array:
 
 
 def _cut(lobe: ZonalSeries, ceilings: Array) -> int:
-    """The degree from which on all that is left out keeps the tolerance in every channel: equation 17."""
+    """The degree after which a cut keeps the tolerance in every channel: equation 17."""
     power = _power(lobe.coefficients, ceilings)
     tail = np.cumsum(power[::-1], axis=0)[::-1]
     kept = np.any(tail > (_CUT_SHARE * lobe.tolerance) ** 2 * tail[0], axis=1)

@@ -86,8 +86,8 @@ def ggx_n_dot_l_lobe(alpha: float) -> ZonalLobe:
     Returns
     -------
     ZonalLobe
-        0 beyond pi / 2, with a kink there: its coefficients fall slowly, so ask for less tolerance than
-        of smooth lobes.
+        0 beyond pi / 2, with a kink there: its coefficients fall slowly, so use a larger tolerance than for
+        smooth lobes.
 
     Raises
     ------
@@ -153,8 +153,8 @@ def phong_lobe(exponent: float) -> ZonalLobe:
     Returns
     -------
     ZonalLobe
-        Of Phong's highlight about the mirror direction. Its n-th derivative jumps at pi / 2, so below n = 2
-        its coefficients fall slowly: ask for less tolerance there.
+        Lobe of Phong's highlight about the mirror direction. Its n-th derivative jumps at pi / 2, so below
+        n = 2 its coefficients fall slowly: use a larger tolerance there.
 
     Raises
     ------

@@ -1,8 +1,8 @@
 """Radially symmetric lobes, their zonal coefficients, and where these may be cut.
 
 A lobe is a function K of the angle to its axis. Its zonal coefficients
-p_l = 2 pi * integral of K(cos) P_l(cos) over the cosine from -1 to 1 (equation 2) are what filtering
-with it multiplies the degrees of an environment with; p_0 is its integral over the sphere.
+p_l = 2 pi * integral of K(cos) P_l(cos) over the cosine from -1 to 1 (equation 2) are the factors by which
+filtering multiplies the degrees of an environment; p_0 is its integral over the sphere.
 """
 
 import functools
@@ -17,7 +17,7 @@ from ..errors import RangeError
 from .harmonics.legendre import MAX_DEGREE
 
 TOLERANCE = 1e-6
-"""Relative root-mean-square error that is asked for by default: dark texels beside a sun need it."""
+"""Default relative root-mean-square error: dark texels beside a sun need it."""
 
 _NODES = 64
 _SPARE_NODES = 40
@@ -49,16 +49,16 @@ class ZonalLobe:
 
 @dataclass(frozen=True)
 class ZonalSeries:
-    """A lobe with its zonal coefficients, as many as a tolerance asks for; made by `expand`.
+    """A lobe with as many zonal coefficients as a tolerance needs; made by `expand`.
 
     Attributes
     ----------
     lobe : ZonalLobe
     tolerance : float
-        Relative root-mean-square error over the sphere of what is filtered with the lobe.
+        Relative root-mean-square error, over the sphere, of maps filtered with the lobe.
     coefficients : ndarray, shape (degree + 1,)
-        p_0 ... p_degree. The degree is a third above where the lobe can be cut under a single small
-        sun, so that the power that any cut leaves out is known, not only bounded.
+        p_0 ... p_degree. The degree is a third higher than where a single small sun allows a cut, so that the
+        power that any cut leaves out is known, not only bounded.
     width : float
         Angle [rad] across the disk with the lobe's solid angle, (integral of |K|)^2 / integral of K^2.
     signed : bool
@@ -73,7 +73,7 @@ class ZonalSeries:
 
     @property
     def degree(self) -> int:
-        """The degree that an environment has to be analysed to."""
+        """The degree to which an environment must be analysed."""
         return len(self.coefficients) - 1
 
     def truncation_errors(self, *degrees: int) -> Array:
@@ -93,7 +93,7 @@ class ZonalSeries:
 
         Notes
         -----
-        Sought at the knots, both ends among them, and at five points for every wave of P_degree.
+        Found at the knots, both ends among them, and at five points for every wave of P_degree.
         """
         angle = np.concatenate([self.lobe.knots, _quadrature(self.lobe.knots, self.degree)[0]])
         l = np.arange(self.degree + 1)
@@ -106,7 +106,7 @@ class ZonalSeries:
 
 
 def expand(lobe: ZonalLobe, tolerance: float = TOLERANCE) -> ZonalSeries:
-    """Zonal coefficients of a lobe, up to where nothing that matters is left.
+    """Zonal coefficients of a lobe, as many as matter.
 
     Parameters
     ----------
@@ -137,14 +137,14 @@ def expand(lobe: ZonalLobe, tolerance: float = TOLERANCE) -> ZonalSeries:
 
 
 def _sufficient_coefficients(lobe: ZonalLobe, tolerance: float, width: float) -> Array:
-    """Where the rest of the sum of (2 l + 1) p_l^2 is tolerance^2 of it, and a third more: equation 16."""
+    """Coefficients until tolerance^2 of the sum of (2 l + 1) p_l^2 is left, and a third more: equation 16."""
     degree = min(16 + int(_DEGREES_TIMES_WIDTH / width), _LARGEST_SEEN)
     while True:
         p = zonal_coefficients(lobe, degree)
         power = (2 * np.arange(degree + 1) + 1) * p**2
         tail = np.cumsum(power[::-1])[::-1]
         sufficient = max(int(np.count_nonzero(tail > tolerance**2 * tail[0])) - 1, 1)
-        # The last third of what was computed has to show that the tail has ended.
+        # The last third of the coefficients has to show that the tail has ended.
         if 3 * sufficient <= 2 * degree and sufficient <= MAX_DEGREE:
             return p[: min(int(np.ceil(_HEADROOM * sufficient)), MAX_DEGREE) + 1]
         if degree == _LARGEST_SEEN:
@@ -198,8 +198,8 @@ def graded_knots(width: float) -> tuple[float, ...]:
 def _quadrature(knots: tuple[float, ...], degree: int) -> tuple[Array, Array]:
     """Nodes and weights for the integral over the sphere of a profile times P_l, l <= `degree`.
 
-    Gauss-Legendre panels in the angle between any two knots, so many that of each panel's nodes the waves
-    of P_l take up what is spare: half a node per radian of degree * angle, as of any polynomial.
+    Gauss-Legendre panels in the angle between any two knots. There are so many panels that their spare nodes
+    can follow the waves of P_l: half a node per radian of degree * angle, as for any polynomial.
     """
     width = np.diff(knots)
     panels = 1 + (0.5 * degree / _SPARE_NODES * width).astype(np.intp)
@@ -225,7 +225,7 @@ def _legendre(cosine: Array, degree: int) -> Iterator[tuple[int, Array]]:
     first : int
         Degree of the first row.
     rows : ndarray, shape (rows, len(cosine))
-        Valid until the next ones are asked for.
+        Valid until the next ones are taken.
     """
     rows = np.empty((2 + _ROWS, len(cosine)))
     for first in range(0, degree + 1, _ROWS):

@@ -1,4 +1,4 @@
-"""The reflection-space warp between radiance sphere maps, and how far to trust it.
+"""The reflection-space warp between radiance sphere maps, and its confidence.
 
 [Cabral1999] sections 3.2 and 3.3. A point of a map has a central reflection direction: the normal
 for diffuse radiance, the mirrored view for glossy. A warp takes the point of one view's map to the
@@ -17,7 +17,7 @@ from .directions import dot, reflect
 
 
 class Warp(StrEnum):
-    """Which direction a warp keeps: g_normal or g_mirror of [Cabral1999] section 3.3."""
+    """The direction that a warp keeps: g_normal or g_mirror of [Cabral1999] section 3.3."""
 
     NORMAL = "normal"
     MIRROR = "mirror"
@@ -27,11 +27,11 @@ TRUSTED_COSINE = 0.6
 """Cosine between a source's normal and its view above which the source is trusted in full."""
 
 LEAST_CONFIDENCE = 1e-3
-"""What remains at the singularity itself, so that a source that stands alone still counts."""
+"""Confidence at the singularity itself, so that a single source still counts."""
 
 
 def source_uv(warp: Warp, normal: ArrayLike, view_dir: ArrayLike, source_frame: ArrayLike) -> Array:
-    """Where a source map shows the central direction that a surface point has.
+    """Place in a source map that shows a surface point's central direction.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def source_cosine(warp: Warp, normal: ArrayLike, view_dir: ArrayLike, source_vie
 
 
 def confidence(cosine: ArrayLike) -> Array:
-    """How far a source map can be trusted for what it saw at a cosine.
+    """Confidence in a source map's radiance that was seen at a cosine.
 
     Parameters
     ----------
@@ -98,12 +98,11 @@ def confidence(cosine: ArrayLike) -> Array:
 
     Notes
     -----
-    [Cabral1999] section 3.3 fades a source near its singularity, where the warp leads to the rim
-    of the source's map, by the distance in the destination map. This takes the cosine at which
-    the source saw what it is asked for: zero at the same place, but a measure of the pinching
-    itself, the same for both warps and for a fragment without a destination map, and closer to
-    Cycles (docs/accuracy.md).
-    GLSL twin: gpu_shaders/lib/reflection_warp_lib.glsl `confidence`, 2e-6.
+    [Cabral1999] section 3.3 fades a source near its singularity, where the warp leads to the rim of the
+    source's map, by the distance in the destination map. This takes the cosine at which the source saw the
+    point. It is zero at the same place, but it measures the pinching itself, is the same for both warps and
+    for a fragment without a destination map, and comes closer to Cycles (docs/accuracy.md). GLSL twin:
+    gpu_shaders/lib/reflection_warp_lib.glsl `confidence`, 2e-6.
     """
     trusted: Array = np.clip(np.asarray(cosine) / TRUSTED_COSINE, LEAST_CONFIDENCE, 1.0)
     return trusted

@@ -1,4 +1,4 @@
-"""What looks of several kinds demand of their values."""
+"""Checks that the looks of several kinds share."""
 
 from collections.abc import Sequence
 from enum import StrEnum
@@ -7,14 +7,14 @@ from ..errors import RangeError
 
 
 def member[Choice: StrEnum](choices: type[Choice], value: str, name: str) -> Choice:
-    """The choice of some name; a file of a newer version may have another.
+    """The choice with a given name; a file of a newer version may have an unknown one.
 
     Parameters
     ----------
     choices : type
     value : str
     name : str
-        Of the look's field, for the message.
+        Name of the look's field, for the message.
 
     Raises
     ------
@@ -30,12 +30,12 @@ def member[Choice: StrEnum](choices: type[Choice], value: str, name: str) -> Cho
 
 
 def check_shares(name: str, values: Sequence[float]) -> None:
-    """Refuse what is no share of the light.
+    """Refuse numbers that are not shares of the light.
 
     Parameters
     ----------
     name : str
-        Of the look's field, for the message.
+        Name of the look's field, for the message.
     values : sequence of float
 
     Raises

@@ -1,4 +1,4 @@
-"""Shading from an environment itself: a mirror, exact to the texel, and the measure of all other kinds."""
+"""Shading from an environment itself: a mirror, exact to the texel, and the reference of all other kinds."""
 
 from dataclasses import dataclass
 
@@ -17,12 +17,12 @@ from .checks import check_shares
 
 @dataclass(frozen=True)
 class EnvironmentLook:
-    """How a mirror in an environment is shaded.
+    """Look of a mirror in an environment.
 
     Attributes
     ----------
     f_lambda : tuple of 3 floats
-        Reflectance at normal incidence in [0, 1], as of `MipLook`; 1 is a perfect mirror.
+        Reflectance at normal incidence in [0, 1], as in `MipLook`; 1 is a perfect mirror.
     antialiased : bool
         Whether light is averaged over what a pixel reflects; otherwise it is interpolated.
 
@@ -55,8 +55,8 @@ def mirrored_environment(
         Unit vectors in world coordinates.
     look : EnvironmentLook
     mirror_footprint : array_like, shape (..., 4, 3), optional
-        Mirrored view directions at the corners of each point's pixel, see `core.antialiased`; what an
-        antialiased look averages over. None for points, which reflect one direction each.
+        Mirrored view directions at the corners of each point's pixel, over which an antialiased look
+        averages: see `core.antialiased`. None for points, which reflect one direction each.
 
     Returns
     -------
@@ -65,7 +65,7 @@ def mirrored_environment(
 
     Notes
     -----
-    Texels are interpolated as Cycles does, and averaged over pixels that reflect more than a texel as of
+    Texels are interpolated as in Cycles, and averaged over pixels that reflect more than a texel as in
     [Miller1984] section 8.3. GLSL twin: gpu_shaders/environment_frag.glsl.
     """
     normal, view_dir = np.broadcast_arrays(np.asarray(normal, np.float64), np.asarray(view_dir, np.float64))

@@ -6,11 +6,11 @@ from ..conventions import Array, ArrayLike
 from ..errors import RangeError
 
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
-"""Of Rec. 709's red, green and blue."""
+"""Weights of Rec. 709's red, green and blue in luminance."""
 
 
 def lift_whites(picture: ArrayLike, white: ArrayLike, knee: float) -> Array:
-    """Make the whites of a picture as bright as lamps, and leave what is darker alone.
+    """Make the whites of a picture as bright as lamps, and keep darker colours.
 
     Parameters
     ----------
@@ -32,9 +32,9 @@ def lift_whites(picture: ArrayLike, white: ArrayLike, knee: float) -> Array:
 
     Notes
     -----
-    Each colour is multiplied by white ** (t * t), where t grows from 0 at the knee to 1 with luminance.
-    So a ramp of one hue stays a ramp, with a continuous slope; equal steps of t near white are equal
-    steps of exposure, and what is bright but no white, as a yellow wall, gets less.
+    Each colour is multiplied by white ** (t * t), where t grows from 0 at the knee to 1 with luminance. So a
+    ramp of one hue stays a ramp, with a continuous slope. Equal steps of t near white are equal steps of
+    exposure, and bright colours that are not white, such as a yellow wall, change less.
     """
     picture, white = np.asarray(picture, dtype=np.float64), np.asarray(white, dtype=np.float64)
     if not (np.all(np.isfinite(white)) and np.all(white >= 1.0)):

@@ -6,7 +6,7 @@ from ..conventions import Array, ArrayLike
 
 
 def linear_from_srgb(encoded: ArrayLike) -> Array:
-    """Undo the curve that pictures of 8 or 16 bits are stored with.
+    """Undo the curve of stored pictures with 8 or 16 bits.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ def linear_from_srgb(encoded: ArrayLike) -> Array:
 
 
 def srgb_from_linear(linear: ArrayLike) -> Array:
-    """The inverse of `linear_from_srgb`; what lies outside [0, 1] becomes 0 or 1.
+    """The inverse of `linear_from_srgb`; values outside [0, 1] become 0 or 1.
 
     Parameters
     ----------

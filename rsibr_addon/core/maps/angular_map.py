@@ -1,7 +1,7 @@
 """The angular map of light probes [Debevec1998]: the angle from the middle grows with the radius.
 
-Own axes: x to the right, y up, z towards the viewer. The middle shows what lies ahead, -z; the whole
-rim shows +z. Texels outside the inscribed disk belong to no direction.
+Own axes: x to the right, y up, z towards the viewer. The middle shows -z, straight ahead; the whole rim shows
++z. Texels outside the inscribed disk show no direction.
 """
 
 import numpy as np
@@ -44,8 +44,8 @@ def uv_from_direction(direction: ArrayLike) -> Array:
     Parameters
     ----------
     direction : array_like, shape (..., 3)
-        Unit directions in the map's own axes; +z, which the whole rim shows, is taken to its
-        rightmost point.
+        Unit directions in the map's own axes; +z, which the whole rim shows, is mapped to its rightmost
+        point.
 
     Returns
     -------
@@ -72,8 +72,8 @@ def texel_solid_angle(size: int) -> Array:
     Returns
     -------
     ndarray, shape (size, size), float64
-        [sr], by quadrature along the texels' edges, to 1e-12 of their sum, 4 pi; of a texel that
-        the rim cuts, the part within; 0 outside.
+        [sr], by quadrature along the texels' edges, to 1e-12 of their sum, 4 pi. A texel that the rim cuts
+        counts with its part within; texels outside have 0.
     """
     along_line = quadrature(lambda radius: 2.0 * np.sin(0.5 * np.pi * radius) ** 2)
     return disk_solid_angle(size, along_line, 2.0)

@@ -1,10 +1,10 @@
-"""Solid angles of the texels of disk maps: those that are symmetric about the axis of a disk.
+"""Solid angles of the texels of disk maps, which are symmetric about an axis.
 
-Such a map shows the directions at the angle theta from its axis on a circle of some radius r. What
-lies within the circle is a cap of the sphere, and `cap` = 1 - cos(theta) [sr/rad] is its solid
-angle per radian of azimuth. Green's theorem turns the solid angle of a texel into the integral of
-cap d(azimuth) along the texel's edges and, where the rim cuts the texel, along the rim. Neighbours
-share their edges, so the solid angles sum to the disk's to the last digits.
+Such a map shows the directions at the angle theta from its axis on a circle of some radius r. The circle's
+inside is a cap of the sphere, and `cap` = 1 - cos(theta) [sr/rad] is its solid angle per radian of azimuth.
+Green's theorem turns the solid angle of a texel into the integral of cap d(azimuth) along the texel's edges
+and, where the rim cuts the texel, along the rim. Neighbours share their edges, so the solid angles sum to the
+disk's to the last digits.
 """
 
 from collections.abc import Callable
@@ -17,7 +17,7 @@ type AlongLine = Callable[[Array, Array, Array], Array]
 """Integral of cap d(azimuth) along the line at x, from (x, y0) to (x, y1), x and y >= 0."""
 
 NODES = 12
-"""Of Gauss and Legendre, on one edge: a relative error of 1e-12 on edges up to a quarter of the disk."""
+"""Gauss-Legendre nodes on an edge: a relative error of 1e-12 on edges up to a quarter of the disk."""
 
 
 def disk_solid_angle(size: int, along_line: AlongLine, cap_at_rim: float, extent: float = 1.0) -> Array:
@@ -39,7 +39,7 @@ def disk_solid_angle(size: int, along_line: AlongLine, cap_at_rim: float, extent
     ndarray, shape (size, size), float64
         [sr]; sums to 2 pi `cap_at_rim`.
     """
-    # Texels of a map twice as fine never straddle an axis, so that one quadrant serves for all.
+    # Texels of a map twice as fine never straddle an axis, so one quadrant gives all.
     lines = np.minimum(np.linspace(0.0, extent, size + 1), 1.0)
     within = np.sqrt(1.0 - lines * lines)[:, None]
     low, high = np.minimum(lines[:-1], within), np.minimum(lines[1:], within)

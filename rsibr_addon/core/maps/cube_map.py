@@ -24,7 +24,7 @@ FACES = np.array(
 """Directions of growing s, of growing t and of the face itself: OpenGL 4.6, table 8.19."""
 
 NOWHERE = -1
-"""The sheet of a texel that is not there: at the cube's corners three texels meet, not four."""
+"""The sheet of a texel that does not exist: at the cube's corners three texels meet, not four."""
 
 
 def direction_from_uv(uv: ArrayLike, sheet: Indices) -> Array:
@@ -112,8 +112,9 @@ def texel_angle(direction: ArrayLike, size: int) -> Array:
     Returns
     -------
     ndarray, shape (...,)
-        [rad], the square root of a texel's solid angle: a texel is 2 / size wide on a face at distance 1,
-        which the direction meets farther away and aslant, m^3 of that area, m being its largest component.
+        [rad], the square root of a texel's solid angle. A texel is 2 / size wide on a face at distance 1. The
+        direction meets the face farther away and aslant, which leaves m^3 of that area, m being the
+        direction's largest component.
 
     Notes
     -----

@@ -5,9 +5,9 @@ the one at the `back`. A point (U, V) of the front, in radii of the hemisphere's
 (2 U, -2 V, 1 - U^2 - V^2) / (1 + U^2 + V^2), the same point of the back the opposite direction. That is
 how published pairs are stored: the front is upside down, the back mirrored.
 
-A map may reach beyond the hemisphere, by its `overscan`: the half-width of the square in radii of the
-disk. Every texel shows something, those outside the disk what the other sheet shows as well, so that
-a bilinear lookup finds four texels that belong together.
+A map may reach beyond the hemisphere, by its `overscan`: the half-width of the square in radii of the disk.
+Every texel shows a direction. Texels outside the disk repeat what the other sheet shows, so that a bilinear
+lookup finds four texels that belong together.
 """
 
 import numpy as np
@@ -111,7 +111,8 @@ def texel_solid_angle(size: int, overscan: float = 1.0) -> Array:
     Returns
     -------
     ndarray, shape (2, size, size), float64
-        [sr], exact; sums to 4 pi. Of a texel that the disk's rim cuts, the part within; 0 outside.
+        [sr], exact; sums to 4 pi. A texel that the rim cuts counts with its part within; texels outside have
+        0.
 
     Raises
     ------
@@ -120,7 +121,7 @@ def texel_solid_angle(size: int, overscan: float = 1.0) -> Array:
     """
 
     def along_line(x: Array, y0: Array, y1: Array) -> Array:
-        # The cap is 2 r^2 / (1 + r^2); its integral is a difference of arc tangents, taken as one.
+        # The cap is 2 r^2 / (1 + r^2); its integral is a difference of arc tangents, computed as one.
         root = np.sqrt(1.0 + x * x)
         integral: Array = 2.0 * x / root * np.arctan2((y1 - y0) * root, 1.0 + x * x + y0 * y1)
         return integral

@@ -26,7 +26,7 @@ def direction_from_uv(uv: ArrayLike) -> Array:
 
 
 def uv_from_direction(direction: ArrayLike) -> Array:
-    """The inverse of `direction_from_uv`; the poles, where u means nothing, have u = 0.5.
+    """The inverse of `direction_from_uv`; the poles, where u is arbitrary, have u = 0.5.
 
     Parameters
     ----------

@@ -1,10 +1,10 @@
 """The mirror ball: a photograph of a mirrored ball, cut to the ball's outline.
 
-Own axes: those of the camera, x to the right, y up, z towards the camera, which stands on the z axis
-at a finite distance from the ball's centre. What it photographs is taken to be far away. From a
-finite distance the outline is less than the ball's hemisphere and there is a blind spot: the
-directions that the ball hides, a cone about -z with the half-angle arcsin(1 / distance). As the
-distance grows the map becomes a `sphere_map`.
+Own axes: those of the camera, x to the right, y up, z towards the camera, which stands on the z axis at a
+finite distance from the ball's centre. The surroundings are taken to be far away. From a finite distance the
+outline shows less than the ball's hemisphere, and there is a blind spot: the directions that the ball hides,
+a cone about -z with the half-angle arcsin(1 / distance). As the distance grows the map becomes a
+`sphere_map`.
 """
 
 import numpy as np
@@ -17,7 +17,7 @@ from .sphere_map import wrap
 __all__ = ["blind_angle", "direction_from_uv", "texel_solid_angle", "uv_from_direction", "wrap"]
 
 MOST_STEPS = 50
-"""Newton's method takes about six; from a distance of 1.001 radii some more."""
+"""Most steps of Newton's method: it takes about six; from a distance of 1.001 radii some more."""
 
 
 def blind_angle(distance: float) -> float:
@@ -75,7 +75,7 @@ def direction_from_uv(uv: ArrayLike, distance: float) -> Array:
 
 
 def uv_from_direction(direction: ArrayLike, distance: float) -> Array:
-    """The inverse of `direction_from_uv`; directions in the blind spot are taken to the outline.
+    """The inverse of `direction_from_uv`; directions in the blind spot are mapped to the outline.
 
     Parameters
     ----------
@@ -132,8 +132,8 @@ def texel_solid_angle(size: int, distance: float) -> Array:
     Returns
     -------
     ndarray, shape (size, size), float64
-        [sr], by quadrature along the texels' edges, to 1e-12 of their sum, which is 4 pi less the
-        blind spot; of a texel that the outline cuts, the part within; 0 outside.
+        [sr], by quadrature along the texels' edges, to 1e-12 of their sum, which is 4 pi less the blind spot.
+        A texel that the outline cuts counts with its part within; texels outside have 0.
 
     Raises
     ------
@@ -145,7 +145,7 @@ def texel_solid_angle(size: int, distance: float) -> Array:
 
 
 def _angle_from_radius(radius: Array, distance: float) -> Array:
-    """Angle from z of the direction that is seen at a radius of the outline."""
+    """Angle from z of the direction that the ball shows at a radius, in radii of its outline."""
     cosine, sine = np.cos(blind_angle(distance)), 1.0 / distance
     # Between the line of sight and the normal: 90 degrees on the outline.
     incidence = np.arctan2(radius, cosine * np.sqrt(np.maximum(1.0 - radius * radius, 0.0)))

@@ -101,7 +101,7 @@ def wrap(columns: Indices, rows: Indices, width: int, height: int) -> tuple[Indi
 
 
 def _mirrored(index: Indices, size: int) -> Indices:
-    """Texels beyond an edge to those as far within."""
+    """Texels beyond an edge to texels as far within."""
     return np.where(index < 0, -1 - index, np.where(index >= size, 2 * size - 1 - index, index))
 
 

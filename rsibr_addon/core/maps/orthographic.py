@@ -63,7 +63,8 @@ def texel_solid_angle(size: int) -> Array:
     Returns
     -------
     ndarray, shape (2, size, size), float64
-        [sr], exact; sums to 4 pi. Of a texel that the disk's rim cuts, the part within; 0 outside.
+        [sr], exact; sums to 4 pi. A texel that the rim cuts counts with its part within; texels outside have
+        0.
     """
     sheet = disk_solid_angle(size, _along_line, 1.0)
     return np.stack([sheet, sheet])

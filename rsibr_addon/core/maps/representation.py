@@ -1,8 +1,8 @@
 """Every map representation by its name, all alike.
 
-The modules beside this one have one or several sheets, parameters, and axes of their own. Here they have
-one interface: a map is an array (sheets, height, width, channels), a point of it a uv and the number of
-a sheet, and directions are in world coordinates.
+The other modules have one or several sheets, parameters, and axes of their own. Here they have one interface:
+a map is an array (sheets, height, width, channels), a point of it is a uv and the number of a sheet, and
+directions are in world coordinates.
 """
 
 from collections.abc import Callable
@@ -33,7 +33,7 @@ FRONT = camera_frame((0.0, -1.0, 0.0))
 """Axes of a picture from Blender's front view: x right (+X), y up (+Z), z towards the viewer (-Y)."""
 
 AHEAD = FRONT * (1.0, 1.0, -1.0)
-"""Axes of one who looks along +Y: x right, y up, z ahead. Left-handed, as axes of cube pictures are."""
+"""Axes of a viewer who looks along +Y: x right, y up, z ahead. Left-handed, as axes of cube pictures are."""
 
 type DirectionFromUv = Callable[[ArrayLike, Indices], Array]
 type UvFromDirection = Callable[[ArrayLike], tuple[Array, Indices]]
@@ -47,7 +47,7 @@ class Representation:
     Attributes
     ----------
     name : str
-        Its module's.
+        Name of its module.
     frame : ndarray, shape (3, 3)
         The map's own axes as columns, in world coordinates.
     sheets : tuple of str
@@ -55,9 +55,9 @@ class Representation:
     aspect : int
         Width of a sheet over its height.
     disk : float
-        Radius of the disk that counts, in half-widths of a sheet; infinite where the whole sheet does.
+        Radius of the disk that counts, in half-widths of a sheet; infinite if the whole sheet counts.
     goes_on : bool
-        Whether texels outside the disk show directions of their own, and not what its rim shows.
+        Whether texels outside the disk show directions of their own, instead of repeating its rim.
     blind_angle : float
         Half-angle of the cone about its own -z that the map does not show [rad].
     own_direction, own_uv, solid_angle, wrap_sheets : callable
@@ -143,7 +143,7 @@ class Representation:
         -------
         ndarray of bool, shape (...,)
         """
-        # Written so that without a blind spot rounding hides nothing.
+        # In this form rounding hides nothing of a map without a blind spot.
         towards_blind = -np.asarray(direction) @ self.frame[:, 2]
         shown: NDArray[np.bool] = (towards_blind <= np.cos(self.blind_angle)) | (self.blind_angle == 0.0)
         return shown
@@ -159,8 +159,8 @@ class Representation:
         Returns
         -------
         ndarray, shape (sheets, height, width), float64
-            [sr]; sums to 4 pi less the blind spot. It is 0 outside the disk of a map that has one:
-            such a texel is there for lookups across the rim, and counts for nothing.
+            [sr]; sums to 4 pi less the blind spot. It is 0 outside the disk of a map that has one: such
+            texels serve lookups across the rim alone.
 
         Raises
         ------
@@ -229,7 +229,7 @@ def representation(name: str, **parameters: float) -> Representation:
     Raises
     ------
     RangeError
-        There is none of that name, or a parameter is out of its range.
+        There is no such representation, or a parameter is out of its range.
     """
     if name not in REPRESENTATIONS:
         raise RangeError(f"There are no maps of kind {name}: choose one of {', '.join(REPRESENTATIONS)}.")
@@ -241,7 +241,7 @@ def _one_sheet(
     uv_from_direction: Callable[[ArrayLike], Array],
     wrap: Callable[[Indices, Indices, int, int], tuple[Indices, Indices]],
 ) -> tuple[DirectionFromUv, UvFromDirection, WrapSheets]:
-    """The functions of a map without sheets, as if it had one."""
+    """The functions of a map without sheets, with a sheet added."""
 
     def uv_on_sheet(direction: ArrayLike) -> tuple[Array, Indices]:
         uv = uv_from_direction(direction)
@@ -343,4 +343,4 @@ REPRESENTATIONS: dict[str, Callable[..., Representation]] = {
     "cube_map": _cube_map,
     "octahedral": _octahedral,
 }
-"""Name -> function of the parameters that makes it."""
+"""Name -> function that makes the representation from its parameters."""

@@ -39,12 +39,12 @@ def normal_from_uv(uv: ArrayLike) -> Array:
 
 
 def uv_from_normal(normal: ArrayLike) -> Array:
-    """The inverse of `normal_from_uv`; normals that face away are taken to the rim.
+    """The inverse of `normal_from_uv`; normals that face away are mapped to the rim.
 
     Parameters
     ----------
     normal : array_like, shape (..., 3)
-        Unit normals in camera coordinates; (0, 0, -1) is taken to the rim's rightmost point.
+        Unit normals in camera coordinates; (0, 0, -1) is mapped to the rim's rightmost point.
 
     Returns
     -------
@@ -91,8 +91,8 @@ def uv_from_direction(direction: ArrayLike) -> Array:
     Parameters
     ----------
     direction : array_like, shape (..., 3)
-        Unit directions in camera coordinates; (0, 0, -1), which the whole rim shows, is taken to
-        its rightmost point.
+        Unit directions in camera coordinates; (0, 0, -1), which the whole rim shows, is mapped to its
+        rightmost point.
 
     Returns
     -------
@@ -101,9 +101,9 @@ def uv_from_direction(direction: ArrayLike) -> Array:
 
     Notes
     -----
-    [Cabral1999] section 3.3: the half vector of direction and camera is the normal (the printed
-    denominator lacks its square root). GLSL twin: gpu_shaders/lib/sphere_map_lib.glsl
-    `uv_from_direction`, 1e-6, but for directions within 1e-6 of (0, 0, -1), which are taken for it.
+    [Cabral1999] section 3.3: the half vector of direction and camera is the normal (the printed denominator
+    lacks its square root). GLSL twin: gpu_shaders/lib/sphere_map_lib.glsl `uv_from_direction`, 1e-6, except
+    for directions within 1e-6 of (0, 0, -1), which count as this direction.
     """
     direction = np.asarray(direction, dtype=np.float64)
     half = direction + (0.0, 0.0, 1.0)
@@ -114,7 +114,7 @@ def uv_from_direction(direction: ArrayLike) -> Array:
 
 
 def texel_angle(size: int) -> float:
-    """How far texels are apart in reflected directions.
+    """Distance between texels in reflected directions.
 
     Parameters
     ----------
@@ -135,7 +135,7 @@ def texel_angle(size: int) -> float:
 
 
 def texel_solid_angle(size: int) -> Array:
-    """Solid angle of reflected directions that each texel stands for.
+    """Solid angle of each texel's reflected directions.
 
     Parameters
     ----------
@@ -149,7 +149,7 @@ def texel_solid_angle(size: int) -> Array:
         d omega = 4 cos d omega_normal = 4 dA, so this is four times the area of a texel within
         the disk.
     """
-    # A texel of a map twice as fine never straddles an axis, so one quadrant serves for all.
+    # A texel of a map twice as fine never straddles an axis, so one quadrant gives all.
     edges = np.linspace(0.0, 1.0, size + 1)
     x0, x1 = edges[None, :-1], edges[None, 1:]
     y0, y1 = edges[:-1, None], edges[1:, None]
@@ -189,9 +189,9 @@ def wrap(columns: Indices, rows: Indices, width: int, height: int) -> tuple[Indi
 def fill_rim(radiance: Array, coverage: Array) -> Array:
     """Make a rendered sphere into a map that can be looked up everywhere.
 
-    Radiance of texels that the disk only partly covers becomes the mean over the covered part;
-    texels outside take the value found at the rim on the way to the centre, so that bilinear
-    lookups near the rim mix in nothing foreign.
+    Texels that the disk only partly covers get the mean radiance of the covered part. Texels outside take
+    the value at the rim on the way to the centre, so that bilinear lookups near the rim mix in nothing
+    foreign.
 
     Parameters
     ----------

@@ -5,7 +5,7 @@ import numpy as np
 from ..conventions import Array
 
 COLUMNS = {2: 2, 6: 3}
-"""Number of square sheets below each other in a map -> how many go side by side in its picture."""
+"""Number of square sheets below each other in a map -> number of sheets side by side in its picture."""
 
 
 def miniature(radiance: Array, largest: int) -> Array:
@@ -16,12 +16,12 @@ def miniature(radiance: Array, largest: int) -> Array:
     radiance : ndarray, shape (height, width, 3)
         Row 0 at the bottom.
     largest : int
-        Greatest width and height of the picture; a map that is smaller stays as it is.
+        Greatest width and height of the picture; a smaller map keeps its size.
 
     Returns
     -------
     ndarray, shape (height, width, 3), float64
-        Row 0 at the bottom. What does not fill a block at the top and the right is left out.
+        Row 0 at the bottom. Incomplete blocks at the top and the right are left out.
     """
     arranged = _side_by_side(radiance)
     height, width = arranged.shape[:2]
@@ -41,5 +41,5 @@ def _side_by_side(radiance: Array) -> Array:
         return radiance
     across = COLUMNS[count]
     sheets = radiance.reshape(count // across, across, width, width, 3)
-    # The first sheet is at the top, where row numbers are largest: so each row of sheets is turned around.
+    # The first sheet is at the top, where row numbers are largest, so each row of sheets is turned around.
     return sheets[:, ::-1].transpose(0, 2, 1, 3, 4).reshape(-1, across * width, 3)

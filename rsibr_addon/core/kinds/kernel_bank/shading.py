@@ -1,4 +1,4 @@
-"""How a kernel bank is shaded: as the lobe stack of a reflectance model that is chosen while one looks."""
+"""Shading from a kernel bank: as the lobe stack of a reflectance model that is chosen in the preview."""
 
 from dataclasses import dataclass
 
@@ -10,14 +10,14 @@ MOST_LOBES = 12
 
 @dataclass(frozen=True)
 class BankLook:
-    """What a kernel bank is shaded as.
+    """Look of a kernel bank.
 
     Attributes
     ----------
     brdf : str
         The reflectance model: see `core/brdf/spec.py`.
     roughness : float or None
-        Every alpha of the model is its square, in (0, 1]; None for the model's own.
+        In (0, 1]; its square becomes every alpha of the model. None keeps the model's own.
     lobe_count : int
         Lobes for each layer of the model, 1 to `MOST_LOBES`.
 

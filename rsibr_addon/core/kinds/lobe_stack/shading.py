@@ -16,12 +16,12 @@ from .stack import LobeStack
 
 @dataclass(frozen=True)
 class StackLook:
-    """How a lobe stack is shaded.
+    """Look of a lobe stack.
 
     Attributes
     ----------
     lobes : tuple of int
-        Numbers of the lobes that count, from 0, or one number; empty for all of them.
+        Numbers of the lobes that are shown, from 0, or a single number; empty for all.
     antialiased : bool
         Whether light is averaged over what a pixel reflects.
     """
@@ -33,7 +33,7 @@ class StackLook:
         object.__setattr__(self, "lobes", tuple(int(lobe) for lobe in np.atleast_1d(self.lobes)))
 
     def shown(self, stack: LobeStack) -> tuple[int, ...]:
-        """The lobes that count.
+        """The lobes that are shown.
 
         Parameters
         ----------
@@ -71,8 +71,8 @@ def stack_radiance(
         Unit vectors in world coordinates; for normals that point away see `facing_normal`.
     look : StackLook
     mirror_footprint : array_like, shape (..., 4, 3), optional
-        Mirrored view directions at the corners of each point's pixel, see `core.antialiased`; what an
-        antialiased look averages over. None for points, which reflect one direction each.
+        Mirrored view directions at the corners of each point's pixel, over which an antialiased look
+        averages: see `core.antialiased`. None for points, which reflect one direction each.
 
     Returns
     -------
@@ -88,9 +88,9 @@ def stack_radiance(
     -----
     The paper's texture coordinates are those of the mirror direction with an angle added. A rotated vector
     instead keeps lobes radially symmetric, and lets the offset vanish smoothly where the view is along the
-    normal. Of two elevations both maps are looked up along the same, interpolated axis, as a 3D texture
-    is: a lobe then moves between its two places and does not stand in both. Over a pixel it is the mirror
-    direction that turns: up to `sampling.MOST` lookups along each side, a texel apart. GLSL twin:
+    normal. The maps of two elevations are both looked up along the same, interpolated axis, as in a 3D
+    texture: a lobe then moves between its two places instead of appearing in both. Within a pixel only the
+    mirror direction changes: up to `sampling.MOST` lookups along each side, a texel apart. GLSL twin:
     gpu_shaders/lobe_stack_frag.glsl; with half-float maps, within 2e-3 of the peak.
     """
     normal, view_dir = np.broadcast_arrays(np.asarray(normal, np.float64), np.asarray(view_dir, np.float64))
@@ -111,7 +111,7 @@ def stack_radiance(
 def _mirrored(
     stack: LobeStack, look: StackLook, normal: Array, mirror_dir: Array, below: Indices, share: Array
 ) -> Array:
-    """What points show by given mirror directions, at given elevations, shape (..., 3)."""
+    """Radiance of points by given mirror directions, at given elevations, shape (..., 3)."""
     above = np.minimum(below + 1, len(stack.mu) - 1)
     radiance = np.zeros(normal.shape)
     for lobe in look.shown(stack):
@@ -136,12 +136,12 @@ def facing_normal(normal: ArrayLike, view_dir: ArrayLike) -> Array:
     Returns
     -------
     ndarray, shape (..., 3)
-        Unit vectors with n.v of 0 and more. Interpolated normals of a visible facet may point away, where
-        a mirror direction would lie inside the object.
+        Unit vectors with n.v of at least 0. Interpolated normals of a visible facet may point away, where a
+        mirror direction would lie inside the object.
 
     Notes
     -----
-    GLSL twin: gpu_shaders/lib/lobe_stack_lib.glsl `facing_normal`, 1e-6 but for normals within 1e-3 of
+    GLSL twin: gpu_shaders/lib/lobe_stack_lib.glsl `facing_normal`, 1e-6 except for normals within 1e-3 of
     straight away, which have no nearest one.
     """
     normal, view_dir = np.asarray(normal), np.asarray(view_dir)

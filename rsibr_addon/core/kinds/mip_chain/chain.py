@@ -10,12 +10,12 @@ from ...filtering.irradiance import turned_harmonics
 from ...maps import cube_map
 
 LARGEST = 1024
-"""Width of the largest faces: filtering and uploading such a chain takes some 1.5 GB."""
+"""Width of the largest faces: to filter and upload such a chain takes some 1.5 GB."""
 
 
 @dataclass(frozen=True)
 class MipChain:
-    """What [Kautz2004] shades from: glossy light by the mirror direction, diffuse light by the normal.
+    """The light that [Kautz2004] shades from: glossy by the mirror direction, diffuse by the normal.
 
     Attributes
     ----------
@@ -25,14 +25,14 @@ class MipChain:
         Coefficients of the environment's radiance, in the order of
         `core.filtering.irradiance.real_harmonics`.
     roughness : tuple of float, or None
-        Of each mip, ascending in [0, 1]: square root of the alpha of the GGX lobe that it was filtered
-        with, 0 where it was not. None where the mips are no GGX lobes'.
+        Roughness of each mip, ascending in [0, 1]: square root of the alpha of its GGX lobe, 0 if it was not
+        filtered. None where mips were not filtered with GGX lobes.
 
     Raises
     ------
     ShapeError
-        The mips are not cube faces that halve in size, the coefficients are not nine, or the roughnesses
-        not as many as the mips.
+        The mips are not cube faces that halve in size, there are not nine coefficients, or not as many
+        roughnesses as mips.
     RangeError
         The roughnesses do not ascend within [0, 1], or a size is out of range: see `check_size`.
     """
@@ -82,7 +82,7 @@ class MipChain:
         Parameters
         ----------
         roughness : float
-            In [0, 1]; beyond the first or last mip's, that mip is as near as it gets.
+            In [0, 1]; beyond the first or last mip's roughness, that mip is used.
 
         Returns
         -------
@@ -92,7 +92,7 @@ class MipChain:
         Raises
         ------
         RangeError
-            The mips are no GGX lobes'.
+            The mips were not filtered with GGX lobes.
         """
         if self.roughness is None:
             raise RangeError("A box-filtered mip chain knows no roughness: choose a bias instead.")
@@ -100,7 +100,7 @@ class MipChain:
 
 
 def check_size(size: int, count: int) -> None:
-    """Refuse what no mip chain has.
+    """Refuse sizes that no mip chain has.
 
     Parameters
     ----------
@@ -112,7 +112,7 @@ def check_size(size: int, count: int) -> None:
     Raises
     ------
     RangeError
-        The size is not a power of 2 up to `LARGEST`, or has not so many halves.
+        The size is not a power of 2 up to `LARGEST`, or cannot be halved so often.
     """
     if not 1 <= size <= LARGEST or size & (size - 1):
         raise RangeError(f"A mip chain cannot be {size} texels wide: choose a power of 2 up to {LARGEST}.")
@@ -124,7 +124,7 @@ def check_size(size: int, count: int) -> None:
 
 
 def check_roughness(roughness: tuple[float, ...]) -> None:
-    """Refuse roughnesses that cannot be looked up between.
+    """Refuse roughnesses that no lookup can interpolate.
 
     Parameters
     ----------

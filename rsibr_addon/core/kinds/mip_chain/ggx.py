@@ -1,4 +1,4 @@
-"""Mips filtered with GGX lobes, the more so the smaller they are: what engines shade glossy surfaces from."""
+"""Mips filtered with GGX lobes, wider for smaller mips: engines shade glossy surfaces from such mips."""
 
 import math
 from collections.abc import Callable, Iterator, Sequence
@@ -18,7 +18,7 @@ from ...resample import lookup, resample
 from .chain import check_roughness, check_size
 
 TOLERANCE = 1e-4
-"""Relative root-mean-square error of a mip; the n.l lobe's kink makes less of it dear."""
+"""Relative root-mean-square error of a mip; because of the n.l lobe's kink, less would be expensive."""
 
 EQUIRECT = representation("equirect")
 CUBE = representation("cube_map")
@@ -35,7 +35,7 @@ def linear_roughness(count: int) -> tuple[float, ...]:
     Returns
     -------
     tuple of float
-        mip / (count - 1); of a single mip, 0.
+        mip / (count - 1); 0 for a single mip.
     """
     return tuple(mip / max(count - 1, 1) for mip in range(count))
 
@@ -51,7 +51,7 @@ def quadratic_roughness(count: int) -> tuple[float, ...]:
     Returns
     -------
     tuple of float
-        1 - sqrt(1 - mip / (count - 1)); of a single mip, 0. The rule of Filament and its tool cmgen.
+        1 - sqrt(1 - mip / (count - 1)); 0 for a single mip. The rule of Filament and its tool cmgen.
     """
     return tuple(1.0 - float(np.sqrt(1.0 - share)) for share in linear_roughness(count))
 
@@ -60,7 +60,7 @@ ROUGHNESS_RULES: dict[str, Callable[[int], tuple[float, ...]]] = {
     "linear": linear_roughness,
     "quadratic": quadratic_roughness,
 }
-"""Name -> roughnesses of a number of mips, from 0 to 1."""
+"""Name -> function from a number of mips to their roughnesses, from 0 to 1."""
 
 
 @dataclass(frozen=True)
@@ -72,8 +72,8 @@ class GgxMip:
     faces : ndarray, shape (6, n, n, 3), float64
         Not negative.
     bound : float
-        No value is further than this from the sum over all texels of the environment; 0 where nothing
-        was filtered.
+        No value is further than this from the sum over all texels of the environment; 0 if the mip was not
+        filtered.
     """
 
     faces: Array
@@ -90,7 +90,7 @@ def ggx_mips(radiance: Array, size: int, roughness: Sequence[float]) -> Iterator
     size : int
         Width of the first mip's faces in texels, a power of 2.
     roughness : sequence of float
-        Of each mip, ascending in [0, 1]. A mip of roughness 0 shows the environment itself.
+        Roughness of each mip, ascending in [0, 1]. A mip of roughness 0 shows the environment itself.
 
     Yields
     ------
@@ -105,8 +105,8 @@ def ggx_mips(radiance: Array, size: int, roughness: Sequence[float]) -> Iterator
     Notes
     -----
     Radiance times `ggx_n_dot_l_lobe` of alpha = roughness^2, to a relative root-mean-square error of
-    `TOLERANCE`: [Karis2013], whose samples this replaces by the whole sum. A map whose texels are too large
-    for a lobe is interpolated first, as a mip of roughness 0 shows it.
+    `TOLERANCE`: [Karis2013], with the whole sum instead of samples. A map whose texels are too large for a
+    lobe is interpolated first, as a mip of roughness 0 shows it.
     """
     check_size(size, len(roughness))
     check_roughness(tuple(roughness))
@@ -127,7 +127,7 @@ def ggx_mips(radiance: Array, size: int, roughness: Sequence[float]) -> Iterator
 
 
 def _fine_enough(radiance: Array, lobes: list[ZonalSeries]) -> Array:
-    """The map; or, where it does not resolve a lobe, one interpolated from it that well does."""
+    """The map; or, where it does not resolve a lobe, a finer map interpolated from it."""
     rows = len(radiance)
     narrowest = min((lobe.width for lobe in lobes), default=np.pi)
     if narrowest >= resolved_width(rows):
@@ -139,7 +139,7 @@ def _fine_enough(radiance: Array, lobes: list[ZonalSeries]) -> Array:
 
 @contextmanager
 def _naming(mip: int, roughness: float) -> Iterator[None]:
-    """Say of which mip's lobe an error tells."""
+    """Name the mip in an error about its lobe."""
     try:
         yield
     except RangeError as error:
@@ -161,13 +161,13 @@ def environment_faces(radiance: Array, size: int) -> Array:
     Returns
     -------
     ndarray, shape (6, size, size, 3), float64
-        Looked up between texels where a face has as many as a quarter turn of the map; else the mean over
+        Interpolated where a face has at least as many texels as a quarter turn of the map; else the mean over
         each texel.
     """
     if 4 * size < radiance.shape[1]:
         return resample(radiance[None], EQUIRECT, CUBE, size)
     faces = np.empty((6, size, size, radiance.shape[2]))
     uv = texel_centres(size, size)
-    for face, texels in enumerate(faces):  # one after the other, for the memory that a lookup takes
+    for face, texels in enumerate(faces):  # one after the other, to limit the memory of a lookup
         texels[...] = lookup(radiance[None], CUBE.direction_from_uv(uv, np.array(face)), EQUIRECT)
     return faces

@@ -25,7 +25,7 @@ _CUBE = representation("cube_map")
 
 
 class Borders(StrEnum):
-    """What a lookup near a face's border interpolates with.
+    """Texels with which a lookup near a face's border interpolates.
 
     SEAMLESS takes the neighbouring face's texels. CLAMPED repeats the face's own, as the hardware
     of 2004 did: with a box filter, the border problem of [Kautz2004] figure 4.
@@ -37,7 +37,7 @@ class Borders(StrEnum):
 
 @dataclass(frozen=True)
 class MipLook:
-    """How a mip chain is shaded.
+    """Look of a mip chain.
 
     Attributes
     ----------
@@ -46,10 +46,9 @@ class MipLook:
     k_d : tuple of 3 floats
         Albedo of the diffuse part in [0, 1].
     bias : float
-        The paper's b, at least 0: the mip that glossy light comes from, linear between two; beyond the
-        last, that.
+        The paper's b, at least 0: the mip of glossy light, linear between two; beyond the last, the last.
     roughness : float or None
-        In [0, 1]: takes the bias of that roughness; of GGX chains only.
+        In [0, 1]: sets the bias to the level of that roughness; for GGX chains only.
     borders : Borders
         Or its value, as text.
     antialiased : bool
@@ -97,12 +96,12 @@ class MipLook:
         Raises
         ------
         RangeError
-            There is a roughness, and the chain is not of GGX lobes.
+            There is a roughness, and the chain was not filtered with GGX lobes.
 
         Notes
         -----
-        Hardware adds b to the level that a pixel's footprint asks for. Here a mip is a material, at any
-        distance, and what a pixel reflects is averaged over that: see `glossy_mean`.
+        Hardware adds b to the level that a pixel's footprint asks for. Here a mip means a material at any
+        distance, and lookups are averaged over the region that a pixel reflects: see `glossy_mean`.
         """
         if self.roughness is not None:
             return chain.bias(self.roughness)
@@ -125,8 +124,8 @@ def mip_chain_radiance(
         Unit vectors in world coordinates.
     look : MipLook
     mirror_footprint : array_like, shape (..., 4, 3), optional
-        Mirrored view directions at the corners of each point's pixel, see `core.antialiased`; what an
-        antialiased look averages over. None for points, which reflect one direction each.
+        Mirrored view directions at the corners of each point's pixel, over which an antialiased look
+        averages: see `core.antialiased`. None for points, which reflect one direction each.
 
     Returns
     -------
@@ -167,7 +166,7 @@ def diffuse_radiance(chain: MipChain, normal: ArrayLike, k_d: ArrayLike) -> Arra
     Returns
     -------
     ndarray, shape (..., 3), float64
-        0 where nine harmonics say less, opposite a strong light.
+        0 where nine harmonics are negative, opposite a strong light.
 
     Notes
     -----
@@ -182,7 +181,7 @@ def diffuse_radiance(chain: MipChain, normal: ArrayLike, k_d: ArrayLike) -> Arra
 def glossy_mean(
     chain: MipChain, mirror_dir: ArrayLike, corners: ArrayLike, level: float, borders: Borders
 ) -> Array:
-    """Light of a level, averaged over what pixels reflect.
+    """Light of a level, averaged over pixels' footprints.
 
     Parameters
     ----------
@@ -190,7 +189,7 @@ def glossy_mean(
     mirror_dir : array_like, shape (..., 3)
         Unit directions that the pixels' middles reflect.
     corners : array_like, shape (..., 4, 3)
-        Their footprints.
+        The pixels' footprints.
     level : float
         In [0, mips - 1].
     borders : Borders
@@ -201,9 +200,9 @@ def glossy_mean(
 
     Notes
     -----
-    Up to `sampling.MOST` lookups along each side of a pixel, a texel of that level apart. Where they do not
-    suffice they come from a mip whose texels are as far apart as they are, so that no light is missed
-    however much a pixel reflects. GLSL twin: gpu_shaders/lib/mip_chain_lib.glsl `glossy_mean`.
+    Up to `sampling.MOST` lookups along each side of a pixel, a texel of that level apart. Where these do not
+    suffice, they use a mip whose texels are as far apart as the lookups, so that no light is missed however
+    large the footprint is. GLSL twin: gpu_shaders/lib/mip_chain_lib.glsl `glossy_mean`.
     """
     mirror_dir = np.asarray(mirror_dir, dtype=np.float64)
     across, up = footprint_sides(np.asarray(corners, dtype=np.float64))
@@ -254,7 +253,7 @@ def _mip_radiance(faces: Array, direction: ArrayLike, borders: Borders) -> Array
         return lookup(faces, direction, _CUBE)
     uv, face = cube_map.uv_from_direction(direction)
     half = 0.5 / faces.shape[1]
-    # So far inside, interpolation ends at the face's last texel centres and asks for no neighbour.
+    # Half a texel inside, interpolation ends at the face's last texel centres and needs no neighbour.
     inside = np.clip(uv, half, 1.0 - half)
     return bilinear(faces, inside, _no_neighbour, layer=face)
 

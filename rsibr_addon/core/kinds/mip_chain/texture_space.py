@@ -1,9 +1,9 @@
-"""Filters of four texels and of sixteen: what hardware does, and what it leaves out at the faces' borders.
+"""Filters of four texels, as in hardware, and of sixteen, which do not stop at the faces' borders.
 
-[Kautz2004] section 4.2 takes the box filter that hardware makes mip maps with for a glossy lobe. Hardware
-filters every face of the cube on its own, so that the smallest mip holds six unrelated colours: the
-border problem of its figure 4. The paper's remedy, "a filtering implementation that pays attention to the
-borders, i.e. filters across faces", is `tent_halved`.
+[Kautz2004] section 4.2 uses hardware's box filter for mip maps as a glossy lobe. Hardware filters every face
+of the cube separately, so the smallest mip holds six unrelated colours: the border problem of the paper's
+figure 4. The paper's remedy, "a filtering implementation that pays attention to the borders, i.e. filters
+across faces", is `tent_halved`.
 """
 
 from collections.abc import Callable
@@ -50,7 +50,7 @@ def box_halved(faces: Array) -> Array:
 
     Notes
     -----
-    Texels count alike, whatever their solid angles: [Kautz2004] section 4.2.
+    All texels have the same weight, whatever their solid angles: [Kautz2004] section 4.2.
     """
     half = faces.shape[1] // 2
     means: Array = faces.reshape(6, half, 2, half, 2, -1).mean(axis=(2, 4))
@@ -71,8 +71,8 @@ def tent_halved(faces: Array) -> Array:
 
     Notes
     -----
-    Halved again and again, the weights tend to the quadratic B-spline: no blocks either, which the paper
-    leaves to hardware to come (its section 6).
+    With repeated halving the weights tend to the quadratic B-spline, so blocks disappear as well, which the
+    paper leaves to future hardware (its section 6).
     """
     solid_angle = cube_map.texel_solid_angle(faces.shape[1])[..., None]
     weighted = np.concatenate([faces * solid_angle, solid_angle], axis=-1)
@@ -81,7 +81,7 @@ def tent_halved(faces: Array) -> Array:
 
 
 def with_borders(faces: Array) -> Array:
-    """Faces with a texel more on every side: the texels that lie there on the cube.
+    """Faces with one more texel on every side: the neighbouring texels on the cube.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def with_borders(faces: Array) -> Array:
     Returns
     -------
     ndarray, shape (6, n + 2, n + 2, channels)
-        Bilinear lookups within a face's own square are now continuous over the sphere. Where three faces
+        Bilinear lookups within a face's own square are then continuous over the sphere. Where three faces
         meet, the corner is the mean of their texels, as in `core.resample.lookup`.
     """
     size = faces.shape[1]

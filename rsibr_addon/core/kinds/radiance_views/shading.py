@@ -1,8 +1,8 @@
 """Shading from radiance views [Cabral1999], in three modes.
 
-`views_fragment` needs nothing but a normal and a view direction. The others make the
-sphere map of one view first, texel by texel (`destination_by_texel`) or over a tessellated disk as
-the paper does (`destination_by_mesh`), and `destination_lookup` shades from it.
+`views_fragment` needs only a normal and a view direction. The other modes first make the sphere map of one
+view, texel by texel (`destination_by_texel`) or over a tessellated disk as the paper does
+(`destination_by_mesh`), and `destination_lookup` shades from it.
 """
 
 from collections.abc import Iterator
@@ -26,7 +26,7 @@ from .views import RadianceViews
 
 
 class Mode(StrEnum):
-    """How radiance views are brought to the view of a frame."""
+    """Ways to bring radiance views to the view of a frame."""
 
     PAPER = "paper"
     TEXEL = "texel"
@@ -34,12 +34,12 @@ class Mode(StrEnum):
 
 
 class Warping(StrEnum):
-    """What is warped how.
+    """The warp of each part of radiance.
 
-    SINGLE warps the whole radiance by the mirror direction. SPLIT warps diffuse radiance by the
-    normal and glossy by the mirror direction. ALBEDO is SPLIT of radiance over directional albedo:
-    a source saw a direction at another angle than the fragment does, and what Fresnel's equations
-    make of that is known without a picture.
+    SINGLE warps the whole radiance by the mirror direction. SPLIT warps diffuse radiance by the normal and
+    glossy by the mirror direction. ALBEDO is SPLIT of radiance divided by directional albedo: a source saw a
+    direction at another angle than the fragment does, and albedo tells the effect of Fresnel's equations
+    without a picture.
     """
 
     SINGLE = "single"
@@ -49,7 +49,7 @@ class Warping(StrEnum):
 
 @dataclass(frozen=True)
 class ViewsLook:
-    """How radiance views are shaded.
+    """Look of radiance views.
 
     Attributes
     ----------
@@ -58,7 +58,7 @@ class ViewsLook:
     warping : Warping
         Likewise.
     antialiased : bool
-        Whether what goes by the mirror direction is averaged over what a pixel reflects.
+        Whether radiance warped by the mirror direction is averaged over what a pixel reflects.
     """
 
     mode: Mode = Mode.FRAGMENT
@@ -71,7 +71,7 @@ class ViewsLook:
 
 
 LEAST_ALBEDO = 1e-3
-"""Added to albedo before it divides: what is black from everywhere stays so, noise and all."""
+"""Added to albedo before it divides, so that black from everywhere stays black, with its noise."""
 
 
 @dataclass(frozen=True)
@@ -86,8 +86,7 @@ class Destination:
         Radiance to be looked up by the normal (diffuse; 0 for a single warp) and by the mirrored
         view direction (glossy, or the whole); for `Warping.ALBEDO`, over albedo.
     albedo : ndarray, shape (2, M, 3)
-        What the radiance by normal, and by mirror, is to be multiplied by, as
-        `RadianceViews.albedo`.
+        Factors of the radiance by normal, and by mirror, as in `RadianceViews.albedo`.
     """
 
     frame: Array
@@ -122,10 +121,9 @@ def views_fragment(
 
     Notes
     -----
-    [Cabral1999] sections 3.2-3.4 for every fragment: the view direction of each is its own, so
-    that perspective adds no error. Over a pixel the mirror direction turns, and what goes by it is looked
-    up up to `sampling.MOST` times along each side, a texel apart. GLSL twin:
-    gpu_shaders/views_fragment_frag.glsl.
+    [Cabral1999] sections 3.2-3.4 for every fragment: each has its own view direction, so that perspective
+    adds no error. Within a pixel the mirror direction changes, and radiance by it takes up to `sampling.MOST`
+    lookups along each side, a texel apart. GLSL twin: gpu_shaders/views_fragment_frag.glsl.
     """
     normal, view_dir = np.broadcast_arrays(np.asarray(normal, np.float64), np.asarray(view_dir, np.float64))
     by_normal, by_mirror = _warp_and_blend(views, normal, view_dir, warping)
@@ -251,7 +249,7 @@ def _spread(
 def _warp_and_blend(
     views: RadianceViews, normal: Array, view_dir: Array, warping: Warping
 ) -> tuple[Array, Array]:
-    """What the three views around each view direction show, by normal and by mirror; over albedo."""
+    """Radiance of the three views around each view direction, by normal and by mirror, over albedo."""
     sources = find_triangle(views.sphere, view_dir)
     weights = barycentric_weights(view_dir, views.sphere.vertices[sources])
     table = _albedo(views, warping)
@@ -266,7 +264,7 @@ def _warp_and_blend(
 
 
 def _seen(views: RadianceViews, warp: Warp, normal: Array, view_dir: Array, sources: Indices) -> Array:
-    """Where each of the three sources shows the surface points: u, v and cosine, shape (..., 3, 3)."""
+    """Places of the surface points in each of the three sources: u, v and cosine, shape (..., 3, 3)."""
     normal, view_dir = normal[..., None, :], view_dir[..., None, :]
     uv = source_uv(warp, normal, view_dir, views.frames[sources])
     cosine = source_cosine(warp, normal, view_dir, views.sphere.vertices[sources])
@@ -276,7 +274,7 @@ def _seen(views: RadianceViews, warp: Warp, normal: Array, view_dir: Array, sour
 def _blend(maps: Array, warp: Warp, table: Array, sources: Indices, seen: Array, weights: Array) -> Array:
     """The sources' radiance over their albedo, each looked up at its own place, weighted and summed."""
     cosine = seen[..., 2]
-    # Weights times confidences, to sum 1: [Cabral1999] section 4 divides by what it accumulated.
+    # Weights times confidences, scaled to sum 1: [Cabral1999] section 4 divides by the accumulated sum.
     shares = weights * confidence(cosine)
     shares = shares / shares.sum(axis=-1, keepdims=True)
     radiance = bilinear(maps, seen[..., :2], sphere_map.wrap, layer=sources)
@@ -285,7 +283,7 @@ def _blend(maps: Array, warp: Warp, table: Array, sources: Indices, seen: Array,
 
 
 def _albedo(views: RadianceViews, warping: Warping) -> Array:
-    """The table to divide and multiply by; ones where albedo plays no part."""
+    """The table to divide and multiply by; ones without albedo."""
     return views.albedo + LEAST_ALBEDO if warping is Warping.ALBEDO else np.ones((2, 1, 3))
 
 

@@ -16,13 +16,13 @@ def _constant_albedo() -> Array:
 
 @dataclass(frozen=True)
 class RadianceViews:
-    """What [Cabral1999] calls L_r,j: one radiance sphere map a view direction.
+    """A radiance sphere map for each view direction, L_r,j of [Cabral1999].
 
     Attributes
     ----------
     diffuse, glossy : ndarray, shape (V, size, size, 3), float32
-        Reflected radiance of the glossy lobes, and of everything else (Lambert, emission); their
-        sum is the whole. V is 12, 42 or 162, in the order of `geodesic_sphere(V).vertices`.
+        Radiance of everything but glossy lobes (Lambert, emission), and of glossy lobes; their sum is the
+        whole. V is 12, 42 or 162, in the order of `geodesic_sphere(V).vertices`.
     albedo : ndarray, shape (2, M, 3), float32
         Directional albedo of the material, diffuse part in row 0 and glossy in row 1; column k is
         for n.v = (k + 0.5) / M. By default the same for every view direction.
@@ -30,7 +30,7 @@ class RadianceViews:
     Raises
     ------
     ShapeError
-        The maps differ in shape, or are not square; the albedo is not of two rows.
+        The maps differ in shape, or are not square; the albedo does not have two rows.
     RangeError
         V is not one of `geodesic.VERTEX_COUNTS`.
     """
@@ -66,12 +66,12 @@ class RadianceViews:
         return int(self.diffuse.shape[1])
 
     def coarser(self, vertex_count: int) -> "RadianceViews":
-        """The first `vertex_count` views alone, which are those of a coarser sphere.
+        """The first `vertex_count` views, which are the views of a coarser sphere.
 
         Raises
         ------
         RangeError
-            There are not that many views, or not a sphere of that many.
+            There are not so many views, or no sphere has so many.
         """
         if vertex_count > len(self.diffuse):
             raise RangeError(

@@ -24,26 +24,27 @@ DIFFUSE_ROWS = 36
 """Rows of a diffuse table, and the fewest of a lobe's: [Miller1984] section 6.1."""
 
 LOOKUP_ERROR = 0.01
-"""Of a lobe's peak: what a bilinear lookup may err beside a single light, by the choice of `lobe_rows`."""
+"""Error of a bilinear lookup beside a single light, relative to a lobe's peak, at the rows of `lobe_rows`."""
 
 LARGEST = 8192
 """Rows of the largest table."""
 
 _KINKED = 2.0
 _KINKED_TOLERANCE = 1e-4
-"""Lobes of smaller exponents fall so abruptly to 0 that more digits would take too many harmonics."""
+"""Tolerance of lobes with small exponents, which fall so abruptly to 0 that less would take too many
+harmonics."""
 
 
 @dataclass(frozen=True)
 class TableSizes:
-    """How many rows tables have; they have twice as many columns.
+    """Rows of tables; they have twice as many columns.
 
     Attributes
     ----------
     diffuse : int
-        Of the diffuse table, 1 to `LARGEST`.
+        Rows of the diffuse table, 1 to `LARGEST`.
     others : int or None
-        Of all others; by default as many as the environment's for mirrors, and `lobe_rows` for lobes.
+        Rows of all other tables; by default the environment's for mirrors, and `lobe_rows` for lobes.
 
     Raises
     ------
@@ -62,14 +63,14 @@ class TableSizes:
 
 @dataclass(frozen=True)
 class BakedTables:
-    """Tables, and how far they may be from what they stand for.
+    """Tables, and bounds on their errors.
 
     Attributes
     ----------
     tables : ReflectionTables
     bounds : dict of Role to ndarray, shape (3,)
-        Of tables of lobes: no texel is further than this from the sum over all texels of the environment,
-        rounding to single precision left out.
+        Bounds of tables of lobes: no texel is further than this from the sum over all texels of the
+        environment, rounding to single precision aside.
     """
 
     tables: ReflectionTables
@@ -77,14 +78,14 @@ class BakedTables:
 
 
 def lobe_rows(n: float, environment_rows: int) -> int:
-    """How many rows a table of a Phong lobe gets.
+    """Rows of a Phong lobe's table.
 
     Parameters
     ----------
     n : float
         The lobe's exponent, at least 1.
     environment_rows : int
-        Of the environment, than which no lobe's table is finer.
+        Rows of the environment; no lobe's table is finer.
 
     Returns
     -------
@@ -101,7 +102,7 @@ def lobe_rows(n: float, environment_rows: int) -> int:
 
 
 def largest_rows(material: TableMaterial, sizes: TableSizes, environment_rows: int) -> int:
-    """Of all tables of a material."""
+    """Most rows of a material's tables."""
     rows = [sizes.diffuse] if Role.DIFFUSE in material.roles else []
     for model in material.lobes.values():
         if isinstance(model, MirrorTable):
@@ -168,7 +169,7 @@ def _directions(rows: int) -> Array:
 
 
 def _diffuse_table(radiance: Array, material: TableMaterial, rows: int) -> Array:
-    """D of [Miller1984] section 6.1, and what the material emits itself."""
+    """D of [Miller1984] section 6.1, with the material's emission."""
     table = np.zeros((rows, 2 * rows, 3))
     if isinstance(material.diffuse, LambertTable):
         table += material.diffuse.gain / np.pi * irradiance_exact(radiance, _directions(rows))
@@ -182,11 +183,11 @@ def _diffuse_table(radiance: Array, material: TableMaterial, rows: int) -> Array
 
 
 def _mirror_table(radiance: Array, model: MirrorTable, rows: int | None) -> Array:
-    """The environment; of another size if asked."""
+    """The environment, resized if asked."""
     if rows is not None and rows != len(radiance):
         layout = representation("equirect")
         radiance = resample(radiance[None], layout, layout, 2 * rows)[0]
-    # As large as the environment: not in double precision
+    # Not in double precision: it is as large as the environment
     table: Array = np.multiply(radiance, model.gain, dtype=np.float32, casting="same_kind")
     return table
 

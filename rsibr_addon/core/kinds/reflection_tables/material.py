@@ -44,7 +44,7 @@ MODELS: dict[str, tuple[type[Any], ...]] = {
     "refraction": (ClearTable,),
     "weights": (FresnelReflectance, AlbedoReflectance),
 }
-"""Part of a material -> what it may be; besides there is its emission."""
+"""Part of a material -> its possible models; a material may also have an emission."""
 
 PARTS = ("diffuse", "emission", "specular", "coat", "retro", "refraction", "weights")
 """Every part of a material."""
@@ -79,27 +79,27 @@ PRESETS: dict[str, dict[str, str]] = {
     },
     "glowing": {"emission": "1/0.5/0.1", "coat": "fresnel:eta=1.5"},
 }
-"""Name -> the parts of a material: those that [Miller1984] speaks of."""
+"""Name -> the parts of a material; the materials that [Miller1984] speaks of."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Emission(Checked):
-    """Radiance that a surface sends out by itself."""
+    """Radiance that a surface emits."""
 
     radiance: Annotated[Color, Range(0.0, 1e6)]
 
 
 @dataclass(frozen=True, kw_only=True)
 class TableMaterial:
-    """What the tables of a material are made of; made by `material_from_texts`.
+    """The parts of a material that tables are made of; made by `material_from_texts`.
 
     Attributes
     ----------
     diffuse, specular, coat, retro, refraction : model or None
-        What each table holds; None where the material has no such part.
+        Model of each table; None where the material has no such part.
     emission : Emission or None
     weights : model or None
-        How light is shared out between the tables by angle; None where each has all of it.
+        Model of the tables' shares of light by angle; None where each has all of it.
     """
 
     diffuse: DiffuseModel | None = None
@@ -117,7 +117,7 @@ class TableMaterial:
 
     @property
     def lobes(self) -> dict[Role, LobeModel]:
-        """What every table but the diffuse one holds, in the order of `Role`."""
+        """Models of all tables but the diffuse one, in the order of `Role`."""
         there = {
             Role.SPECULAR: self.specular,
             Role.COAT: None if self.coat is None else MirrorTable(),
@@ -128,7 +128,7 @@ class TableMaterial:
 
     @property
     def roles(self) -> tuple[Role, ...]:
-        """The tables that it takes, in the order of `Role`."""
+        """The tables that the material has, in the order of `Role`."""
         dark = self.diffuse is None and self.emission is None
         return (*(() if dark else (Role.DIFFUSE,)), *self.lobes)
 
@@ -139,7 +139,7 @@ def preset(name: str) -> dict[str, str]:
     Raises
     ------
     RangeError
-        There is none of that name.
+        There is no such preset.
     """
     if name not in PRESETS:
         raise RangeError(f"There is no preset {name}: choose one of {', '.join(PRESETS)}.")
@@ -163,8 +163,8 @@ def material_from_texts(texts: Mapping[str, str], read_measured: ReadMeasured) -
     Raises
     ------
     RangeError
-        A part or model does not exist, a key is missing or wrong, or there is no part that reflects,
-        emits or lets through; one sentence that names the part.
+        A part or model does not exist, a key is missing or wrong, or no part reflects, emits or transmits;
+        one sentence that names the part.
     InputFileError
         From `read_measured`.
     """

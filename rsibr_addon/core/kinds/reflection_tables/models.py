@@ -1,4 +1,4 @@
-"""What a table may hold and what it may be weighted with: small models with checked parameters."""
+"""Models of tables and of their weights: small, with checked parameters."""
 
 from dataclasses import dataclass
 from typing import Annotated, ClassVar
@@ -25,7 +25,7 @@ class LambertTable(Checked):
 
     @property
     def gain(self) -> Array:
-        """What it gives in even light of radiance 1, shape (3,)."""
+        """Radiance in even light of radiance 1, shape (3,)."""
         return np.array(self.kd)
 
 
@@ -43,7 +43,7 @@ class LuminousTable(Checked):
 
     @property
     def gain(self) -> Array:
-        """What it gives in even light of radiance 1, shape (3,)."""
+        """Radiance in even light of radiance 1, shape (3,)."""
         return np.array(self.kd)
 
 
@@ -61,7 +61,7 @@ class MirrorTable(Checked):
 
     @property
     def gain(self) -> Array:
-        """What it gives in even light of radiance 1, shape (3,)."""
+        """Radiance in even light of radiance 1, shape (3,)."""
         return np.array(self.ks)
 
 
@@ -80,7 +80,7 @@ class PhongTable(Checked):
 
     @property
     def gain(self) -> Array:
-        """What it gives in even light of radiance 1, shape (3,)."""
+        """Radiance in even light of radiance 1, shape (3,)."""
         return np.array(self.ks)
 
 

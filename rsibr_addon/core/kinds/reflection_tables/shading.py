@@ -19,21 +19,21 @@ MIRRORED = (Role.SPECULAR, Role.COAT)
 
 @dataclass(frozen=True)
 class TablesLook:
-    """How reflection tables are shaded.
+    """Look of reflection tables.
 
     Attributes
     ----------
     shown : tuple of Role
-        Or their values, as text: the tables that count; what a material lacks is not missed.
+        The tables that are shown, or their values as text; tables that a material lacks are ignored.
     w_diffuse, w_specular, w_coat, w_retro, w_refraction : float
-        At least 0: what multiplies the weights that the tables come with, the paper's Wd and Ws.
+        Factors, at least 0, of the weights that the tables come with; the paper's Wd and Ws.
     antialiased : bool
         Whether tables of `MIRRORED` are averaged over what a pixel reflects; otherwise they are interpolated.
 
     Raises
     ------
     RangeError
-        There is no table of that name, or none is named; a weight is negative or not finite.
+        There is no table of that name, or no table is named; a weight is negative or not finite.
     """
 
     shown: tuple[Role, ...] = tuple(Role)
@@ -57,7 +57,7 @@ class TablesLook:
             raise RangeError(f"A picture needs a table: choose from {', '.join(Role)}.")
 
     def weight(self, role: Role) -> float:
-        """What multiplies the weights of a table.
+        """The factor of a table's weights.
 
         Parameters
         ----------
@@ -80,7 +80,7 @@ def lookup_direction(role: Role, normal: ArrayLike, view_dir: ArrayLike, eta: fl
     normal, view_dir : array_like, shape (..., 3)
         Unit vectors in world coordinates.
     eta : float
-        Of `ReflectionTables`; for REFRACTION.
+        See `ReflectionTables`; for REFRACTION.
 
     Returns
     -------
@@ -118,8 +118,8 @@ def reflect_tables(
         Unit vectors in world coordinates.
     look : TablesLook
     mirror_footprint : array_like, shape (..., 4, 3), optional
-        Mirrored view directions at the corners of each point's pixel, see `core.antialiased`; what an
-        antialiased look averages over. None for points, which reflect one direction each.
+        Mirrored view directions at the corners of each point's pixel, over which an antialiased look
+        averages: see `core.antialiased`. None for points, which reflect one direction each.
 
     Returns
     -------
@@ -128,8 +128,8 @@ def reflect_tables(
 
     Notes
     -----
-    Tables are interpolated (section 7.1) between texel centres, across seam and poles too, weights
-    between their columns. Antialiased ones are averaged as of section 8.3. GLSL twin:
+    Tables are interpolated (section 7.1) between texel centres, across seam and poles too, weights between
+    their columns. Antialiased tables are averaged as in section 8.3. GLSL twin:
     gpu_shaders/reflection_tables_frag.glsl.
     """
     normal, view_dir = np.broadcast_arrays(np.asarray(normal, np.float64), np.asarray(view_dir, np.float64))

@@ -1,4 +1,4 @@
-"""Reflection tables [Miller1984]: reflected light, as maps over one direction each."""
+"""Reflection tables [Miller1984]: reflected light as maps over one direction each."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -8,11 +8,11 @@ from ...errors import RangeError, ShapeError
 
 
 class Role(StrEnum):
-    """What a table holds, which is also what it is looked up by.
+    """The content of a table, and with it the direction of its lookup.
 
-    DIFFUSE, the paper's D, by the normal. SPECULAR, its S, by the mirrored view direction, and so COAT, what
-    a clear varnish mirrors. RETRO, light sent back to where it came from, by the view direction. REFRACTION
-    by the refracted view direction.
+    DIFFUSE, the paper's D, is looked up by the normal; SPECULAR, its S, by the mirrored view direction, and
+    so is COAT, the mirror image in a clear varnish; RETRO, light reflected back to its source, by the view
+    direction; REFRACTION by the refracted view direction.
     """
 
     DIFFUSE = "diffuse"
@@ -24,13 +24,13 @@ class Role(StrEnum):
 
 @dataclass(frozen=True)
 class ReflectionTables:
-    """Tables of one material in one environment, and how much each counts from which side.
+    """Tables of one material in one environment, and the weight of each by angle.
 
     Attributes
     ----------
     maps : dict of Role to ndarray, shape (height, 2 * height, 3), float32
-        Radiance over directions as latitude-longitude maps of any sizes: texels hold the values at
-        their centres, and lookups between them are bilinear. A material has any of them, at least one.
+        Radiance over directions as latitude-longitude maps of any sizes: texels hold the values at their
+        centres, and lookups between them are bilinear. A material has at least one.
     weights : ndarray, shape (len(Role), M, 3), float32
         One row for each `Role`, in its order; column k is for n.v = (k + 0.5) / M. The paper's Wd, Ws.
     eta : float
@@ -39,7 +39,7 @@ class ReflectionTables:
     Raises
     ------
     ShapeError
-        There is no table, a map is not twice as wide as high, or the weights have not a row for each role.
+        There is no table, a map is not twice as wide as high, or the weights do not have a row for each role.
     RangeError
         `eta` is not positive.
     """

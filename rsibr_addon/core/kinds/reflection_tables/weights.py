@@ -1,4 +1,4 @@
-"""How much each table counts at each angle: Wd and Ws of [Miller1984] section 7, and their like."""
+"""Weights of the tables at each angle: Wd and Ws of [Miller1984] section 7, and those of other tables."""
 
 import warnings
 
@@ -21,7 +21,7 @@ COLUMNS = 64
 
 
 def weight_cosines() -> Array:
-    """Cosines between normal and view that the columns of the weights are for, shape (COLUMNS,)."""
+    """Cosines between normal and view of the weights' columns, shape (COLUMNS,)."""
     cosines: Array = (np.arange(COLUMNS) + 0.5) / COLUMNS
     return cosines
 
@@ -41,13 +41,13 @@ def table_weights(material: TableMaterial) -> Array:
     Raises
     ------
     RangeError
-        The weights are those of a BRDF with lobes that the material has no table for.
+        The weights are those of a BRDF with lobes for which the material has no table.
 
     Notes
     -----
-    A smooth boundary gives the specular table what it reflects, F, and the diffuse and retro tables the
-    rest, 1 - F. A BRDF gives each table the directional albedo of its lobes of that kind. What is
-    refracted gets 1 - F of its own boundary. A coat takes its share from all.
+    A smooth boundary gives the specular table the share F that it reflects, and the diffuse and retro tables
+    the rest, 1 - F. A BRDF gives each table the directional albedo of its lobes of that kind. Refracted light
+    gets 1 - F of its own boundary. A coat takes its share from all.
     """
     mu = weight_cosines()
     shares = {role: np.ones((COLUMNS, 3)) for role in material.roles} | _shares(material, mu)
@@ -65,7 +65,7 @@ def table_weights(material: TableMaterial) -> Array:
 
 
 def furnace(material: TableMaterial) -> Array:
-    """What a material sends to the eye in even light of radiance 1, its emission left out.
+    """Radiance of a material in even light of radiance 1, without its emission.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ def furnace(material: TableMaterial) -> Array:
 
 
 def warn_of_table_gain(material: TableMaterial) -> None:
-    """Tell when a material reflects more light than it gets.
+    """Warn when a material reflects more light than it receives.
 
     Parameters
     ----------
@@ -107,7 +107,7 @@ def warn_of_table_gain(material: TableMaterial) -> None:
 
 
 def _shares(material: TableMaterial, mu: Array) -> dict[Role, Array]:
-    """What `TableMaterial.weights` gives some roles, shape (COLUMNS, 3) each."""
+    """Shares of some roles by `TableMaterial.weights`, shape (COLUMNS, 3) each."""
     if material.weights is None:
         return {}
     if isinstance(material.weights, AlbedoReflectance):
@@ -128,7 +128,7 @@ def _albedo_shares(brdf: Brdf, roles: tuple[Role, ...], mu: Array) -> dict[Role,
 
 
 def _role_of(layer: Brdf) -> Role:
-    """The table that a layer's light goes by: what it is, seen through coats."""
+    """The table of a layer's light, by the layer's model beneath its coats."""
     while isinstance(layer, Beneath):
         layer = layer.base
     if isinstance(layer, Lambert):

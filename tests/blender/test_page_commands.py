@@ -1,18 +1,29 @@
-"""What the guide tells people to type is done, on a small scale."""
+"""What pages tell people to type is done, on a small scale."""
 
 import json
 import re
 from pathlib import Path
 
 import bpy
+import numpy as np
 import pytest
 import rsibr
 from rsibr.rsibr_addon.command_line.commands import parsed
 from rsibr.rsibr_addon.command_line.main import run
+from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.job import BakeJob
 from rsibr.tests.pages import blocks, calls
 
 GUIDE = "docs/guide.md"
+
+COMPLETE = [
+    "README.md",
+    *(
+        f"docs/{name}.md"
+        for name in ("commands", "export", "kernel-banks", "mip-chains", "reflection-tables")
+    ),
+]
+"""Pages whose commands want no files but each other's, and `room.exr`."""
 
 SMALL = {
     "capture": {"--views": "12", "--size": "8", "--samples": "2"},
@@ -41,6 +52,25 @@ def made_small(words: list[str]) -> list[str]:
     return words
 
 
+def assert_outputs_are_there(words: list[str]) -> None:
+    for output in re.findall(r"-o (\S+)", " ".join(words)):
+        assert Path(output).exists()
+
+
+@pytest.mark.slow
+@pytest.mark.needs("gl", "cycles")
+@ignore_negative_values
+@pytest.mark.parametrize("page", COMPLETE)
+def test_a_pages_commands_do_what_they_say(
+    page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    write_radiance("room.exr", np.ones((32, 64, 3)))
+    for words in calls(page, "rsibr"):
+        assert run(made_small(words)) == 0, words
+        assert_outputs_are_there(words)
+
+
 @pytest.mark.slow
 @pytest.mark.needs("gl", "cycles")
 @ignore_negative_values
@@ -55,8 +85,7 @@ def test_the_guides_commands_do_what_they_say(tmp_path: Path, monkeypatch: pytes
         if words[0] == "capture":
             words = [*words, "--force"]  # The job has made the same file
         assert run(made_small(words) if words[1] != "job.json" else words) == 0, words
-        for output in re.findall(r"-o (\S+)", " ".join(words)):
-            assert Path(output).exists()
+        assert_outputs_are_there(words)
     assert Path("gold.html").is_file()
     _, reader = blocks(GUIDE, "python")
     exec(compile(reader, "guide", "exec"), {})

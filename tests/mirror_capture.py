@@ -8,7 +8,8 @@ from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.geometry.directions import camera_frame, reflect
 from rsibr.rsibr_addon.core.geometry.geodesic import geodesic_sphere
 from rsibr.rsibr_addon.core.maps import equirect, sphere_map
-from rsibr.rsibr_addon.files.map_set import MapSet, write_map_set
+from rsibr.rsibr_addon.files.map_set import write_map_set
+from rsibr.rsibr_addon.files.map_set_data import MapSet
 
 BRIGHT_DIR = np.array([0.48, -0.6, 0.64])
 """Where most light comes from: nothing else about the environment is symmetric about an axis."""

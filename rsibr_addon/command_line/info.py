@@ -113,35 +113,17 @@ def _light(picture: Any, report: Report) -> dict[str, Any]:
 
 def _tell_of_map_set(path: str, report: Report) -> dict[str, Any]:
     from ..files.map_set import read_map_set, read_map_set_header
+    from ..files.map_set_facts import told_errors, told_facts, told_making
 
     read_map_set(path)
     header = read_map_set_header(path)
-    roles: dict[str, int] = {}
-    for part in header["parts"]:
-        roles[part["role"]] = roles.get(part["role"], 0) + 1
-    counts = ", ".join(f"{count} {role}" for role, count in roles.items())
-    report.say(f"{path}: {header['kind']}, format {header['format']}")
-    report.say(f"  maps         {counts}; {_size(header['size'])}, {header['layout']}")
-    environment = header["environment"]
-    clamped = f", clamped to {environment['clamp']:g}" if "clamp" in environment else ""
-    report.say(f"  environment  {environment['name']}, {_size(environment['size'])}{clamped}")
-    report.say(f"  material     {_fields(header['material'])}")
-    report.say(f"  settings     {_fields(header['settings'])}")
-    report.say(f"  error bound  {_fields(header['error_bound'] or {}) or 'none promised'}")
-    report.say(f"  made by      {header['software']}")
+    report.say(f"{path}: a map set, format {header['format']}")
+    facts = told_facts(header) | told_errors(header) | told_making(header)
+    width = max(map(len, facts))
+    for what, which in facts.items():
+        report.say(f"  {what:<{width}}  {which}")
     return {"map_set": path, "header": header}
 
 
 def _size(size: Sequence[int]) -> str:
     return "{}x{}".format(*size)
-
-
-def _fields(fields: dict[str, Any]) -> str:
-    """What people can read of an object: a fingerprint and whole tables are for programs."""
-    shown = {
-        name: value for name, value in fields.items() if name != "fingerprint" and not isinstance(value, dict)
-    }
-    return ", ".join(
-        f"{name} {value:.3g}" if isinstance(value, float) else f"{name} {value}"
-        for name, value in shown.items()
-    )

@@ -4,9 +4,8 @@ import contextlib
 import hashlib
 import json
 import warnings
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -26,7 +25,9 @@ from ..core.schema import loads
 from .atomic import check_target, written_aside
 from .exr import MAGIC, OpenExr, Part, open_exr
 from .exr_in_turn import PartsInTurn
-from .map_set_header import FORMAT, check_header
+from .map_set_check import check_header
+from .map_set_data import MapSet, MapsInTurn
+from .map_set_header import FORMAT
 from .reading import opened
 
 ATTRIBUTE = "rsibr"
@@ -44,46 +45,6 @@ SMALLEST_TEXEL = 6.0 / 1032.0
 
 DERIVED = ("size", "sha256")
 """Fields of a part that follow from its pixels."""
-
-
-@dataclass(frozen=True)
-class MapSet:
-    """Maps that belong together, and what they are.
-
-    Attributes
-    ----------
-    kind : str
-        "radiance_views", "lobe_stack", "reflection_tables", "mip_chain" or "kernel_bank".
-    maps : dict of str to ndarray, shape (height, width, 3), float32
-        Radiance by part name, finite, row 0 at the bottom.
-    header : dict
-        The description of docs/map-set-format.md, less what follows from the rest: format, kind,
-        and each part's size and sha256. JSON values only; its "parts" are named and ordered as `maps`.
-    """
-
-    kind: str
-    maps: dict[str, Array]
-    header: dict[str, Any]
-
-
-@dataclass(frozen=True)
-class MapsInTurn:
-    """A map set to be written whose maps are made meanwhile, so that not all are in memory at once.
-
-    Attributes
-    ----------
-    kind, header
-        See `MapSet`.
-    shapes : dict of str to (int, int)
-        Height and width by part name.
-    maps : iterable of ndarray, shape (height, width, 3)
-        In the order of `shapes`.
-    """
-
-    kind: str
-    shapes: dict[str, tuple[int, int]]
-    maps: Iterable[Array]
-    header: dict[str, Any]
 
 
 def write_map_set(

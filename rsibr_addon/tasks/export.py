@@ -16,7 +16,8 @@ from ..files.atomic import check_target
 from ..files.kinds import mip_chain
 from ..files.kinds.sheets import sheets_from_strip
 from ..files.ktx2 import Texture, write_ktx2
-from ..files.map_set import MapSet, read_map_set
+from ..files.map_set import read_map_set
+from ..files.map_set_data import MapSet
 from ..files.map_set_header import ENVIRONMENT
 from ..files.outputs import together
 

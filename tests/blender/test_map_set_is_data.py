@@ -16,7 +16,8 @@ from rsibr.rsibr_addon.core.lobes.bank import KernelBank
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files import brdfs as readers
 from rsibr.rsibr_addon.files.kinds.lobe_stack import PROFILES, profiles, to_map_set
-from rsibr.rsibr_addon.files.map_set import MapSet, read_map_set, write_map_set
+from rsibr.rsibr_addon.files.map_set import read_map_set, write_map_set
+from rsibr.rsibr_addon.files.map_set_data import MapSet
 from rsibr.rsibr_addon.host import materials
 from rsibr.rsibr_addon.job import BakeJob
 from rsibr.rsibr_addon.tasks.compare.comparison import ComparisonSettings, StackComparisonSettings

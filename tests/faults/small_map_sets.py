@@ -14,7 +14,7 @@ from rsibr.rsibr_addon.core.lobes.bake import BakedBank
 from rsibr.rsibr_addon.core.lobes.bank import KernelBank
 from rsibr.rsibr_addon.files.fits import write_fit
 from rsibr.rsibr_addon.files.kinds import kernel_bank, lobe_stack, mip_chain, reflection_tables
-from rsibr.rsibr_addon.files.map_set import MapSet
+from rsibr.rsibr_addon.files.map_set_data import MapSet
 from rsibr.rsibr_addon.job import BakeJob
 from rsibr.rsibr_addon.tasks.compare.comparison import (
     Comparison,

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.conventions import WORLD_AXES
-from rsibr.rsibr_addon.files.map_set import MapSet
+from rsibr.rsibr_addon.files.map_set_data import MapSet
 
 
 @pytest.fixture

@@ -12,7 +12,8 @@ from rsibr.rsibr_addon.core.kinds.lobe_stack.stack import LAYOUTS, stack_represe
 from rsibr.rsibr_addon.core.lobes.bake import BakedBank
 from rsibr.rsibr_addon.core.lobes.bank import KernelBank
 from rsibr.rsibr_addon.files.kinds.kernel_bank import from_map_set, to_map_set
-from rsibr.rsibr_addon.files.map_set import MapSet, read_map_set, write_map_set
+from rsibr.rsibr_addon.files.map_set import read_map_set, write_map_set
+from rsibr.rsibr_addon.files.map_set_data import MapSet
 
 RNG = np.random.default_rng(4)
 LIGHT = Environment(RNG.random((8, 16, 3), dtype=np.float32), "light")

@@ -14,7 +14,8 @@ from rsibr.rsibr_addon.core.lobes.bank import KernelBank
 from rsibr.rsibr_addon.core.lobes.fit import Fit
 from rsibr.rsibr_addon.core.maps.representation import FRONT
 from rsibr.rsibr_addon.files.kinds.lobe_stack import PROFILES, fit_of, from_map_set, profiles, to_map_set
-from rsibr.rsibr_addon.files.map_set import MapSet, read_map_set, read_map_set_header, write_map_set
+from rsibr.rsibr_addon.files.map_set import read_map_set, read_map_set_header, write_map_set
+from rsibr.rsibr_addon.files.map_set_data import MapSet
 from rsibr.tests.lobe_stacks import random_fit, random_stack
 
 LIGHT = Environment(np.random.default_rng(1).random((8, 16, 3), dtype=np.float32), "light")

@@ -11,7 +11,8 @@ from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import MapSetError
 from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTables, Role
 from rsibr.rsibr_addon.files.kinds.reflection_tables import KIND, from_map_set, to_map_set
-from rsibr.rsibr_addon.files.map_set import MapSet, read_map_set, write_map_set
+from rsibr.rsibr_addon.files.map_set import read_map_set, write_map_set
+from rsibr.rsibr_addon.files.map_set_data import MapSet
 
 PATH = Path("a.rsibr.exr")
 

@@ -9,7 +9,8 @@ import numpy as np
 import OpenEXR
 import pytest
 from rsibr.rsibr_addon.core.errors import MapSetError
-from rsibr.rsibr_addon.files.map_set import MapSet, read_map_set, read_map_set_header, write_map_set
+from rsibr.rsibr_addon.files.map_set import read_map_set, read_map_set_header, write_map_set
+from rsibr.rsibr_addon.files.map_set_data import MapSet
 
 
 @pytest.fixture

@@ -1,18 +1,22 @@
 """What the panel tells of a map set is what its file says, also after the file has changed."""
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import MapSetError
 from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, ViewsLook, Warping
-from rsibr.rsibr_addon.files.map_set import read_map_set
+from rsibr.rsibr_addon.files.map_set import read_map_set, write_map_set
+from rsibr.rsibr_addon.files.map_set_data import MapSet
 from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, ComparisonSettings, Way, WayError
 from rsibr.rsibr_addon.tasks.compare.measured_error import measured_facts
 from rsibr.rsibr_addon.tasks.report import facts as facts
 from rsibr.rsibr_addon.tasks.report.pictures import map_set_pictures
+from rsibr.tests.faults.small_map_sets import map_sets
 from rsibr.tests.flat_capture import write_flat_capture
 
 
@@ -50,6 +54,22 @@ def test_facts_follow_the_file(tmp_path: Path) -> None:
     path.write_text("no picture any more")
     with pytest.raises(MapSetError, match=r"flat\.rsibr\.exr"):
         facts.map_set_facts(path)
+
+
+@pytest.mark.parametrize("map_set", map_sets(), ids=lambda map_set: map_set.kind)
+def test_info_tells_every_kind_in_words(
+    map_set: MapSet, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "a.rsibr.exr"
+    write_map_set(path, map_set)
+    assert run(["info", str(path)]) == 0
+    first, *lines = capfd.readouterr().out.splitlines()
+    assert first == f"{path}: a map set, format 1"
+    shown = dict(re.split("  +", line.strip(), maxsplit=1) for line in lines)
+    assert list(shown)[:2] == ["Kind", "Light"]
+    assert shown["Kind"] == map_set.kind.replace("_", " ").capitalize()
+    assert facts.map_set_facts(path).items() <= shown.items()
+    assert all(which and not set(f"{what}{which}") & set("_[]{}") for what, which in shown.items())
 
 
 def test_files_are_read_once(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -10,8 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import MapSetError
-from rsibr.rsibr_addon.files.map_set import MapSet, read_map_set_header, write_map_set
-from rsibr.rsibr_addon.files.map_set_header import ROLES, check_header
+from rsibr.rsibr_addon.files.kinds.registry import STORED
+from rsibr.rsibr_addon.files.map_set import read_map_set_header, write_map_set
+from rsibr.rsibr_addon.files.map_set_check import check_header
+from rsibr.rsibr_addon.files.map_set_data import MapSet
 
 DOC = (Path(__file__).parents[2] / "docs" / "map-set-format.md").read_text(encoding="utf-8")
 
@@ -63,6 +65,7 @@ def test_the_example_is_a_good_description() -> None:
 
 def test_every_field_of_every_role_is_told() -> None:
     table = [line for line in DOC.splitlines() if line.startswith("| `")]
-    for (kind, role), schema in ROLES.items():
+    roles = [(kind, *each) for kind, stored in STORED.items() for each in stored.roles.items()]
+    for kind, role, schema in roles:
         (row,) = [line for line in table if line.startswith(f"| `{kind}` |") and f"`{role}`" in line]
         assert all(f"`{field}`" in row for field in schema.__annotations__)

@@ -9,7 +9,8 @@ from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import MapSetError
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
 from rsibr.rsibr_addon.files.kinds.mip_chain import from_map_set, to_map_set
-from rsibr.rsibr_addon.files.map_set import MapSet, read_map_set, write_map_set
+from rsibr.rsibr_addon.files.map_set import read_map_set, write_map_set
+from rsibr.rsibr_addon.files.map_set_data import MapSet
 
 RNG = np.random.default_rng(41)
 

@@ -14,7 +14,8 @@ from rsibr.rsibr_addon.core.lobes.fit import Fit
 from rsibr.rsibr_addon.core.lobes.target import elevation_slices
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.kinds.lobe_stack import to_map_set
-from rsibr.rsibr_addon.files.map_set import MapSet, write_map_set
+from rsibr.rsibr_addon.files.map_set import write_map_set
+from rsibr.rsibr_addon.files.map_set_data import MapSet
 from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, StackComparisonSettings, stack_table
 from rsibr.rsibr_addon.tasks.compare.stack import compare_stack
 

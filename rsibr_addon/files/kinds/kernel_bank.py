@@ -1,7 +1,7 @@
 """Map sets of kind `kernel_bank`."""
 
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict
 
 import numpy as np
 
@@ -11,11 +11,17 @@ from ...core.kinds.kernel_bank.filtered_bank import FilteredBank
 from ...core.kinds.lobe_stack.stack import stack_representation
 from ...core.lobes.bake import BakedBank
 from ...core.lobes.bank import KernelBank
-from ..map_set import MapSet
-from ..map_set_header import ENVIRONMENT, make_header
+from ..map_set_data import MapSet
+from ..map_set_header import ENVIRONMENT, Colour, StoredKind, make_header, role_in_words
 from .sheets import sheets_from_strip, strip_from_sheets
 
 KIND = "kernel_bank"
+
+
+class _Kernel(TypedDict):
+    concentration: float
+    bound: Colour
+    interpolation: float
 
 
 def to_map_set(baked: BakedBank, environment: Environment, settings: dict[str, Any], software: str) -> MapSet:
@@ -98,3 +104,16 @@ def from_map_set(path: Path, map_set: MapSet) -> FilteredBank:
         )
     except (RangeError, ShapeError) as error:
         raise MapSetError(f"{path} holds no kernel bank. {error}") from error
+
+
+def _facts(header: dict[str, Any]) -> dict[str, str]:
+    return {"Kernels": f"{sum(part['role'] in STORED.roles for part in header['parts'])}"}
+
+
+def _part_title(part: dict[str, Any]) -> str:
+    if part["role"] not in STORED.roles:
+        return role_in_words(part)
+    return f"Kernel, Concentration {part['concentration']:.3g}"
+
+
+STORED = StoredKind(roles={"prefiltered": _Kernel}, facts=_facts, part_title=_part_title)

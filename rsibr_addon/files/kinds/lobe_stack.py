@@ -8,6 +8,7 @@ from typing import Annotated, Any, TypedDict
 
 import numpy as np
 
+from ...core.brdf.gallery import gallery_name
 from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.errors import MapSetError, RangeError, SchemaError, ShapeError
@@ -16,18 +17,44 @@ from ...core.kinds.lobe_stack.stack import LobeStack, stack_representation
 from ...core.lobes.bake import BakedStack
 from ...core.lobes.bank import KernelBank
 from ...core.lobes.fit import Fit
-from ...core.schema import array, decode, length
-from ..map_set import MapSet, MapsInTurn
-from ..map_set_header import ENVIRONMENT, MOST_KERNELS, Colour, Tap, make_header
+from ...core.schema import array, between, decode, length
+from ..map_set_data import MapSet, MapsInTurn
+from ..map_set_header import ENVIRONMENT, MOST_KERNELS, Colour, Model, StoredKind, make_header, role_in_words
 from .sheets import sheets_from_strip, strip_from_sheets
 
 KIND = "lobe_stack"
+
+MOST_LOBES, MOST_ELEVATIONS, MOST_TAPS = 1024, 1024, 64
+"""More than anything that is baked has, and few enough for any memory."""
 
 PROFILES = "profiles"
 """What the material says of its lobes' shapes, for information."""
 
 _DIGITS = 6
 """Of a profile's weights, significant."""
+
+
+class _Material(TypedDict):
+    brdf: Model
+    method: str
+
+
+class _Tap(TypedDict):
+    tilt: float
+    turn: float
+    weight: float
+
+
+class _Elevation(TypedDict):
+    mu: float
+    taps: Annotated[list[_Tap], length(1, MOST_TAPS)]
+    scale: Colour
+    albedo: Colour
+
+
+class _Lobe(TypedDict):
+    lobe: Annotated[int, between(0, MOST_LOBES - 1)]
+    elevations: Annotated[list[_Elevation], length(1, MOST_ELEVATIONS)]
 
 
 class _Profiles(TypedDict):
@@ -249,7 +276,7 @@ def _tables(lobes: list[list[dict[str, Any]]]) -> list[list[dict[str, Any]]]:
 
 
 def _taps(tables: list[list[dict[str, Any]]]) -> Array:
-    fields = Tap.__annotations__
+    fields = _Tap.__annotations__
     return _array(
         tables, lambda elevation: [[tap[field] for field in fields] for tap in elevation["taps"]], axes=4
     )
@@ -260,7 +287,7 @@ def _elevation(lobes: Fit | LobeStack, lobe: int, number: int) -> dict[str, Any]
     return {
         "mu": float(lobes.mu[number]),
         "taps": [
-            dict(zip(Tap.__annotations__, (*offset, weight), strict=True))
+            dict(zip(_Tap.__annotations__, (*offset, weight), strict=True))
             for offset, weight in zip(offsets.tolist(), weights.tolist(), strict=True)
         ],
         "scale": lobes.scale[lobe, number].tolist(),
@@ -273,3 +300,28 @@ def _array(
 ) -> Array:
     """One value of every elevation of every lobe."""
     return array([[value(elevation) for elevation in table] for table in tables], axes, "elevations")
+
+
+def _facts(header: dict[str, Any]) -> dict[str, str]:
+    lobes = [part for part in header["parts"] if part["role"] in STORED.roles]
+    elevations = [elevation for part in lobes for elevation in part["elevations"]]
+    count, brdf = len({part["lobe"] for part in lobes}), header["material"]["brdf"]
+    return {
+        **({} if gallery_name(brdf) == brdf else {"Model": brdf}),
+        "Fit": header["material"]["method"],
+        "Lobes": f"{count}, for {len({elevation['mu'] for elevation in elevations})} view elevations",
+        "Lookups": f"{count * max((len(elevation['taps']) for elevation in elevations), default=0)}",
+    }
+
+
+def _part_title(part: dict[str, Any]) -> str:
+    if part["role"] not in STORED.roles:
+        return role_in_words(part)
+    first, *others = part["elevations"]
+    at = "All Elevations" if others else f"n\N{DOT OPERATOR}v {first['mu']:.2f}"
+    return f"Lobe {part['lobe'] + 1}, {at}"
+
+
+STORED = StoredKind(
+    material=_Material, roles={"prefiltered": _Lobe}, facts=_facts, part_title=_part_title, lobes=fit_of
+)

@@ -1,7 +1,7 @@
 """Map sets of kind `mip_chain`."""
 
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, TypedDict
 
 import numpy as np
 
@@ -9,12 +9,18 @@ from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.errors import MapSetError, RangeError, ShapeError
 from ...core.kinds.mip_chain.chain import MipChain
-from ..map_set import MapSet
-from ..map_set_header import ENVIRONMENT, make_header
+from ...core.schema import between
+from ..map_set_data import MapSet
+from ..map_set_header import ENVIRONMENT, StoredKind, make_header, role_in_words
 
 KIND = "mip_chain"
 HARMONICS = "harmonics"
 """The role of the part that holds the nine coefficients, and its name."""
+
+
+class _Mip(TypedDict):
+    mip: Annotated[int, between(0, 31)]
+    roughness: Annotated[float, between(0.0, 1.0)] | None
 
 
 def to_map_set(
@@ -113,3 +119,18 @@ def _faces(strip: Array) -> Array:
     if height != 6 * width:
         return strip
     return strip[::-1].reshape(6, width, width, -1)
+
+
+def _facts(header: dict[str, Any]) -> dict[str, str]:
+    mips = sum(part["role"] == "prefiltered" for part in header["parts"])
+    return {"Mips": f"{mips}", "Filter": str(header["material"].get("filter", "not told"))}
+
+
+def _part_title(part: dict[str, Any]) -> str:
+    if part["role"] not in STORED.roles:
+        return role_in_words(part)
+    sharpness = "" if part["roughness"] is None else f", Roughness {part['roughness']:.2f}"
+    return f"Mip {part['mip']}{sharpness}"
+
+
+STORED = StoredKind(roles={"prefiltered": _Mip}, numbers=(HARMONICS,), facts=_facts, part_title=_part_title)

@@ -1,13 +1,31 @@
 """Map sets of kind `radiance_views`."""
 
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Annotated, Any, TypedDict
 
 import numpy as np
 
 from ...core.conventions import Array
 from ...core.errors import MapSetError, RangeError, ShapeError
+from ...core.geometry.geodesic import VERTEX_COUNTS
 from ...core.kinds.radiance_views.views import RadianceViews
-from ..map_set import MapSet
+from ...core.schema import between
+from ..map_set_data import MapSet
+from ..map_set_header import Direction, Model, StoredKind, role_in_words
+
+KIND = "radiance_views"
+
+
+class _Material(TypedDict):
+    spec: Model
+    name: str
+    fingerprint: str
+
+
+class _View(TypedDict):
+    view: Annotated[int, between(0, max(VERTEX_COUNTS) - 1)]
+    view_dir: Direction
 
 
 def from_map_set(path: Path, map_set: MapSet) -> RadianceViews:
@@ -50,3 +68,40 @@ def _stack(map_set: MapSet, role: str) -> Array:
     """The maps of one role in the order of their views, shape (V, size, size, 3)."""
     names = {part["view"]: part["name"] for part in map_set.header["parts"] if part["role"] == role}
     return np.stack([map_set.maps[names[view]] for view in sorted(names)])
+
+
+def _problems(header: dict[str, Any]) -> Iterator[str]:
+    """Views are numbered from 0, and each has a diffuse and a glossy part of the size stated."""
+    views: dict[str, dict[int, list[float]]] = {"diffuse": {}, "glossy": {}}
+    for part in header["parts"]:
+        if part["role"] in views:
+            if part["size"] != header["size"]:
+                yield f"part {part['name']!r} has another size than the views"
+            if part["view"] in views[part["role"]]:
+                yield f"view {part['view']} has two {part['role']} parts"
+            views[part["role"]][part["view"]] = part["view_dir"]
+    diffuse, glossy = views["diffuse"], views["glossy"]
+    if not diffuse or set(diffuse) != set(range(len(diffuse))) or set(glossy) != set(diffuse):
+        yield "its views are not each there with a diffuse and a glossy part"
+    elif diffuse != glossy:
+        yield "a view's diffuse and glossy parts state different directions"
+
+
+def _facts(header: dict[str, Any]) -> dict[str, str]:
+    views = sum(part["role"] == "glossy" for part in header["parts"])
+    return {"Material from": header["material"]["spec"], "Views": f"{views}"}
+
+
+def _part_title(part: dict[str, Any]) -> str:
+    role = role_in_words(part)
+    return f"View {part['view'] + 1}, {role}" if part["role"] in STORED.roles else role
+
+
+STORED = StoredKind(
+    material=_Material,
+    roles={"diffuse": _View, "glossy": _View},
+    numbers=("albedo",),
+    problems=_problems,
+    facts=_facts,
+    part_title=_part_title,
+)

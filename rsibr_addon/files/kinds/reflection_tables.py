@@ -1,19 +1,27 @@
 """Map sets of kind `reflection_tables`."""
 
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict
 
 import numpy as np
 
 from ...core.environment import Environment
 from ...core.errors import MapSetError, RangeError, ShapeError
 from ...core.kinds.reflection_tables.tables import ReflectionTables, Role
-from ..map_set import MapSet
-from ..map_set_header import ENVIRONMENT, make_header
+from ..map_set_data import MapSet
+from ..map_set_header import ENVIRONMENT, StoredKind, make_header
 
 KIND = "reflection_tables"
 WEIGHTS = "weights"
 """The role of the part that holds the weights, and its name."""
+
+
+class _Weights(TypedDict):
+    rows: list[str]
+
+
+class _Refraction(TypedDict):
+    eta: float
 
 
 def to_map_set(
@@ -106,3 +114,11 @@ def from_map_set(path: Path, map_set: MapSet) -> ReflectionTables:
         )
     except (RangeError, ShapeError) as error:
         raise MapSetError(f"{path} holds no reflection tables. {error}") from error
+
+
+def _facts(header: dict[str, Any]) -> dict[str, str]:
+    """The text of each part of the material."""
+    return {name.capitalize(): text for name, text in header["material"].items() if isinstance(text, str)}
+
+
+STORED = StoredKind(roles={WEIGHTS: _Weights, Role.REFRACTION: _Refraction}, numbers=(WEIGHTS,), facts=_facts)

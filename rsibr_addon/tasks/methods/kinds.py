@@ -28,7 +28,8 @@ from ...files.kinds import (
     radiance_views,
     reflection_tables,
 )
-from ...files.map_set import MapSet, read_map_set, read_map_set_header
+from ...files.map_set import read_map_set, read_map_set_header
+from ...files.map_set_data import MapSet
 from .live_materials import LiveMaterials
 
 

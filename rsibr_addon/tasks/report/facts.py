@@ -6,10 +6,11 @@ from functools import lru_cache, wraps
 from pathlib import Path
 from typing import Any
 
-from ...core.brdf.gallery import gallery_name
 from ...core.lobes.fit import Fit
-from ...files.kinds import environment, lobe_stack
+from ...files.kinds import environment
+from ...files.kinds.registry import STORED
 from ...files.map_set import read_map_set_header
+from ...files.map_set_facts import told_errors, told_facts
 from ...files.map_set_header import content_hash
 from ...files.pictures import split_layer
 
@@ -71,63 +72,11 @@ def map_set_content(path: Path) -> str:
 def map_set_fit(path: Path) -> Fit | None:
     """The lobes that a map set was made of; None where there are none, or it does not tell them."""
     header = map_set_header(path)
-    return lobe_stack.fit_of(path, header) if header["kind"] == lobe_stack.KIND else None
+    return STORED[header["kind"]].lobes(path, header)
 
 
 @read_once
 def map_set_facts(path: Path) -> dict[str, str]:
-    """What a map set is and promises.
-
-    Parameters
-    ----------
-    path : Path
-
-    Returns
-    -------
-    dict
-        In words: what -> which.
-    """
+    """What a map set is and promises: see `files.map_set_facts`."""
     header = map_set_header(path)
-    material = header["material"]
-    named = material.get("name") or gallery_name(material.get("brdf", ""))
-    return {
-        "Kind": _capital(header["kind"]),
-        "Light": _capital(Path(header["environment"]["name"]).stem),
-        **({"Material": _capital(named)} if named else {}),
-        "Maps": f"{len(header['parts'])}, {header['size'][0]} x {header['size'][1]}",
-        **{_capital(name): _error(value) for name, value in (header["error_bound"] or {}).items()},
-    }
-
-
-def map_title(kind: str, part: dict[str, Any]) -> str:
-    """What a map is, for people.
-
-    Parameters
-    ----------
-    kind : str
-        Of the map set.
-    part : dict
-        Of its description.
-    """
-    role: str = part["role"]
-    match kind, role:
-        case "radiance_views", "diffuse" | "glossy":
-            return f"View {part['view'] + 1}, {role.capitalize()}"
-        case "mip_chain", "prefiltered":
-            sharpness = "" if part["roughness"] is None else f", Roughness {part['roughness']:.2f}"
-            return f"Mip {part['mip']}{sharpness}"
-        case "lobe_stack", "prefiltered":
-            first, *others = part["elevations"]
-            at = "All Elevations" if others else f"n\N{DOT OPERATOR}v {first['mu']:.2f}"
-            return f"Lobe {part['lobe'] + 1}, {at}"
-    return role.capitalize()
-
-
-def _capital(name: str) -> str:
-    words = name.replace("_", " ")
-    return words[:1].upper() + words[1:]
-
-
-def _error(value: Any) -> str:
-    """The largest of several, as an error is."""
-    return f"error {max(value) if isinstance(value, list) else value:.2g}"
+    return told_facts(header) | told_errors(header)

@@ -6,11 +6,9 @@ from collections.abc import Mapping
 from html import escape
 from pathlib import Path
 from string import Template
-from typing import Any
 
 import numpy as np
 
-from ...core.brdf.gallery import gallery_name
 from ...core.brdf.model import Brdf
 from ...core.conventions import Array
 from ...core.errors import DeviceError, OutputFileError, RsibrError, RsibrWarning
@@ -19,8 +17,10 @@ from ...core.pictures.thumbnail import miniature
 from ...core.progress import Progress, Steps
 from ...device.preview import PreviewRenderer
 from ...files.atomic import check_target, written_aside
-from ...files.kinds.lobe_stack import PROFILES
+from ...files.kinds.registry import STORED
 from ...files.map_set import read_map_set
+from ...files.map_set_data import MapSet
+from ...files.map_set_facts import in_words, told_errors, told_facts, told_making
 from ...files.temporary import temporary_folder
 from ...host.meshes import load_mesh
 from ...host.pictures import save_png
@@ -28,7 +28,7 @@ from ..compare.measured_error import measured_facts
 from ..methods.kinds import KINDS, open_map_set
 from ..reflectance.brdfs import load_brdf, told_brdf
 from ..reflectance.fit_plots import ELEVATIONS, lobe_plot
-from .facts import map_set_fit
+from .facts import map_set_fit, map_set_header
 
 TEMPLATE = Path(__file__).with_suffix(".html")
 
@@ -90,17 +90,18 @@ def map_set_page(map_set: Path, output: Path, force: bool = False, brdf: str | N
     looks = _looks(map_set)
     truth = None if brdf is None else (yield from load_brdf(brdf))
     yield Progress(2, 3, "drawing its maps")
-    header = held.header
+    header = map_set_header(map_set)
+    facts = told_facts(header)
     page = Template(TEMPLATE.read_text(encoding="utf-8")).substitute(
-        title=escape(_title(header)),
-        kind=escape(held.kind.replace("_", " ").capitalize()),
+        title=escape(" in ".join(facts[what] for what in ("Material", "Light") if what in facts)),
+        kind=escape(facts["Kind"]),
         file=escape(map_set.name),
         looks="\n".join(_image(picture, f"a {mesh}") for mesh, picture in looks.items()),
-        bound=_definitions(header["error_bound"] or {"nothing": "its maker stated no error"}),
-        measured=_definitions(measured_facts(map_set) or {"nothing": "it has not been compared yet"}),
+        bound=_definitions(told_errors(header) or {"Nothing": "its maker stated no error"}),
+        measured=_definitions(measured_facts(map_set) or {"Nothing": "it has not been compared yet"}),
         lobes="\n".join(_lobes(map_set, truth)),
-        facts=_definitions(_facts(header)),
-        roles="\n".join(_roles(header["parts"], held.maps)),
+        facts=_definitions(facts | told_making(header)),
+        roles="\n".join(_roles(held)),
     )
     with written_aside(output, force) as aside:
         aside.write_text(page, encoding="utf-8", errors="replace")  # of names that are no UTF-8
@@ -138,61 +139,22 @@ def _lobes(map_set: Path, truth: Brdf | None) -> list[str]:
     return [LOBES, missing, '<div class="plots">', *images, "</div>"]
 
 
-def _title(header: Mapping[str, Any]) -> str:
-    material = header["material"]
-    name = material.get("name") or gallery_name(material.get("brdf", ""))
-    environment = Path(header["environment"]["name"]).stem
-    return f"{name} in {environment}" if name else environment
+def _definitions(facts: Mapping[str, str]) -> str:
+    return "\n".join(f"<dt>{escape(what)}</dt><dd>{escape(which)}</dd>" for what, which in facts.items())
 
 
-def _facts(header: Mapping[str, Any]) -> dict[str, Any]:
-    width, height = header["environment"]["size"]
-    return {
-        **{f"material: {name}": value for name, value in header["material"].items() if name != PROFILES},
-        "environment": f"{header['environment']['name']}, {width}x{height}",
-        "layout": header["layout"],
-        "size of a map": "{}x{}".format(*header["size"]),
-        "axes": header["axes"],
-        **header["settings"],
-        "software": header["software"],
-    }
-
-
-def _definitions(facts: Mapping[str, Any]) -> str:
-    return "\n".join(
-        f"<dt>{escape(name)}</dt><dd>{escape(_words(value))}</dd>" for name, value in facts.items()
-    )
-
-
-def _words(value: Any) -> str:
-    if isinstance(value, float):
-        return f"{value:.3g}"
-    if isinstance(value, list):
-        return ", ".join(map(_words, value))
-    return str(value)
-
-
-def _roles(parts: list[dict[str, Any]], maps: Mapping[str, Array]) -> list[str]:
+def _roles(held: MapSet) -> list[str]:
     """A block of pictures for each role, in the file's order."""
-    blocks = []
-    for role in dict.fromkeys(part["role"] for part in parts):
+    blocks, title = [], STORED[held.kind].part_title
+    for role in dict.fromkeys(part["role"] for part in held.header["parts"]):
         figures = "".join(
-            f"<figure>{_image(_opaque(maps[part['name']]), part['name'])}"
-            f"<figcaption>{escape(_caption(part))}</figcaption></figure>"
-            for part in parts
+            f"<figure>{_image(_opaque(held.maps[part['name']]), part['name'])}"
+            f"<figcaption>{escape(title(part))}</figcaption></figure>"
+            for part in held.header["parts"]
             if part["role"] == role
         )
-        blocks.append(f'<h3>{escape(role)}</h3><div class="maps">{figures}</div>')
+        blocks.append(f'<h3>{escape(in_words(role))}</h3><div class="maps">{figures}</div>')
     return blocks
-
-
-def _caption(part: Mapping[str, Any]) -> str:
-    known = ("role", "sha256")
-    return "; ".join(
-        _words(value) if name == "name" else f"{name} {_words(value)}"
-        for name, value in part.items()
-        if name not in known
-    )
 
 
 def _opaque(radiance: Array) -> Array:

@@ -8,18 +8,15 @@ import numpy as np
 from ...core.conventions import Array
 from ...core.light.transfer_curve import srgb_from_linear
 from ...core.pictures.thumbnail import miniature
+from ...files.kinds.registry import STORED
 from ...files.map_set import read_map_set
-from .facts import map_title
+from ...files.map_set_header import ENVIRONMENT
 
 SIZE = 128
 """Largest width and height in pixels: what Blender shows of a picture in a panel."""
 
-
 BRIGHTEST = 0.05
 """Share of a map's pixels that may be shown as white."""
-
-BEHIND = ("albedo", "weights", "harmonics", "environment")
-"""Roles of maps that say less to the eye."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +49,7 @@ def map_set_pictures(path: Path) -> list[MapPicture]:
     Returns
     -------
     list of MapPicture
-        In the file's order, but those of `BEHIND` last.
+        In the file's order, but tables of numbers and the environment last.
 
     Raises
     ------
@@ -60,10 +57,11 @@ def map_set_pictures(path: Path) -> list[MapPicture]:
         See `files.map_set.read_map_set`.
     """
     held = read_map_set(path)
-    parts = sorted(held.header["parts"], key=lambda part: part["role"] in BEHIND)
+    stored = STORED[held.kind]
+    behind = (*stored.numbers, ENVIRONMENT)
+    parts = sorted(held.header["parts"], key=lambda part: part["role"] in behind)
     return [
-        MapPicture(part["name"], map_title(held.kind, part), _pixels(held.maps[part["name"]]))
-        for part in parts
+        MapPicture(part["name"], stored.part_title(part), _pixels(held.maps[part["name"]])) for part in parts
     ]
 
 

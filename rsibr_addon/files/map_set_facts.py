@@ -1,0 +1,73 @@
+"""What a description says, in words: for panels, reports and `rsibr info` alike."""
+
+from pathlib import Path
+from typing import Any
+
+from ..core.brdf.gallery import gallery_name
+from .kinds.registry import STORED
+
+
+def told_facts(header: dict[str, Any]) -> dict[str, str]:
+    """What a map set is.
+
+    Parameters
+    ----------
+    header : dict
+        A whole description, as `files.map_set.read_map_set_header` reads it; so with all functions here.
+
+    Returns
+    -------
+    dict
+        In words: what -> which.
+    """
+    material = header["material"]
+    named = material.get("name") or gallery_name(material.get("brdf", ""))
+    return {
+        "Kind": in_words(header["kind"]),
+        "Light": in_words(Path(header["environment"]["name"]).stem),
+        **({"Material": in_words(named)} if named else {}),
+        "Maps": f"{len(header['parts'])}, {_size(header['size'])}",
+        **STORED[header["kind"]].facts(header),
+    }
+
+
+def told_errors(header: dict[str, Any]) -> dict[str, str]:
+    """The errors that its maker promises: the largest, where it states several."""
+    return {
+        in_words(f"error, {name}"): f"{max(value) if isinstance(value, list) else value:.2g}"
+        for name, value in (header["error_bound"] or {}).items()
+    }
+
+
+def told_making(header: dict[str, Any]) -> dict[str, str]:
+    """Of what, how and by whom it was made."""
+    environment, settings = header["environment"], header["settings"]
+    clamped = f", clamped to {environment['clamp']:g}" if "clamp" in environment else ""
+    return {
+        "Environment": f"{environment['name']}, {_size(environment['size'])}{clamped}",
+        "Layout": in_words(header["layout"]),
+        "Axes": header["axes"],
+        **{in_words(name): _value(value) for name, value in settings.items() if value is not None},
+        "Made by": header["software"],
+    }
+
+
+def in_words(name: str) -> str:
+    """A name for programs as one for people: radiance_views, Radiance views."""
+    words = name.replace("_", " ")
+    return words[:1].upper() + words[1:]
+
+
+def _size(size: list[int]) -> str:
+    return "{} x {}".format(*size)
+
+
+def _value(value: Any) -> str:
+    match value:
+        case bool():
+            return "yes" if value else "no"
+        case float():
+            return f"{value:.3g}"
+        case list():
+            return ", ".join(map(_value, value))
+    return str(value)

@@ -82,7 +82,7 @@ def resample(
     """The same light in another representation or size.
 
     A map of fewer texels gets the mean radiance over each of its texels, with the old texels constant over
-    their solid angles: `deposit`. A map of as many texels or more is interpolated: `lookup`.
+    their solid angles: `splat`. A map of as many texels or more is interpolated: `lookup`.
 
     Parameters
     ----------

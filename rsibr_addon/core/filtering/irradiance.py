@@ -164,7 +164,7 @@ def irradiance_exact(radiance: Array, normal: ArrayLike) -> Array:
     radiance : ndarray, shape (height, width, channels)
         Latitude-longitude map.
     normal : array_like, shape (..., 3)
-        Of any positive length.
+        Vectors of any positive length.
 
     Returns
     -------

@@ -27,7 +27,7 @@ def normalize(vectors: ArrayLike) -> Array:
     Parameters
     ----------
     vectors : array_like, shape (..., 3)
-        Of any positive length.
+        Vectors of any positive length.
 
     Returns
     -------

@@ -50,7 +50,7 @@ class Projection:
     Attributes
     ----------
     weights : ndarray, shape (J, K, 3)
-        Of the kernels.
+        Weights of the kernels.
     objective : float
         Squared error with what `UNIFORM_LIGHT` and the ridges add, over the target's power.
     gradient : ndarray, shape (2 J T,)

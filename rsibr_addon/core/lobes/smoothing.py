@@ -90,7 +90,7 @@ def smoothed_weights(
     Returns
     -------
     list of ndarray, shape (J, K, 3)
-        Of the kernels.
+        Weights of the kernels.
     """
     equations = [projector.equations(each) for projector, each in zip(projectors, lookups, strict=True)]
     slices, lobes = len(projectors), len(lookups[0].taps)

@@ -1,1 +1,1 @@
-"""Everything on disk: environments, pictures, map sets; written atomically, read with suspicion."""
+"""Everything on disk: environments, pictures, map sets; written atomically, checked when read."""

@@ -14,20 +14,20 @@ from .staging import clear_old_strays, clear_strays, staging_name
 def check_target(path: str | Path, force: bool = False) -> None:
     """Refuse a name that cannot or must not be written, before long work begins.
 
-    What processes that were killed left in its folder is removed.
+    Files that killed processes left in its folder are removed.
 
     Parameters
     ----------
     path : str or Path
         The file that will be written.
     force : bool
-        Whether a file of that name may be replaced; not one that is read-only.
+        Whether a file of that name may be replaced; a read-only one never is.
 
     Raises
     ------
     OutputFileError
-        No file can have that name; `path` is a folder or a device, or exists and is not to be
-        replaced; or its folder is missing or cannot be written to.
+        No file can have that name; `path` is a folder or a device, or exists and must not be replaced; or its
+        folder is missing or cannot be written to.
     """
     path = Path(path)
     check_name(path)
@@ -42,7 +42,7 @@ def check_target(path: str | Path, force: bool = False) -> None:
 
 
 def check_name(path: Path) -> None:
-    """Refuse what no file or folder can be called, and a folder around it that cannot be written to.
+    """Refuse a name that no file or folder can have, and a folder around it that cannot be written to.
 
     What processes that were killed left in that folder is removed.
 
@@ -82,7 +82,7 @@ def check_name(path: Path) -> None:
 
 
 def is_read_only(path: Path) -> bool:
-    """Whether nobody may write what is there, or not this user."""
+    """Whether a file may not be written, by anyone or by this user."""
     anyone = stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH
     return not path.stat().st_mode & anyone or not os.access(path, os.W_OK)
 
@@ -94,7 +94,7 @@ def written_aside(path: str | Path, force: bool = False) -> Iterator[Path]:
     Parameters
     ----------
     path : str or Path
-        The final name; a link is followed, so that it stays and what it points to is replaced.
+        The final name. A link is followed: it stays, and its target is replaced.
     force : bool
         Whether a file of that name may be replaced. Its mode is kept, and its owner and group as far as
         the system lets this user give files away.
@@ -102,8 +102,8 @@ def written_aside(path: str | Path, force: bool = False) -> Iterator[Path]:
     Yields
     ------
     Path
-        Where the body writes: a short name with the suffix of `path`, in a folder beside it. After the
-        body it is synced and renamed, within `together` when that ends; when anything is raised, it is
+        The file that the body writes: a short name with the suffix of `path`, in a folder beside it. After
+        the body it is synced and renamed, within `together` when that ends; when anything is raised, it is
         removed.
 
     Raises
@@ -121,7 +121,7 @@ def written_aside(path: str | Path, force: bool = False) -> Iterator[Path]:
             yield aside
             sync(aside)
         except OSError as error:
-            # What the body could not read is for the body's own errors to tell
+            # The body reports its own errors of reading
             if aside is not None and error.filename is not None and str(error.filename) != str(aside):
                 raise
             raise not_written(path, error) from error
@@ -129,7 +129,7 @@ def written_aside(path: str | Path, force: bool = False) -> Iterator[Path]:
 
 
 def sync(path: Path) -> None:
-    """Have the disk hold the file before its name does: a crash then leaves the old file or the new."""
+    """Write the file to disk before it gets its name: a crash then leaves the old file or the new one."""
     descriptor = os.open(path, os.O_RDWR)
     try:
         os.fsync(descriptor)

@@ -1,4 +1,4 @@
-"""Reflectance models by their text, those from measured files included."""
+"""Reflectance models from their texts, including models of measured files."""
 
 from collections.abc import Callable
 
@@ -10,7 +10,7 @@ from .merl import read_merl
 from .rgl import read_rgl
 
 READERS: dict[str, Callable[[str], Brdf]] = {"merl": read_merl, "cornell": read_cornell, "rgl": read_rgl}
-"""Format of a measured model -> what reads it."""
+"""Format of a measured model -> its reader."""
 
 
 def brdf_from_spec(spec: str) -> Brdf:
@@ -28,14 +28,14 @@ def brdf_from_spec(spec: str) -> Brdf:
     Raises
     ------
     RangeError
-        The text describes no model; says which key is wrong and what it takes.
+        The text describes no model; the message names the wrong key and the values that it takes.
     InputFileError
         A measured file is missing or not what it should be.
 
     Warns
     -----
     RsibrWarning
-        The model reflects more light than it gets, or a measured file holds values that had to be replaced.
+        The model reflects more light than it receives, or values of a measured file had to be replaced.
     """
     brdf = brdf_spec.brdf_from_spec(spec, read_measured)
     warn_of_gain(brdf, spec)
@@ -64,6 +64,6 @@ def read_measured(name: str, path: str) -> Brdf:
     Warns
     -----
     RsibrWarning
-        It holds values that had to be replaced.
+        Values had to be replaced.
     """
     return READERS[name](path)

@@ -14,7 +14,7 @@ BRADFORD = np.array([[0.8951, 0.2664, -0.1614], [-0.7502, 1.7135, 0.0367], [0.03
 """Cone responses from XYZ, for chromatic adaptation [Lam1985]."""
 
 ROUNDING = 1e-3
-"""A matrix this close to the identity comes from rounded chromaticities of Rec. 709 itself."""
+"""Difference from the identity up to which a matrix comes from rounded chromaticities of Rec. 709 itself."""
 
 
 def rec709_from(chromaticities: ArrayLike) -> Array:
@@ -44,7 +44,7 @@ def rec709_from(chromaticities: ArrayLike) -> Array:
 
 
 def luminance_weights(chromaticities: ArrayLike) -> Array:
-    """How much of a colour's luminance each primary gives.
+    """Share of each primary in a colour's luminance.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Text files of Cornell's measurements of surfaces: spectra at scattered pairs of directions."""
+"""Text files with Cornell's measurements of surfaces: spectra at scattered pairs of directions."""
 
 import warnings
 from pathlib import Path
@@ -13,7 +13,7 @@ from ..core.errors import InputFileError, RangeError, RsibrWarning
 from .reading import opened
 
 LARGEST = 1 << 26
-"""Bytes; the laboratory's files have half a million."""
+"""Largest file in bytes; the laboratory's have half a million."""
 
 COMMENT = "#"
 
@@ -87,7 +87,7 @@ def _parse(path: str | Path) -> tuple[Array, Array]:
 
 
 def _floored(values: Array, sentence: str) -> Array:
-    """`values` with 0 for what is negative or not finite, and a warning that says how many."""
+    """`values` with 0 for those that are negative or not finite, and a warning that counts them."""
     usable = np.isfinite(values) & (values >= 0.0)
     if count := int(np.count_nonzero(~usable)):
         warnings.warn(sentence.format(count), RsibrWarning, stacklevel=3)

@@ -1,4 +1,4 @@
-"""What the numbers in a picture of 8 or 16 bits mean: a curve and primaries, by name or by ICC profile."""
+"""The encoding of pictures with 8 or 16 bits: a curve and primaries, by name or by ICC profile."""
 
 import struct
 from collections.abc import Callable
@@ -24,21 +24,21 @@ PRIMARIES = {
 }
 
 STRAIGHT = 1e-4
-"""A curve this close to the diagonal is none."""
+"""Distance from the diagonal up to which a curve counts as linear."""
 
 
 @dataclass(frozen=True, eq=False)
 class Encoding:
-    """How numbers become light.
+    """The way from a picture's numbers to light.
 
     Attributes
     ----------
     curves : tuple of 3 functions, or None
-        Of red, green and blue; None where the numbers are linear.
+        Curves of red, green and blue; None where the numbers are linear.
     to_rec709 : ndarray, shape (3, 3)
-        From linear light.
+        Matrix to linear Rec. 709 from the picture's linear light.
     name : str
-        Of the colour space, for people.
+        Name of the colour space, for people.
     """
 
     curves: tuple[Curve, Curve, Curve] | None
@@ -54,7 +54,7 @@ def power_curve(exponent: float) -> Curve:
 TRANSFERS: dict[str, Curve | None] = {
     "lin": None,
     "srgb": linear_from_srgb,
-    # 2.2 is how PNG states sRGB to programs that know powers alone
+    # PNG states sRGB as 2.2 to programs that know only powers
     "g22": linear_from_srgb,
     "g18": power_curve(1.8),
     "g24": power_curve(2.4),
@@ -148,7 +148,7 @@ def _curve(tag: bytes) -> Curve:
         raise KeyError("no curve")
     (kind,) = struct.unpack_from(">H", tag, 8)
     numbers = [each / 65536.0 for each in struct.unpack_from(f">{(1, 3, 4, 5, 7)[kind]}i", tag, 12)]
-    # All kinds are the last one, of which the shorter ones leave parts out
+    # The last kind is the most general; the shorter ones leave parts out
     g, a, b = numbers[:3] if kind else (numbers[0], 1.0, 0.0)
     _exponent(g)
     c, d, e, f = 0.0, -b / a, 0.0, 0.0

@@ -13,7 +13,7 @@ def read_environment(path: str | Path, clamp: float | None = None) -> Environmen
     Parameters
     ----------
     path : str or Path
-        OpenEXR or Radiance HDR, told by its first bytes, not by its name.
+        OpenEXR or Radiance HDR, recognised by its first bytes, not by its name.
     clamp : float, optional
         See `core.environment.usable_radiance`.
 
@@ -33,6 +33,6 @@ def read_environment(path: str | Path, clamp: float | None = None) -> Environmen
     RsibrWarning
         See `core.environment.usable_radiance`.
     """
-    # A name in other bytes than UTF-8 could not be written into a map set
+    # A name that is not UTF-8 could not be written into a map set
     name = os.fsencode(Path(path).name).decode("utf-8", "replace")
     return environment_from_pixels(read_radiance(path), name, clamp)

@@ -1,4 +1,4 @@
-"""What cameras note of how a photograph was exposed: Exif, in whatever kind of file."""
+"""A photograph's exposure as cameras note it: Exif, in any kind of file."""
 
 import math
 import warnings
@@ -11,24 +11,24 @@ from ..core.errors import InputFileError, RsibrWarning
 from .photographs import read_notes
 
 LONGEST, LARGEST_F, LARGEST_ISO = 1e6, 1e3, 1e8
-"""Beyond these a number says that nothing is known: infinity, or all bits set."""
+"""Greatest values; a number beyond says that nothing is known: infinity, or all bits set."""
 
 SEE_ANOTHER = 65535
-"""The PhotographicSensitivity that stands for all that its 16 bits cannot hold: other fields tell it."""
+"""The PhotographicSensitivity of all values that its 16 bits cannot hold: other fields tell them."""
 
 SENSITIVITIES = ("Exif:RecommendedExposureIndex", "Exif:StandardOutputSensitivity", "Exif:ISOSpeed")
 
 
 @dataclass(frozen=True)
 class Exposure:
-    """How a photograph was exposed.
+    """The exposure of a photograph.
 
     Attributes
     ----------
     time : float
         [s], above 0.
     f_number : float or None
-        Focal length over aperture; None where it is not told, as by lenses without contacts.
+        Focal length over aperture; None where it is not stated, as by lenses without contacts.
     sensitivity : float or None
         ISO.
     """
@@ -39,7 +39,7 @@ class Exposure:
 
 
 def read_exposure(path: str | Path) -> Exposure:
-    """Read how a photograph was exposed.
+    """Read the exposure of a photograph.
 
     Parameters
     ----------
@@ -49,8 +49,8 @@ def read_exposure(path: str | Path) -> Exposure:
     Returns
     -------
     Exposure
-        By the plain fields; by the APEX values of shutter and aperture where those say nothing. The exposure
-        bias and the brightness that cameras note too are in these already.
+        From the plain fields, or from the APEX values of shutter and aperture where those say nothing. These
+        include the exposure bias and the brightness that cameras note as well.
 
     Raises
     ------
@@ -73,7 +73,7 @@ def read_exposure(path: str | Path) -> Exposure:
 
 
 def relative_exposures(paths: Sequence[Path], exposures: Sequence[Exposure]) -> list[float]:
-    """Exposures to be compared with each other.
+    """Exposures that can be compared with each other.
 
     Parameters
     ----------
@@ -85,17 +85,17 @@ def relative_exposures(paths: Sequence[Path], exposures: Sequence[Exposure]) -> 
     Returns
     -------
     list of float
-        Times [s], made longer or shorter where aperture or sensitivity differ.
+        Times [s], corrected where aperture or sensitivity differ.
 
     Raises
     ------
     InputFileError
-        Some photographs do not tell their aperture or sensitivity, and it varies among those that do.
+        Some photographs do not state their aperture or sensitivity, and it varies among the others.
 
     Warns
     -----
     RsibrWarning
-        It is the same in all that do, and is taken for the others.
+        It is the same in all others, and is taken for these too.
     """
     f_numbers = _completed(paths, [each.f_number for each in exposures], "f-number")
     sensitivities = _completed(paths, [each.sensitivity for each in exposures], "sensitivity (ISO)")
@@ -106,7 +106,7 @@ def relative_exposures(paths: Sequence[Path], exposures: Sequence[Exposure]) -> 
 
 
 def _completed(paths: Sequence[Path], told: list[float | None], what: str) -> list[float]:
-    """Numbers of which some may not be told, which is harmless where those that are told are equal."""
+    """Numbers of which some may be missing, which is harmless where all others are equal."""
     known = [number for number in told if number is not None]
     if not known:
         return [1.0] * len(told)
@@ -130,12 +130,12 @@ def _told(notes: dict[str, Any], name: str, most: float) -> float | None:
 
 
 def _usable(number: float, most: float) -> float | None:
-    """A number, or None for those that say that nothing is known: 0, 0/0, infinity and all bits set."""
+    """A number, or None for one that says that nothing is known: 0, 0/0, infinity or all bits set."""
     return number if 0.0 < number < most else None
 
 
 def _number(value: Any) -> float:
-    """A field's number, which may be written as a fraction; NaN if it is none."""
+    """A field's number, which may be written as a fraction; NaN if it is not a number."""
     if isinstance(value, tuple):
         numerator, denominator = value if len(value) == 2 else (0, 0)
         return numerator / denominator if denominator else math.nan

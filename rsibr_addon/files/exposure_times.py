@@ -9,11 +9,11 @@ from ..core.errors import InputFileError
 from .reading import opened
 
 LARGEST = 1 << 20
-"""Bytes of a list that are read."""
+"""Largest list of times in bytes."""
 
 
 def exposure_time(text: str) -> float:
-    """The time that a text means.
+    """The time that a text states.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def read_times(path: str | Path) -> tuple[float, ...]:
     ----------
     path : str or Path
         Text: the times, one for each photograph in order, between them spaces, commas, semicolons or line
-        breaks. They may be quoted and have an s for seconds; what follows # or // in a line is a comment.
+        breaks. They may be quoted and have an s for seconds; in a line, a comment follows # or //.
 
     Returns
     -------

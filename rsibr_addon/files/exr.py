@@ -22,18 +22,18 @@ MAGIC = b"\x76\x2f\x31\x01"
 """The first four bytes of every OpenEXR file."""
 
 CUBE = OpenEXR.ENVMAP_CUBE
-"""Value of the attribute `envmap` where a picture is a cube's six faces."""
+"""Value of the attribute `envmap` of a picture with a cube's six faces."""
 
 primaries_named = OpenEXR.colorInteropIDToChromaticities
-"""Chromaticities of a linear colour space by its `colorInteropID`; None where it is none."""
+"""Chromaticities of a linear colour space by its `colorInteropID`; None for other identifiers."""
 
 OpenEXR.set_global_thread_count(os.cpu_count() or 1)
 
 FEWEST_STORED = 1000
-"""A picture with fewer than one in so many pixels stored is none."""
+"""Number of pixels in a picture of which at least one must be stored."""
 
 BYTES_OF_SAMPLE = 8
-"""Of memory for each number of a channel: as float, and as much again for the picture made of them."""
+"""Bytes of memory for each number of a channel: a float, and as much again for the picture made of it."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ class Part:
 
 
 class OpenExr:
-    """An open file: its headers, and its pixels when they are asked for.
+    """An open file: its headers, and its pixels on request.
 
     Parameters
     ----------
@@ -121,7 +121,7 @@ class OpenExr:
         )
         check_memory(BYTES_OF_SAMPLE * texels, str(path), max(sizes))
         with self._package_file(separate_channels=True) as file:
-            # The package leaves out, without an exception, each part whose pixels it cannot read
+            # Where the package cannot read a part's pixels, it leaves the part out, without an exception
             if len(file.parts) != len(headers):
                 raise InputFileError(
                     f"{path} is truncated or damaged (pixels of {len(headers) - len(file.parts)} of its "
@@ -141,7 +141,7 @@ class OpenExr:
 
     @contextlib.contextmanager
     def _package_file(self, **options: bool) -> Iterator[Any]:
-        """The package's view of the file; its complaints become one sentence."""
+        """The file as the package opens it; its complaints become one sentence."""
         self._stream.seek(0)
         try:
             with unheard():
@@ -174,7 +174,7 @@ def open_exr(path: str | Path) -> Iterator[OpenExr]:
 
 
 def read_attributes(path: str | Path) -> list[dict[str, Any]]:
-    """Read the headers of a file, not its pixels: `OpenExr.headers`, with what `open_exr` raises."""
+    """Read the headers of a file, not its pixels: `OpenExr.headers`; raises as `open_exr`."""
     with open_exr(path) as file:
         return file.headers
 
@@ -201,7 +201,7 @@ def read_parts(path: str | Path) -> list[Part]:
 
 
 def _full(channel: Any, window: tuple[Indices, Indices]) -> Array:
-    """A channel's pixels, one for each of its part's, row 0 at the bottom."""
+    """A channel's pixels at the full size of its part, row 0 at the bottom."""
     sampling, pixels = (channel.ySampling, channel.xSampling), channel.pixels
     for axis, (step, length) in enumerate(zip(sampling, window_size(window)[::-1], strict=True)):
         pixels = interpolated(pixels, axis, step, length)
@@ -226,7 +226,7 @@ def window_size(window: tuple[Indices, Indices]) -> tuple[int, int]:
 
 
 def in_display_window(path: str | Path, part: Part) -> Part:
-    """The whole picture of a part of which only a window has pixels, or more than the picture has.
+    """The whole picture of a part that stores only a window of it, or more than it.
 
     Parameters
     ----------
@@ -289,7 +289,7 @@ def write_parts(path: Path, parts: Sequence[Part]) -> None:
     """
     shapes = [pixels.shape for part in parts for pixels in part.channels.values()]
     largest = np.max(shapes, axis=0).tolist()
-    # Through a stream of ours, because the package's own drops the error of its last bytes
+    # Through our own stream, because the package's drops the error of its last bytes
     with path.open("wb") as stream:
         OpenEXR.File([_described(part, largest) for part in parts]).write(stream)
 
@@ -314,7 +314,7 @@ def packed(part: Part, largest: Sequence[int]) -> bytes:
 
 
 def _described(part: Part, largest: Sequence[int]) -> Any:
-    """A part as the package wants it: all of a file have one display window, and their own data window."""
+    """A part as the package takes it: with the display window of all parts and its own data window."""
     height, width = largest
     header = {
         "type": OpenEXR.scanlineimage,

@@ -1,4 +1,4 @@
-"""What an OpenEXR header says of its pixels beyond their names: colours, windows, orientation."""
+"""Statements of an OpenEXR header on its pixels beyond their names: colours, windows, orientation."""
 
 import re
 from collections.abc import Iterator
@@ -12,12 +12,12 @@ from .chromaticities import REC_709, luminance_weights, rec709_from
 from .exr import CUBE, primaries_named, window_size
 
 ACES = (0.7347, 0.2653, 0.0, 1.0, 0.0001, -0.077, 0.32168, 0.33767)
-"""Of every picture in an ACES container, whether it states them or not."""
+"""Chromaticities of every picture in an ACES container, stated or not."""
 
 LINEAR_REC_709 = re.compile(
     r"(scene_?)?linear( rec\.?709.*)?|lin_(srgb|rec709)(_scene)?|unknown|", re.IGNORECASE
 )
-"""Names of colour spaces that ask for nothing."""
+"""Names of colour spaces that need no conversion."""
 
 COLOUR_SPACE = re.compile(r"(oiio:)?colou?r_?space", re.IGNORECASE)
 
@@ -35,21 +35,21 @@ HARMLESS = re.compile(
     "((Exif|GPS|IPTC|XMP|ICCProfile|oiio|cycles|cryptomatte|nuke|arnold|mantra|husk|rs|vray|renderman|prman|exr|"
     r"textureformat|MaterialX|openexr)[.:/].*)"
 )
-"""Attributes that `of_part` looks at, or that change nothing of what the pixels mean."""
+"""Attributes that are read, or that do not change the pixels' meaning."""
 
 
 @dataclass(frozen=True)
 class Meaning:
-    """What the pixels of a part mean.
+    """The meaning of a part's pixels.
 
     Attributes
     ----------
     primaries : array_like, shape (8,)
-        Of its colours, as `rec709_from` takes them.
+        Primaries of its colours, as `rec709_from` takes them.
     colours : str
-        What they are, and who says so.
+        The colours and their source, in words.
     remarks : tuple of str
-        What is not used of the header: predicates, whose subject is the file.
+        Parts of the header that are not used: predicates, whose subject is the file.
     """
 
     primaries: ArrayLike
@@ -63,12 +63,12 @@ class Meaning:
 
     @property
     def luminance_weights(self) -> Array:
-        """Of the stored colours, shape (3,)."""
+        """Luminance of the stored colours' primaries, shape (3,)."""
         return luminance_weights(self.primaries)
 
 
 def meaning(header: dict[str, Any]) -> Meaning:
-    """Read what a part's header says of its pixels.
+    """Read the meaning of a part's pixels from its header.
 
     Parameters
     ----------
@@ -84,13 +84,13 @@ def meaning(header: dict[str, Any]) -> Meaning:
 
 
 def _primaries(header: dict[str, Any]) -> tuple[ArrayLike, str, list[str]]:
-    """Stated outright, else by the name of a colour space, else Rec. 709; and what is odd about it."""
+    """Primaries: as stated, else of the named colour space, else Rec. 709; and remarks."""
     named, remarks = _named_space(header)
     stated = header.get("chromaticities")
     if stated is not None:
         try:
             numbers = np.asarray(stated, dtype=np.float64).reshape(8)
-            # Zeros mean that there are none
+            # Zeros mean that none are stated
             if np.any(numbers):
                 rec709_from(numbers)
                 listed = " ".join(f"{number:.4g}" for number in numbers)
@@ -123,7 +123,7 @@ def _named_space(header: dict[str, Any]) -> tuple[tuple[ArrayLike, str] | None, 
 
 
 def _ignored(header: dict[str, Any], primaries: ArrayLike) -> Iterator[str]:
-    """Statements that are read, and make no difference although they should."""
+    """Statements that should make a difference but are not used."""
     aspect = header.get("pixelAspectRatio", 1.0)
     if np.isfinite(aspect) and aspect > 0.0 and abs(aspect - 1.0) > 1e-3:
         yield f"states a pixelAspectRatio of {aspect:.4g}, but its pixels are taken as square."
@@ -146,7 +146,7 @@ def _ignored(header: dict[str, Any], primaries: ArrayLike) -> Iterator[str]:
 
 
 def _unknown(header: dict[str, Any]) -> Iterator[str]:
-    """Attributes that nothing is known of."""
+    """Unknown attributes."""
     unknown = [name for name in header if not HARMLESS.fullmatch(name) and not COLOUR_SPACE.fullmatch(name)]
     if unknown:
         more = f" and {len(unknown) - 8} more" if len(unknown) > 8 else ""

@@ -1,7 +1,7 @@
 """An OpenEXR file of many parts, written one after another, so that never more than one need be in memory.
 
 The package wants all parts at once. Each is packed as a file of its own instead: that has the same header,
-but for the number of its chunks, and the same chunks, but for the number of their part before them.
+except for the number of its chunks, and the same chunks, except for the number of their part before them.
 """
 
 import itertools
@@ -15,10 +15,10 @@ from ..core.conventions import Array
 from .exr import MAGIC, Part, packed
 
 _VERSION = struct.pack("<I", 2 | 1 << 12)
-"""Two, of several parts."""
+"""Version 2, with several parts."""
 
 _ROWS = 16
-"""Of a chunk with ZIP compression."""
+"""Rows of a chunk with ZIP compression."""
 
 
 class PartsInTurn:
@@ -27,11 +27,11 @@ class PartsInTurn:
     Parameters
     ----------
     stream : BinaryIO
-        At its begin.
+        The file, at its start.
     shapes : mapping of str to (int, int)
         Height and width of every part by its name, in order; each has the channels R, G and B.
     attribute, text : str
-        Name of an attribute that the first part has, and a text as long as it will be.
+        Name of an attribute of the first part, and a text of its final length.
     """
 
     def __init__(
@@ -41,7 +41,7 @@ class PartsInTurn:
         self._largest = np.max(list(shapes.values()), axis=0).tolist()
         self._headers: list[dict[bytes, bytes]] = []
         self._offsets: list[int] = []
-        # A part of one texel has a header as long
+        # A part of one texel has a header of the same length
         texel = np.zeros((1, 1, 3), np.float32)
         headers = [self._packed(name, texel, number == 0)[0] for number, name in enumerate(shapes)]
         chunks = sum(_chunk_count(height) for height, _ in shapes.values())
@@ -69,12 +69,12 @@ class PartsInTurn:
         self._headers.append(header)
 
     def finish(self, text: str) -> None:
-        """Write what stands before all parts, when they are there.
+        """Write the headers before all parts, when these are written.
 
         Parameters
         ----------
         text : str
-            The first part's attribute, as long as it was announced to be.
+            The first part's attribute, of the announced length.
 
         Raises
         ------
@@ -109,6 +109,6 @@ def _chunk_count(height: int) -> int:
 
 
 def _headers_as_bytes(headers: list[dict[bytes, bytes]]) -> bytes:
-    """All that stands before the offsets of chunks; attributes are in the order of their names."""
+    """Everything before the offsets of chunks; attributes are in the order of their names."""
     ended = [b"".join(name + b"\0" + header[name] for name in sorted(header)) + b"\0" for header in headers]
     return MAGIC + _VERSION + b"".join(ended) + b"\0"

@@ -1,4 +1,4 @@
-"""Which channels of an OpenEXR file are the picture, by their names."""
+"""The picture's channels in an OpenEXR file, found by their names."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -16,18 +16,18 @@ ROLES = {name: name.upper() for name in ("r", "g", "b", "a", "x", "y", "z", "ry"
     "gray": "Y",
     "luminance": "Y",
 }
-"""Last word of a channel's name, in small letters -> what it is of a colour."""
+"""Last word of a channel's name, in small letters -> its part of a colour."""
 
 KINDS = ("RGB", ("Y", "RY", "BY"), "XYZ", "Y")
-"""What a picture is made of; the first that a layer has whole."""
+"""Sets of channels that make a picture; the first that a layer has in full is used."""
 
 PARTIAL = ("R", "G", "B", "RY", "BY")
-"""Roles of what is no colour without others."""
+"""Roles of channels that make no colour without others."""
 
 MAIN = frozenset(
     ("combined", "beauty", "rgba", "rgb", "c", "ci", "color", "colour", "image", "main", "final")
 )
-"""What renderers call the layer that is the picture, the others being its passes."""
+"""Renderers' names for the layer that is the picture; the others are its passes."""
 
 
 @dataclass(frozen=True)
@@ -38,11 +38,11 @@ class Layer:
     ----------
     part : int
     name : str
-        What its channels' names begin with, or its part's name; empty where it has none.
+        Beginning of its channels' names, or its part's name; empty where there is none.
     channels : dict of str to str
         Names of channels by their role, one of `KINDS` and perhaps "A".
     left : tuple of str
-        Names of channels of a colour that has not all of its own, so that the picture is grey.
+        Names of channels of an incomplete colour, so that the picture is grey.
     """
 
     part: int
@@ -52,24 +52,24 @@ class Layer:
 
     @property
     def is_grey(self) -> bool:
-        """Whether it has no colour."""
+        """Whether the picture has no colour."""
         return self.channels.keys() <= {"Y", "A"}
 
     @property
     def rank(self) -> int:
-        """0 of a picture without a name, 1 of one that renderers name so, 2 of others."""
+        """0 for a picture without a name, 1 for one of `MAIN`, 2 for others."""
         if not self.name:
             return 0
         return 1 if MAIN & set(self.name.lower().split(".")) else 2
 
 
 def layers_of(headers: Sequence[dict[str, Any]]) -> list[Layer]:
-    """Every picture in colour or grey.
+    """Every picture of a file, in colour or grey.
 
     Parameters
     ----------
     headers : sequence of dict
-        Of the file's parts, as `exr.OpenExr.headers` has them.
+        Headers of the file's parts: see `exr.OpenExr.headers`.
 
     Returns
     -------
@@ -105,19 +105,19 @@ def choose(path: str | Path, layers: Sequence[Layer], wanted: str | None) -> tup
     layers : sequence of Layer
         At least one.
     wanted : str or None
-        A layer's name, or how it ends.
+        A layer's name, or its ending.
 
     Returns
     -------
     Layer
-        The one that is wanted; else the one that renderers name so, or the first.
+        The wanted one; else one of `MAIN`, or the first.
     list of str
-        What was left although it might be meant: predicates, whose subject is the file.
+        Other pictures that may be meant: predicates, whose subject is the file.
 
     Raises
     ------
     InputFileError
-        There is none of that name, or no telling which is meant.
+        There is no such layer, or it is not clear which is meant.
     """
     if wanted is not None:
         return _named(path, layers, wanted), []
@@ -128,7 +128,7 @@ def choose(path: str | Path, layers: Sequence[Layer], wanted: str | None) -> tup
         raise InputFileError(
             f"{path} holds several layers ({_listed(likely)}): name one, as {path}:{chosen.name}."
         )
-    # The passes of a part are known to be none; other parts, views and view layers may be meant
+    # Passes of a part are not meant; other parts, views and view layers may be
     others = [layer for layer in layers if layer.part != chosen.part or layer in likely]
     others.remove(chosen)
     if not others:

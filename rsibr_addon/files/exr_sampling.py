@@ -1,11 +1,11 @@
-"""Samples between those that a subsampled channel stores."""
+"""Interpolation of subsampled channels."""
 
 import numpy as np
 
 from ..core.conventions import Array
 
 TAPS = 6
-"""Samples that one between them is made of."""
+"""Stored samples that make an interpolated one."""
 
 
 def interpolated(samples: Array, axis: int, step: int, length: int) -> Array:
@@ -14,23 +14,23 @@ def interpolated(samples: Array, axis: int, step: int, length: int) -> Array:
     Parameters
     ----------
     samples : ndarray
-        Along `axis` those at 0, step, 2 step ...; beyond them, the last repeats.
+        Samples along `axis` at 0, step, 2 step ...; beyond them, the last repeats.
     axis : int
     step : int
     length : int
-        Of the result along `axis`.
+        Length of the result along `axis`.
 
     Returns
     -------
     ndarray
-        Those that were stored are kept.
+        Stored samples are kept.
     """
     if step == 1:
         return samples
     places = np.arange(length)
     nearest, phase = places // step, (places % step) / step
     taps = np.arange(1 - TAPS // 2, 1 + TAPS // 2)
-    # Lagrange's, of which each is 1 at its own tap and 0 at the others
+    # Lagrange's polynomials: each is 1 at its own tap and 0 at the others
     weights = [
         np.prod([(phase - other) / (tap - other) for other in taps if other != tap], axis=0) for tap in taps
     ]

@@ -1,4 +1,4 @@
-"""Lobe fits as JSON files, number by number as they are."""
+"""Lobe fits as JSON files, with exact numbers."""
 
 import json
 from pathlib import Path
@@ -33,10 +33,10 @@ def write_fit(path: str | Path, fit: Fit, report: dict[str, Any], force: bool = 
     Parameters
     ----------
     path : str or Path
-        By custom NAME.json.
+        Usually NAME.json.
     fit : Fit
     report : dict
-        What to state beside it, its errors for example: JSON values.
+        Statements beside the fit, its errors for example: JSON values.
     force : bool
         Whether an existing file is replaced.
 
@@ -73,7 +73,7 @@ def read_fit(path: str | Path) -> Fit:
     Raises
     ------
     InputFileError
-        The file is missing, unreadable or no fit, of a newer format, or its values do not make one.
+        The file is missing, unreadable, no fit or of a newer format, or its values do not make a fit.
     """
     with opened(path) as stream:
         text = stream.read(LARGEST_TEXT + 1)

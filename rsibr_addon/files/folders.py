@@ -19,15 +19,15 @@ def check_folder_target(path: str | Path, marker: str, force: bool = False) -> N
     path : str or Path
         The folder that will be written.
     marker : str
-        Name of a file that every such folder holds, by which an earlier result is known.
+        Name of a file that every such folder holds, and that marks an earlier result.
     force : bool
         Whether an earlier result may be replaced; any other folder never is.
 
     Raises
     ------
     OutputFileError
-        No folder can have that name; `path` is a file, or exists and is not to be replaced, or is
-        read-only; or the folder around it is missing or cannot be written to.
+        No folder can have that name; `path` is a file, or exists and must not be replaced, or is read-only;
+        or the folder around it is missing or cannot be written to.
     """
     path = Path(path)
     check_name(path)
@@ -49,8 +49,7 @@ def folder_written_aside(path: str | Path, marker: str, force: bool = False) -> 
     Parameters
     ----------
     path, marker, force
-        As in `check_folder_target`. A folder that is replaced leaves its mode and owner, as in
-        `written_aside`.
+        As in `check_folder_target`. A replaced folder leaves its mode and owner, as in `written_aside`.
 
     Yields
     ------

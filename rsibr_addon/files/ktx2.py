@@ -1,7 +1,7 @@
-"""Textures for other programs: KTX 2.0, as the Khronos Group specifies it, uncompressed.
+"""Textures for other programs: uncompressed KTX 2.0, as the Khronos Group specifies it.
 
-One file holds a texture as graphics interfaces take it: a cube or an array of layers, with its mips. Rows
-lie in memory as (u, v) count them, so that a lookup at our (u, v) finds the texel in every interface.
+A file holds a texture as graphics interfaces take it: a cube or an array of layers, with its mips. Rows come
+in the order of v, so that a lookup at our (u, v) finds the texel in every interface.
 """
 
 import struct
@@ -18,7 +18,7 @@ from .atomic import written_aside
 IDENTIFIER = b"\xabKTX 20\xbb\r\n\x1a\n"
 
 HALF, FLOAT = 97, 109
-"""Vulkan's R16G16B16A16_SFLOAT and R32G32B32A32_SFLOAT: three channels alone are read by few."""
+"""Vulkan's R16G16B16A16_SFLOAT and R32G32B32A32_SFLOAT: few programs read three channels."""
 
 _HEADER = struct.Struct("<12s9I4I2Q")
 _LEVEL = struct.Struct("<3Q")
@@ -26,7 +26,7 @@ _LEVEL = struct.Struct("<3Q")
 
 @dataclass(frozen=True)
 class Texture:
-    """What a file holds.
+    """The content of a file.
 
     Attributes
     ----------
@@ -51,10 +51,10 @@ def write_ktx2(path: str | Path, texture: Texture, notes: Mapping[str, str], for
     Parameters
     ----------
     path : str or Path
-        By custom NAME.ktx2.
+        Usually NAME.ktx2.
     texture : Texture
     notes : mapping of str to str
-        Key and value of what readers may want to know.
+        Notes for readers, by their keys.
     force : bool
         Whether an existing file is replaced.
 

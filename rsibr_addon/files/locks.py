@@ -1,4 +1,4 @@
-"""Folders that one process holds at a time; one that ends, however it ends, lets go."""
+"""Folders that one process holds at a time; a process that ends in any way releases them."""
 
 import contextlib
 import errno
@@ -9,25 +9,25 @@ from pathlib import Path
 from typing import IO
 
 LOCK = "rsibr.lock"
-"""Name of the file in a held folder by which it is known for one of ours."""
+"""Name of the file in a held folder that marks it as one of ours."""
 
 TRIES = 100
-"""To hold a folder, which those that held it before us may be removing each time."""
+"""Most tries to hold a folder, which its former holder may be removing each time."""
 
 
 @contextlib.contextmanager
 def held(folder: Path) -> Iterator[bool]:
-    """Hold a folder alone; it is removed afterwards when nothing is left in it.
+    """Hold a folder alone; it is removed afterwards if it is empty.
 
     Parameters
     ----------
     folder : Path
-        Made, for this user alone, if it is not there.
+        Made, for this user alone, if it does not exist.
 
     Yields
     ------
     bool
-        False where the file system knows no locks: then another process may have the folder too.
+        False where the file system has no locks: another process may then hold the folder too.
 
     Raises
     ------
@@ -55,7 +55,7 @@ def _held(folder: Path) -> tuple[IO[str], bool]:
         except BlockingIOError:
             file.close()
             raise
-        # The one that held it before may have removed it meanwhile
+        # The former holder may have removed it meanwhile
         if not alone or _is_there(folder / LOCK, file):
             return file, alone
         file.close()
@@ -92,7 +92,7 @@ if sys.platform == "win32":
         return True
 
     def _close_and_remove(file: IO[str], path: Path) -> None:
-        """Close it first: no file can be removed that someone has open, another process least of all."""
+        """Close the lock first: an open file cannot be removed, least of all by another process."""
         file.close()
         path.unlink()
 else:
@@ -108,6 +108,6 @@ else:
         return True
 
     def _close_and_remove(file: IO[str], path: Path) -> None:
-        """Remove it first: once it is closed, another process may hold it."""
+        """Remove the lock first: once it is closed, another process may hold it."""
         path.unlink()
         file.close()

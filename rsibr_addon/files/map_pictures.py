@@ -20,11 +20,11 @@ class Grid:
     Attributes
     ----------
     rows, columns : int
-        Of squares.
+        Numbers of squares.
     places : tuple of six (int, int)
         Row from the top and column of each face, in the order of its sheets.
     turned : int or None
-        A face that stands on its head.
+        A face that is upside down.
     """
 
     rows: int
@@ -37,18 +37,19 @@ CROSSES = (
     Grid(3, 4, ((1, 2), (1, 0), (0, 1), (2, 1), (1, 1), (1, 3))),
     Grid(4, 3, ((1, 2), (1, 0), (0, 1), (2, 1), (1, 1), (3, 1)), turned=5),
 )
-"""What lies ahead, +Z, in the middle of the cross and all around it as one sees it; the first is written."""
+"""Crosses with the face ahead, +Z, in the middle and the others around it as a viewer sees them; the first is
+written."""
 
 STRIPS = (
     Grid(1, 6, tuple((0, face) for face in range(6))),
     Grid(6, 1, tuple((face, 0) for face in range(6))),
 )
-"""The faces in their order; the first is written."""
+"""Strips of the faces in their order; the first is written."""
 
 
 @dataclass(frozen=True)
 class Layout:
-    """How a map lies in pictures.
+    """The layout of a map in pictures.
 
     Attributes
     ----------
@@ -73,12 +74,12 @@ class Layout:
         Parameters
         ----------
         path : Path
-            Of the map as a whole: NAME.exr.
+            Name of the whole map: NAME.exr.
 
         Returns
         -------
         list of Path
-            That one; or, where each sheet has a file, NAME-SHEET.exr for each.
+            `path` itself; or, where each sheet has a file, NAME-SHEET.exr for each.
         """
         if self.grids or len(self.representation.sheets) == 1:
             return [path]
@@ -90,12 +91,12 @@ class Layout:
         Parameters
         ----------
         path : Path
-            One of `paths`, as NAME-SHEET.exr; or of the map as a whole already.
+            One of `paths`, as NAME-SHEET.exr; or already the name of the whole map.
 
         Returns
         -------
         Path
-            What `paths` takes: NAME.exr.
+            The name that `paths` takes: NAME.exr.
         """
         name, _, sheet = path.stem.rpartition("-")
         is_sheet = len(self.paths(path)) > 1 and name and sheet in self.representation.sheets
@@ -113,12 +114,12 @@ def layout(name: str, **parameters: float) -> Layout:
     name : str
         One of `CUBES`, or of `core.maps.representation.REPRESENTATIONS` but the cube map.
     **parameters : float
-        Of the representation.
+        Parameters of the representation.
 
     Returns
     -------
     Layout
-        Pictures of cubes are seen by one who looks along +Y: `AHEAD`.
+        Pictures of cubes are seen by a viewer who looks along +Y: `AHEAD`.
 
     Raises
     ------
@@ -148,8 +149,7 @@ def read_map(path: Path, layout: Layout, read_picture: Callable[[Path], Array]) 
     Raises
     ------
     InputFileError
-        A file is missing, or its size does not fit the layout or the other files'; or what
-        `read_picture` raises.
+        A file is missing, or its size does not fit the layout or the other files; or as `read_picture`.
     """
     paths = layout.paths(path)
     missing = [file.name for file in paths if not file.exists()]
@@ -241,7 +241,7 @@ def _check_shape(path: Path, layout: Layout, size: tuple[int, ...]) -> None:
 
 
 def _faces(path: Path, layout: Layout, picture: Array) -> Array:
-    """The faces in a picture; their row 0 is their first from the top."""
+    """The faces in a picture; row 0 of each is its first row from the top."""
     height, width = picture.shape[:2]
     for grid in layout.grids:
         size = width // grid.columns
@@ -259,7 +259,7 @@ def _faces(path: Path, layout: Layout, picture: Array) -> Array:
 
 
 def _picture(grid: Grid, faces: Array) -> Array:
-    """A picture of faces, black where there is none."""
+    """A picture of faces, black where there is no face."""
     size = faces.shape[1]
     squares = np.zeros((grid.rows, size, grid.columns, size, 3))
     for face, (row, column) in zip(faces, grid.places, strict=True):

@@ -36,12 +36,12 @@ ATTRIBUTE = "rsibr"
 COVER = "cover"
 """Name of the first part: black, as wide and high as the largest map, and not listed.
 
-Readers that take the first part's size for that of all parts write beyond their memory where another is
-larger; Blender's own image loader is one of them.
+Some readers, Blender's image loader among them, take the first part's size for that of all parts, and would
+write beyond their memory where another is larger.
 """
 
 SMALLEST_TEXEL = 6.0 / 1032.0
-"""Bytes of a black one of half floats, as deflate packs it at best."""
+"""Bytes of a black texel of half floats, as deflate packs it at best."""
 
 DERIVED = ("size", "sha256")
 """Fields of a part that follow from its pixels."""
@@ -55,22 +55,22 @@ def write_map_set(
     Parameters
     ----------
     path : str or Path
-        By custom NAME.rsibr.exr.
+        Usually NAME.rsibr.exr.
     map_set : MapSet or MapsInTurn
     force : bool
         Whether an existing file is replaced.
     half : bool
-        Store 16-bit floats, in half the space, for each map that they can hold: see `half_holds`. The others
-        come back bit by bit.
+        Store 16-bit floats, in half the space, for each map that they can hold: see `half_holds`. All other
+        maps are read back bit by bit.
 
     Raises
     ------
     OutputFileError
-        See `written_aside`; refused before anything is computed where that is possible.
+        See `written_aside`; where possible, before anything is computed.
     MapSetError
         The header is not what the format demands.
     ShapeError
-        The maps are not those that the header lists, or one has not the shape (height, width, 3).
+        The maps are not those that the header lists, or one does not have the shape (height, width, 3).
     RangeError
         A map holds NaN or infinite values.
 
@@ -89,7 +89,7 @@ def write_map_set(
     if listed != list(map_set.shapes):
         raise ShapeError(f"{path} would hold the maps {list(map_set.shapes)}, but its header lists {listed}.")
     header = {"format": FORMAT, "kind": map_set.kind, **map_set.header}
-    # Sums are as long before they are known
+    # Unknown checksums have the same length as known ones
     header["parts"] = [
         {**part, "size": [*map_set.shapes[part["name"]][::-1]], "sha256": "0" * 64}
         for part in header["parts"]
@@ -143,7 +143,7 @@ def read_map_set(path: str | Path, kind: str | None = None) -> MapSet:
                 f"{path} holds {header['kind']}, but {kind} are needed here: give another map set."
             )
         found = {part.name: part for part in file.parts()}
-    # Most of the time goes into sums and copies, for which Python lets other threads run
+    # Most of the time goes into checksums and copies, during which Python lets other threads run
     with ThreadPoolExecutor() as threads:
         checked = threads.map(lambda part: _checked_pixels(path, part, found[part["name"]]), header["parts"])
         maps = {part["name"]: pixels for part, pixels in zip(header["parts"], checked, strict=True)}
@@ -155,7 +155,7 @@ def read_map_set(path: str | Path, kind: str | None = None) -> MapSet:
 
 
 def is_map_set(path: str | Path) -> bool:
-    """Whether a file describes itself as a map set, whatever the description is worth.
+    """Whether a file describes itself as a map set, even with a bad description.
 
     Parameters
     ----------
@@ -176,7 +176,7 @@ def is_map_set(path: str | Path) -> bool:
 
 
 def read_map_set_header(path: str | Path) -> dict[str, Any]:
-    """Read what a map set is, without its pixels.
+    """Read a map set's description, without its pixels.
 
     Parameters
     ----------
@@ -224,7 +224,7 @@ def _checked_header(path: str | Path, file: OpenExr) -> dict[str, Any]:
 
 
 def _description(file: OpenExr) -> str | None:
-    """The first part's description, as it stands."""
+    """The first part's description, unchecked."""
     text = file.headers[0].get(ATTRIBUTE) if file.headers else None
     return text if isinstance(text, str) else None
 
@@ -235,7 +235,7 @@ def _check_shape(name: str, pixels: Array) -> None:
 
 
 def _stored(name: str, pixels: Array, half: bool) -> Array:
-    """Pixels as the file holds them."""
+    """Pixels as the file stores them."""
     with np.errstate(over="ignore"):
         stored: Array = np.ascontiguousarray(pixels, dtype="<f4")
     if unusable := int(np.count_nonzero(~np.isfinite(stored))):
@@ -275,7 +275,7 @@ def _words(size: list[int] | None) -> str:
 
 @contextlib.contextmanager
 def _as_map_set_error() -> Iterator[None]:
-    """Whatever is wrong with a file that should hold a map set is a `MapSetError`."""
+    """Within, all errors of a file that should hold a map set become `MapSetError`."""
     try:
         yield
     except (InputFileError, RangeError) as error:

@@ -16,7 +16,7 @@ def check_header(header: Any, name: str) -> None:
     Parameters
     ----------
     header : object
-        What the JSON text holds.
+        The decoded JSON text.
     name : str
         The file, for messages.
 
@@ -53,7 +53,7 @@ def _check_types(header: dict[str, Any], stored: StoredKind) -> None:
 
 
 def _problems(header: dict[str, Any]) -> Iterator[str]:
-    """What does not fit together, where each thing alone is what it must be."""
+    """Contradictions between fields that are valid alone."""
     parts = {part["name"]: part for part in header["parts"]}
     if len(parts) < len(header["parts"]):
         yield "two parts have one name"

@@ -9,7 +9,7 @@ from ..core.conventions import Array
 
 @dataclass(frozen=True)
 class MapSet:
-    """Maps that belong together, and what they are.
+    """Maps that belong together, and their description.
 
     Attributes
     ----------
@@ -18,8 +18,8 @@ class MapSet:
     maps : dict of str to ndarray, shape (height, width, 3), float32
         Radiance by part name, finite, row 0 at the bottom.
     header : dict
-        The description of docs/map-set-format.md, less what follows from the rest: format, kind,
-        and each part's size and sha256. JSON values only; its "parts" are named and ordered as `maps`.
+        The description of docs/map-set-format.md, without what follows from the rest: format, kind, and each
+        part's size and sha256. JSON values only; its "parts" are named and ordered as `maps`.
     """
 
     kind: str
@@ -29,7 +29,7 @@ class MapSet:
 
 @dataclass(frozen=True)
 class MapsInTurn:
-    """A map set to be written whose maps are made meanwhile, so that not all are in memory at once.
+    """A map set whose maps are made while it is written, so that not all are in memory at once.
 
     Attributes
     ----------

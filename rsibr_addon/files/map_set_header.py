@@ -1,4 +1,4 @@
-"""What the description inside a map set file says, whatever its kind; docs/map-set-format.md in code.
+"""The description inside a map set file, of any kind; docs/map-set-format.md in code.
 
 A schema per object: see `core.schema`.
 """
@@ -24,14 +24,14 @@ ENVIRONMENT = "environment"
 """The role of the part that holds the environment, and its name."""
 
 MOST_PARTS, MOST_KERNELS = 8192, 64
-"""More than anything that is baked has, and few enough for any memory."""
+"""Limits above those of anything that is baked, and within any memory."""
 
 WIDEST = 2**17
-"""Of a map, in texels."""
+"""Width and height of the largest map, in texels."""
 
 
 def _is_unit(value: list[float]) -> bool:
-    # Unit length to what a writer may round to: six digits
+    # Unit length to six digits, to which a writer may round
     return abs(math.hypot(*value) - 1.0) < 1e-5
 
 
@@ -48,11 +48,11 @@ type Word = Annotated[
 
 
 type Model = Annotated[str, length(0, 4096)]
-"""Of reflectance, or a material, as a text."""
+"""Text of a reflectance or material."""
 
 
 type Name = Annotated[str, length(1, 255)]
-"""Of a part: what OpenEXR allows."""
+"""Name of a part, as OpenEXR allows it."""
 
 
 class _Environment(TypedDict):
@@ -160,7 +160,7 @@ def make_header(
         Width and height of the maps.
     environment : Environment
     embedded : bool
-        Whether one of `parts` is the environment, by the name `ENVIRONMENT`.
+        Whether one of `parts` is the environment, under the name `ENVIRONMENT`.
     material, parts, error_bound, settings, software
         See docs/map-set-format.md.
 
@@ -189,12 +189,12 @@ def make_header(
 
 
 def content_hash(header: dict[str, Any]) -> str:
-    """A hash that map sets share if they hold the same: a description has the hash of each part's pixels.
+    """A hash of a map set's content: equal for equal map sets, as a description has the hashes of all pixels.
 
     Parameters
     ----------
     header : dict
-        A whole description, as `files.map_set.read_map_set_header` reads it.
+        A whole description, from `files.map_set.read_map_set_header`.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""How much memory is left, and whether what is to be done fits into it."""
+"""The memory that is left, and whether work fits into it."""
 
 import math
 import os
@@ -9,31 +9,31 @@ from pathlib import Path
 from ..core.errors import RangeError
 
 ROOT = Path("/")
-"""Of the file system in which Linux tells of itself."""
+"""Root of the file system in which Linux describes itself."""
 
 
 def check_memory(
     needed: float, what: str, size: tuple[int, int], besides: float = 0.0, powers: bool = False
 ) -> None:
-    """Refuse work that this machine has not the memory for, before it begins.
+    """Refuse work for which this machine has too little memory, before it begins.
 
     Parameters
     ----------
     needed : float
         Bytes, in proportion to the number of texels.
     what : str
-        What takes them, the subject of the sentence.
+        Subject of the message: the thing that needs the memory.
     size : tuple of int
         Width and height of the picture, in texels.
     besides : float
-        Bytes that are needed whatever the size.
+        Bytes that do not depend on the size.
     powers : bool
         Whether sizes are powers of two.
 
     Raises
     ------
     RangeError
-        It does not fit; says which size does.
+        It does not fit; the message names a size that does.
     """
     left = max(0.0, memory_left() - besides)
     if needed > left:
@@ -50,8 +50,8 @@ def check_memory(
 def memory_left() -> float:
     """Bytes that this process can still take; infinite where the system does not tell.
 
-    The least of what the machine has, what its control groups leave (a container's limit, a job's) and
-    what the process's own limit does.
+    The least of what the machine has, of what its control groups leave (the limit of a container or job), and
+    of what the process's own limit leaves.
     """
     return max(0.0, min((_machine(), _address_space(), *_control_groups()), default=math.inf))
 
@@ -85,7 +85,7 @@ def _address_space() -> float:
 
 
 def _control_groups() -> Iterator[float]:
-    """What each group above this process leaves, of either version of Linux's control groups."""
+    """Memory that each control group above this process leaves, in either version of Linux's groups."""
     for line in _lines(ROOT / "proc/self/cgroup"):
         _, controllers, group = line.split(":", 2)
         if controllers == "":
@@ -100,7 +100,7 @@ def _control_groups() -> Iterator[float]:
             level = root.joinpath(*names[:depth])
             numbers = [_number(level / name) for name in (limit, used)]
             if None not in numbers:
-                # Files that the system keeps in memory go when they must
+                # The system frees memory of cached files on demand
                 kept = sum(
                     int(line.split()[1])
                     for line in _lines(level / "memory.stat")
@@ -110,7 +110,7 @@ def _control_groups() -> Iterator[float]:
 
 
 def _number(path: Path) -> int | None:
-    """A file's number; None where it is not there or says "max"."""
+    """A file's number; None where the file is missing or says "max"."""
     text = "".join(_lines(path))
     return int(text) if text.isdigit() else None
 

@@ -34,13 +34,13 @@ def read_merl(path: str | Path) -> Tabulated:
     ------
     InputFileError
         The file is missing or unreadable, states other counts than 90, 90 and 180, is shorter or longer than
-        they ask for, or holds no measurement at all.
+        these require, or holds no measurement.
 
     Warns
     -----
     RsibrWarning
-        Cells above the horizon are negative or NaN, which marks them as not measured; says how many. They
-        take the value of the nearest azimuth that was.
+        Cells above the horizon are negative or NaN, which marks them as not measured; the message counts
+        them. They take the value of the nearest measured azimuth.
     """
     samples = _read_samples(path)
     missing = ~(samples >= 0.0).all(axis=3)

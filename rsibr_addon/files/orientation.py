@@ -1,4 +1,4 @@
-"""How a photograph is to be turned to stand upright, as Exif numbers it."""
+"""The turn that makes a photograph upright, as Exif numbers it."""
 
 from dataclasses import dataclass
 
@@ -7,7 +7,7 @@ from ..core.conventions import Array
 
 @dataclass(frozen=True)
 class Orientation:
-    """What makes a stored picture stand upright: first it may be transposed, then mirrored.
+    """The change that makes a stored picture upright: it may be transposed first, then mirrored.
 
     Attributes
     ----------
@@ -22,7 +22,7 @@ class Orientation:
     flipped: bool = False
 
     def upright(self, stored: Array) -> Array:
-        """The picture as it is to be seen.
+        """The upright picture.
 
         Parameters
         ----------
@@ -38,14 +38,14 @@ class Orientation:
         return turned[:: -1 if self.flipped else 1, :: -1 if self.mirrored else 1]
 
     def upright_point(self, x: float, y: float, width: float, height: float) -> tuple[float, float]:
-        """Where a point of the stored picture is in the upright one.
+        """A point of the stored picture in the upright one.
 
         Parameters
         ----------
         x, y : float
             In pixels from the top left corner of the stored picture.
         width, height : float
-            Of the upright picture.
+            Size of the upright picture.
 
         Returns
         -------
@@ -71,4 +71,4 @@ ORIENTATIONS = {
     7: Orientation(transposed=True, mirrored=True, flipped=True),
     8: Orientation(transposed=True, flipped=True),
 }
-"""By Exif's number; 0 and what is beyond say nothing."""
+"""Orientations by Exif's number; 0 and numbers beyond say nothing."""

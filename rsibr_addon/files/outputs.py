@@ -1,4 +1,4 @@
-"""What is written appears under its names together, whole, or not at all."""
+"""Several outputs that appear together and whole, or not at all."""
 
 import contextlib
 import errno
@@ -26,9 +26,9 @@ class Output:
     path : Path
         Its final name as the user gave it; a link is followed.
     aside : Path
-        Where it is now, in a staging folder beside `target`.
+        Its present place, in a staging folder beside `target`.
     check : callable
-        Raises OutputFileError where it must not be written.
+        Raises OutputFileError if it must not be written.
     """
 
     path: Path
@@ -37,17 +37,17 @@ class Output:
 
     @property
     def target(self) -> Path:
-        """Where it goes: a link is followed."""
+        """Its final place: a link is followed."""
         return self.path.resolve()
 
     @property
     def replaced(self) -> Path:
-        """Where what had its name before is kept until all is done."""
+        """Place in which the former owner of its name is kept until all is done."""
         return self.aside.parent / REPLACED / self.target.name
 
 
 class Outputs:
-    """A context whose outputs get their names when it ends well; else they are removed."""
+    """A context whose outputs get their names when it ends without an exception; else they are removed."""
 
     def __init__(self) -> None:
         self._staging = contextlib.ExitStack()
@@ -64,7 +64,7 @@ class Outputs:
                 _appear(self._written)
 
     def folder_beside(self, path: Path) -> Path:
-        """An empty folder for what will be `path`, on the same disk.
+        """An empty folder for the future `path`, on the same disk.
 
         Raises
         ------
@@ -73,7 +73,7 @@ class Outputs:
         return self._staging.enter_context(staging_folder(path.resolve().parent))
 
     def add(self, output: Output) -> None:
-        """Note what is written, and synced."""
+        """Note an output that is written and synced."""
         self._written.append(output)
 
 
@@ -82,15 +82,15 @@ _together: ContextVar[Outputs | None] = ContextVar("together", default=None)
 
 @contextlib.contextmanager
 def together() -> Iterator[None]:
-    """Have all that the body writes appear when it ends, or when anything is raised nothing.
+    """Make all outputs of the body appear when it ends, or none when anything is raised.
 
-    The body writes by `written_aside` and `folder_written_aside`, and does not yield: what others write
-    between its steps would be taken for its own.
+    The body writes by `written_aside` and `folder_written_aside`, and does not yield: outputs that others
+    write between its steps would be taken for its own.
 
     Raises
     ------
     OutputFileError
-        An output must not be written, or the system refuses a step; then all is as it was before.
+        An output must not be written, or the system refuses a step; everything is then as before.
     """
     with Outputs() as outputs:
         token = _together.set(outputs)
@@ -101,13 +101,13 @@ def together() -> Iterator[None]:
 
 
 def outputs_now() -> contextlib.AbstractContextManager[Outputs]:
-    """The outputs that one more belongs to: those of `together`, or its own."""
+    """The outputs to which a new one belongs: those of `together`, or its own."""
     outer = _together.get()
     return Outputs() if outer is None else contextlib.nullcontext(outer)
 
 
 def not_written(path: Path, error: OSError) -> OutputFileError:
-    """What to tell when the system refuses to write `path`."""
+    """The error to raise when the system refuses to write `path`."""
     if error.errno in (errno.ENOSPC, errno.EDQUOT):
         return OutputFileError(
             f"{path} was not written because the disk is full: free some space, or write elsewhere."
@@ -134,7 +134,7 @@ def _appear(outputs: list[Output]) -> None:
 
 
 def _exchange(output: Output, alone: bool) -> None:
-    """Give an output its name, with the mode and, as far as the system lets us, the owner of what has it."""
+    """Give an output its name, with the mode and, as far as the system allows, the owner of what had it."""
     target, replaced = output.target, output.replaced
     if not target.exists():
         output.aside.rename(target)
@@ -149,7 +149,7 @@ def _exchange(output: Output, alone: bool) -> None:
             replaced.rename(target)
             raise
         return
-    if not alone:  # else there is nothing to be changed back
+    if not alone:  # else there is nothing to undo
         replaced.parent.mkdir()
         _duplicate(target, replaced)
     output.aside.replace(target)
@@ -182,7 +182,7 @@ def _duplicate(path: Path, other: Path) -> None:
 
 
 def _sync_folder(folder: Path) -> None:
-    """Have the disk hold the new names too, where the system can; the files are whole either way."""
+    """Write the new names to disk too, where the system can; the files are whole either way."""
     with contextlib.suppress(OSError):
         descriptor = os.open(folder, os.O_RDONLY)
         try:

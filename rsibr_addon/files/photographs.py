@@ -1,4 +1,4 @@
-"""Pictures that are not radiance yet, JPEG, PNG and others: the one module that knows OpenImageIO."""
+"""Pictures that are not yet radiance, JPEG, PNG and others: the one module that knows OpenImageIO."""
 
 import contextlib
 import functools
@@ -20,31 +20,31 @@ from .reading import opened
 from .unheard import unheard
 
 FORMATS = ("bmp", "gif", "jpeg", "jpeg2000", "jpegxl", "png", "psd", "sgi", "targa", "tiff", "webp")
-"""OpenImageIO's names of those that hold photographs and paintings."""
+"""OpenImageIO's names of the formats of photographs and paintings."""
 
 RAW = (".arw", ".cr2", ".cr3", ".dng", ".nef", ".nrw", ".orf", ".pef", ".raf", ".rw2", ".srw")
-"""Endings of cameras' raw files. Some are TIFF, of which the small preview would be read."""
+"""Endings of cameras' raw files. Some are TIFF files, whose small preview would be read."""
 
 DEVELOP = "develop it, and save a TIFF of 16 bits."
 
 JPEG, PNG = b"\xff\xd8", b"\x89PNG"
 
 REDUCED, SEPARATED, UNCALIBRATED = 1, 5, 65535
-"""TIFF's NewSubfileType of a preview, its PhotometricInterpretation of CMYK, and Exif's ColorSpace of what is
-not sRGB."""
+"""TIFF's NewSubfileType of a preview, its PhotometricInterpretation of CMYK, and Exif's ColorSpace of
+pictures that are not sRGB."""
 
 FURTHER = {
     b"hdrgm:": "a gain map for bright displays",
     b"urn:iso:std:iso:ts:21496": "a gain map for bright displays",
     b"MPF\0": "further pictures",
 }
-"""Marks of what a JPEG holds besides its picture, of which OpenImageIO tells nothing -> what it is."""
+"""Mark of a further content of a JPEG, which OpenImageIO does not report -> the content in words."""
 
 HEAD = 1 << 18
-"""Bytes of a file that are looked through for what OpenImageIO does not tell."""
+"""Bytes of a file that are searched for what OpenImageIO does not report."""
 
 BYTES_OF_LIGHT = 24
-"""Of memory for each pixel besides the stored one: three floats, and a copy."""
+"""Bytes of memory for each pixel besides the stored one: three floats, and a copy."""
 
 SHARE = 1 << 20
 """Pixels that are converted at a time."""
@@ -59,7 +59,7 @@ class Photograph:
     stored : ndarray, shape (height, width, 3)
         Numbers of type uint8, uint16 or float32, upright, row 0 at the bottom. Alpha is left out.
     encoding : Encoding
-        What they mean.
+        Meaning of the numbers.
     """
 
     stored: Array
@@ -71,7 +71,7 @@ class Photograph:
         Returns
         -------
         ndarray, shape (height, width, 3), float32
-            In [0, 1] if the file holds integers, else as they are.
+            In [0, 1] if the file holds integers, else unchanged.
         """
         if self.stored.dtype.kind == "f":
             return self.stored
@@ -114,7 +114,8 @@ def read_photograph(path: str | Path) -> Photograph:
     Parameters
     ----------
     path : str or Path
-        Of one of `FORMATS`, told by its bytes, not by its name. The first picture of several is read.
+        A file of one of `FORMATS`, recognised by its bytes, not by its name. The first picture of several is
+        read.
 
     Returns
     -------
@@ -130,7 +131,7 @@ def read_photograph(path: str | Path) -> Photograph:
     Warns
     -----
     RsibrWarning
-        The file says something that is not used: which.
+        A statement of the file is not used; the message names it.
     """
     with _picture(path) as (source, spec, notes), opened(path) as stream:
         head = stream.read(HEAD)
@@ -154,17 +155,17 @@ def read_photograph(path: str | Path) -> Photograph:
 
 
 def read_notes(path: str | Path) -> dict[str, Any]:
-    """Read what a file notes about its picture.
+    """Read a file's notes about its picture.
 
     Parameters
     ----------
     path : str or Path
-        Of one of `FORMATS`, or OpenEXR or Radiance HDR.
+        A file of one of `FORMATS`, or OpenEXR or Radiance HDR.
 
     Returns
     -------
     dict
-        Fields by OpenImageIO's names: those of Exif, whichever format they come in. Fractions are pairs.
+        Fields by OpenImageIO's names: those of Exif, in any format. Fractions are pairs.
 
     Raises
     ------
@@ -176,7 +177,7 @@ def read_notes(path: str | Path) -> dict[str, Any]:
 
 
 def orientation_of(path: str | Path) -> Orientation:
-    """How a file's picture is turned to stand upright; see `read_notes`."""
+    """The turn that makes a file's picture upright; see `read_notes`."""
     return _orientation(read_notes(path))
 
 
@@ -208,12 +209,12 @@ def _picture(
 
 
 def _reason(text: str) -> str:
-    """Why OpenImageIO cannot read a file, without the file's name."""
+    """OpenImageIO's reason why it cannot read a file, without the file's name."""
     return text.strip().split("\n")[0].partition(' ("')[0].rstrip(".") or "it is of no known kind"
 
 
 def _white(numbers: Array) -> float:
-    """What stands for 1 in numbers of a type."""
+    """The number of a type that stands for 1."""
     return {"uint8": 255.0, "uint16": 65535.0}.get(numbers.dtype.name, 1.0)
 
 
@@ -222,8 +223,8 @@ def _orientation(notes: dict[str, Any]) -> Orientation:
 
 
 def _encoding(path: str | Path, spec: Any, notes: dict[str, Any], head: bytes) -> Encoding:
-    """By the file's statements, the most precise first; sRGB where it says nothing of use."""
-    # PNG's cICP goes before its profile
+    """The encoding by the file's statements, the most precise first; sRGB where none is usable."""
+    # PNG's cICP precedes its profile
     if "ICCProfile" in notes and "CICP" not in notes:
         try:
             return profile_encoding(np.asarray(notes["ICCProfile"], np.uint8).tobytes())
@@ -249,7 +250,7 @@ def _encoding(path: str | Path, spec: Any, notes: dict[str, Any], head: bytes) -
 
 
 def _png_primaries(head: bytes) -> Array:
-    """To Rec. 709 from the primaries of a PNG's chunk cHRM, which OpenImageIO passes over."""
+    """To Rec. 709 from the primaries of a PNG's chunk cHRM, which OpenImageIO ignores."""
     at = head.find(b"cHRM") + 4
     if not 4 <= at <= len(head) - 32:
         return np.eye(3)
@@ -258,7 +259,7 @@ def _png_primaries(head: bytes) -> Array:
 
 
 def _tell_of_the_unused(path: str | Path, notes: dict[str, Any], head: bytes) -> None:
-    """Warn of what a file says or holds that changes its picture and is not used."""
+    """Warn of statements and contents of a file that would change its picture and are not used."""
     if "jpeg:ColorSpace" in notes or notes.get("tiff:PhotometricInterpretation") == SEPARATED:
         _warn(f"{path} is made for print (CMYK), whose profile is not used: its colours are rough.")
     if notes.get("Exif:ColorSpace") == UNCALIBRATED and "ICCProfile" not in notes:
@@ -273,7 +274,7 @@ def _warn(sentence: str) -> None:
 
 @functools.cache
 def _library() -> Any:
-    """OpenImageIO: it takes a tenth of a second to import, which pictures of radiance need not wait for."""
+    """OpenImageIO: its import takes a tenth of a second, which pictures of radiance do not need."""
     import OpenImageIO  # type: ignore[import-not-found, unused-ignore]  # checked where it is installed
 
     return OpenImageIO

@@ -1,14 +1,14 @@
-"""What a picture's header says, and what is used of it."""
+"""A picture's header, and the use that is made of it."""
 
 from dataclasses import dataclass
 
 GREY = "grey"
-"""The colours of a picture that has none."""
+"""Colours of a picture that has none."""
 
 
 @dataclass(frozen=True)
 class PictureFacts:
-    """What is known of a picture of radiance before its pixels are read.
+    """Facts about a picture of radiance before its pixels are read.
 
     Attributes
     ----------
@@ -16,17 +16,17 @@ class PictureFacts:
     size : tuple of int
         Width and height in texels.
     window : str
-        Which of them the file stores.
+        The texels that the file stores.
     channels : str
-        Those that are used.
+        The channels that are used.
     layers : tuple of str
-        All that the file has.
+        All layers of the file.
     colours : str
-        What the values are, and who says so.
+        Meaning of the values, and its source.
     exposure : str
-        What is divided out.
+        Factors that are divided out.
     remarks : tuple of str
-        What is not used of the header: predicates, whose subject is the file.
+        Parts of the header that are not used: predicates, whose subject is the file.
     """
 
     format: str

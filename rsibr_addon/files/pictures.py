@@ -50,9 +50,9 @@ def read_exr(path: str | Path) -> Array:
     ----------
     path : str or Path
         Scanlines or tiles, any compression, half or float, one part or several. Its channels are R, G and B,
-        or Y, RY and BY, or X, Y and Z of CIE, or Y alone, and perhaps A, whatever the case; without a
-        layer, or in the one that renderers take for the picture: `exr_layers.choose`. FILE.exr:LAYER
-        names another.
+        or Y, RY and BY, or X, Y and Z of CIE, or Y alone, and perhaps A, in small or capital letters; without
+        a layer, or in the one that renderers use for the picture: `exr_layers.choose`. FILE.exr:LAYER names
+        another.
 
     Returns
     -------
@@ -70,7 +70,7 @@ def read_exr(path: str | Path) -> Array:
     Warns
     -----
     RsibrWarning
-        Something that the header says is not used; says what.
+        A statement of the header is not used; the message names it.
     """
     with open_exr(split_layer(path)[0]) as file:
         return picture_of(path, file)
@@ -94,12 +94,12 @@ def picture_of(path: str | Path, file: OpenExr) -> Array:
 
 
 def split_layer(path: str | Path) -> tuple[Path, str | None]:
-    """A file, and the layer in it that is named.
+    """A file, and the named layer in it.
 
     Parameters
     ----------
     path : str or Path
-        FILE, or FILE.exr:LAYER; a file whose own name is such goes first.
+        FILE, or FILE.exr:LAYER; a file with just this name takes precedence.
 
     Returns
     -------
@@ -113,7 +113,7 @@ def split_layer(path: str | Path) -> tuple[Path, str | None]:
 
 
 def describe_exr(path: str | Path) -> PictureFacts:
-    """Tell what of an OpenEXR file is used, by its headers alone.
+    """Describe the use of an OpenEXR file from its headers alone.
 
     Parameters
     ----------
@@ -127,7 +127,7 @@ def describe_exr(path: str | Path) -> PictureFacts:
     Raises
     ------
     InputFileError
-        As `read_exr`, but for the pixels.
+        As `read_exr`, except for the pixels.
     """
     headers = read_attributes(split_layer(path)[0])
     layer, meant, remarks = _chosen(path, headers)
@@ -148,7 +148,7 @@ LAYER_OF_FILE = re.compile(r"(.+\.exr):([^:/\\]+)", re.IGNORECASE | re.DOTALL)
 
 
 def _chosen(path: str | Path, headers: list[dict[str, Any]]) -> tuple[Layer, Meaning, list[str]]:
-    """A file's picture, what that means, and what is left of the file."""
+    """A file's picture, its meaning, and the rest of the file."""
     file, wanted = split_layer(path)
     layers = layers_of(headers)
     if not layers:
@@ -182,7 +182,7 @@ def _rec709_picture(channels: dict[str, Array], meant: Meaning) -> Array:
     for number, role in enumerate(roles):
         pixels[..., number] = channels[role]
     if len(roles) >= 3 and not np.array_equal(matrix, np.eye(3)):
-        with np.errstate(over="ignore", invalid="ignore"):  # of values that are infinite already
+        with np.errstate(over="ignore", invalid="ignore"):  # from values that are already infinite
             for row in pixels:
                 row[:, :3] = row[:, :3] @ matrix.T.astype(np.float32)
     return pixels

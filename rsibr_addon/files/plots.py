@@ -29,11 +29,11 @@ class Curve:
     Attributes
     ----------
     name : str
-        For the legend.
+        Name in the legend.
     x : ndarray, shape (N,)
         Positions, ascending; in a polar plot angles from the normal, positive to the right [rad].
     y : ndarray, shape (N,)
-        Values; in a polar plot radii, and negative ones are drawn on the other side of the centre.
+        Values; in a polar plot radii, with negative ones on the other side of the centre.
     dashed : bool
     """
 
@@ -144,7 +144,7 @@ def _over(picture: Array, line: Array, color: str, width: float, dashed: bool = 
 
 
 def _polar_lines(curves: Sequence[Curve]) -> tuple[float, list[Array]]:
-    """The longest radius, which fills the plot, and where the curves lie."""
+    """The longest radius, which fills the plot, and the curves' points."""
     most = max(float(np.abs(curve.y).max()) for curve in curves)
     return most, [_CENTRE + _RADIUS / most * curve.y[:, None] * _rays(curve.x) for curve in curves]
 
@@ -188,7 +188,7 @@ def _legend(curves: Sequence[Curve], x: float, y: float) -> list[str]:
 
 
 def _title(width: float, title: str) -> str:
-    """As large as fits: a letter is about half as wide as high."""
+    """The title, as large as fits: a letter is about half as wide as high."""
     return _text(width / 2.0, 18.0, title, "middle", min(14, int(1.8 * width / max(len(title), 1))))
 
 

@@ -17,16 +17,17 @@ from .radiance_header import LONGEST, RadianceHeader, parse_header
 from .reading import opened
 
 MAGIC = b"#?"
-"""How every file of the format begins."""
+"""Beginning of every file of the format."""
 
 NEW_CODING_WIDTHS = range(8, 0x8000)
 """Widths that the newer run-length coding can state."""
 
 GREATEST_SIDE = 1 << 16
-"""Of a picture in pixels: with the older run lengths, some bytes can state more than any memory holds."""
+"""Longest side of a picture in pixels: with the older run lengths, a few bytes can state more than any memory
+holds."""
 
 BYTES_OF_TEXEL = 20
-"""Of memory for each texel: 3 floats, 4 bytes of the file, and as much again to be safe."""
+"""Bytes of memory for each texel: 3 floats, 4 bytes of the file, and a reserve."""
 
 GREATEST = 255.0 * 2.0**119
 """The greatest value that the format can state."""
@@ -56,7 +57,7 @@ def read_hdr(path: str | Path) -> Array:
     Warns
     -----
     RsibrWarning
-        A line of the header is not used, or cannot be read; says which.
+        A line of the header is not used, or cannot be read; the message quotes it.
 
     Notes
     -----
@@ -86,7 +87,7 @@ def read_hdr(path: str | Path) -> Array:
 
 
 def read_hdr_header(path: str | Path) -> RadianceHeader:
-    """Read what comes before the pixels.
+    """Read the header, up to the pixels.
 
     Parameters
     ----------
@@ -99,7 +100,7 @@ def read_hdr_header(path: str | Path) -> RadianceHeader:
     Raises
     ------
     InputFileError
-        As `read_hdr`, but for the pixels.
+        As `read_hdr`, except for the pixels.
     """
     with opened(path) as stream:
         start = stream.read(LONGEST)
@@ -130,7 +131,7 @@ def write_hdr(path: str | Path, radiance: Array, force: bool = False) -> None:
 
     Notes
     -----
-    Rounded for readers that take m and e as m 2^(e - 136), as `read_hdr` and Blender do.
+    Rounded for readers that read m and e as m 2^(e - 136), as `read_hdr` and Blender do.
     """
     if radiance.ndim != 3 or radiance.shape[2] != 3:
         raise ShapeError(f"{path} takes a picture of shape (height, width, 3), not {radiance.shape}.")
@@ -143,7 +144,7 @@ def write_hdr(path: str | Path, radiance: Array, force: bool = False) -> None:
 
 
 def _header(path: str | Path, data: bytes, length: int | None = None) -> tuple[RadianceHeader, int]:
-    """The header, and where the pixels start, for which `length` bytes, by default all, have room."""
+    """The header, and the start of the pixels, for which `length` bytes, by default all, are available."""
     if not data.startswith(MAGIC):
         raise InputFileError(f"{path} is not a Radiance picture: convert it, or give another.")
     try:
@@ -162,7 +163,7 @@ def _damaged(path: str | Path, where: str) -> InputFileError:
 
 
 def _least_bytes(length: int) -> int:
-    """Of a scanline in the coding that is shortest for one colour: digits to the base 256, or runs of 127."""
+    """Least bytes of a scanline, one of a single colour: by digits to the base 256, or by runs of 127."""
     digits = ((length - 1).bit_length() + 7) // 8
     runs = 4 + 4 * 2 * -(-length // 127)
     return min(4 + 4 * digits, runs) if length in NEW_CODING_WIDTHS else 4 + 4 * digits
@@ -171,8 +172,8 @@ def _least_bytes(length: int) -> int:
 def _decode_line(data: bytes, start: int, length: int) -> tuple[Indices, int, bool]:
     """One scanline as (length, 4) bytes, where the next one starts, and whether that is sure.
 
-    A line of flat pixels may begin as one in the newer coding does, but then states another length: such
-    a picture must end where its pixels do, or it is a damaged one.
+    A line of flat pixels may begin like one in the newer coding, but then states another length: such a
+    picture must end where its pixels do, or it is damaged.
     """
     if length in NEW_CODING_WIDTHS and data[start : start + 2] == b"\2\2" and data[start + 2] < 0x80:
         if data[start + 2] << 8 | data[start + 3] == length:
@@ -232,7 +233,7 @@ def _rgbe(radiance: Array) -> Indices:
     """
     greatest = radiance.max(axis=-1).astype(np.float64)
     exponent = np.frexp(greatest)[1]
-    # A mantissa that would be rounded up to 256 needs the next exponent.
+    # A mantissa that rounds up to 256 needs the next exponent.
     exponent += np.rint(np.ldexp(greatest, 8 - exponent)) > 255.0
     mantissas = np.rint(np.ldexp(radiance.astype(np.float64), 8 - exponent[..., None]))
     rgbe = np.concatenate([mantissas, exponent[..., None] + 128.0], axis=-1)

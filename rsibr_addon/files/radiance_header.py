@@ -1,4 +1,4 @@
-"""The header of a Radiance HDR picture: its size, and what its values mean."""
+"""The header of a Radiance HDR picture: its size, and the meaning of its values."""
 
 import re
 from dataclasses import dataclass
@@ -13,44 +13,44 @@ FIELD = re.compile(r"([A-Za-z][\w-]*)\s*=(.*)")
 """A statement; other lines are a program's command, its history (indented) or a comment."""
 
 LONGEST = 1 << 16
-"""Of a header in bytes; hundreds of editing steps leave some thousand."""
+"""Longest header in bytes; hundreds of editing steps leave some thousand."""
 
 COUNTS = {"EXPOSURE": 1, "COLORCORR": 3, "PRIMARIES": 8, "GAMMA": 1, "PIXASPECT": 1}
-"""Fields that tell what the values mean -> how many numbers each has."""
+"""Field about the meaning of the values -> its count of numbers."""
 
 IGNORED = {
     "GAMMA": "its values are taken as linear, as programs do that write so",
     "PIXASPECT": "its pixels are taken as square",
 }
-"""Fields of `COUNTS` that are not undone unless they are 1, or 0 for none -> what is done instead."""
+"""Field of `COUNTS` that is not undone unless it is 1, or 0 for none -> the remark about it."""
 
 HARMLESS = re.compile(
     "FORMAT|SOFTWARE|VIEW|CAPDATE|GMT|OWNER|COPYRIGHT|AUTHOR|DATE|TIME|COMMENT|"
     "COMMENTS|DESCRIPTION|NAME|TITLE|CREATOR|PROGRAM|VERSION|CAMERA|LENS|NCOMP|NROWS|NCOLS"
 )
-"""Fields that change nothing of what is read."""
+"""Fields that do not change the pixels' meaning."""
 
 SHOWN = 80
-"""Of a header line in messages, in letters."""
+"""Letters of a header line that messages show."""
 
 
 @dataclass(frozen=True)
 class RadianceHeader:
-    """What the text before the pixels says.
+    """The statements of the header.
 
     Attributes
     ----------
     axes : str
-        From line to line and along each, such as "-Y+X".
+        Direction from line to line and along a line, such as "-Y+X".
     line_count, line_length : int
     scale : ndarray, shape (3,)
-        What the values were multiplied by: exposures and colour corrections.
+        Factors of the values: exposures and colour corrections.
     matrix : ndarray, shape (3, 3)
         Linear Rec. 709 from the stored values, for column vectors; the scale is undone too.
     colours : str
-        What the values are, and who says so.
+        Meaning of the values, and its source.
     remarks : tuple of str
-        What is not used of it: predicates, whose subject is the file.
+        Parts of it that are not used: predicates, whose subject is the file.
     """
 
     axes: str
@@ -74,13 +74,13 @@ def parse_header(data: bytes) -> tuple[RadianceHeader, int]:
     Parameters
     ----------
     data : bytes
-        Of a file from its first byte; `LONGEST` of them will do.
+        Bytes of a file from the first; `LONGEST` are enough.
 
     Returns
     -------
     RadianceHeader
     int
-        Where the pixels start.
+        Start of the pixels.
 
     Raises
     ------
@@ -116,7 +116,7 @@ def parse_header(data: bytes) -> tuple[RadianceHeader, int]:
 
 
 def _split(data: bytes) -> tuple[list[str], re.Match[bytes], int]:
-    """The lines before the one that states the size, that, and where the next one starts.
+    """The lines before the one that states the size, that line, and the start of the next.
 
     An empty line stands before the size, which some writers leave out.
     """
@@ -132,7 +132,7 @@ def _split(data: bytes) -> tuple[list[str], re.Match[bytes], int]:
 
 
 def _stored_colours(formats: list[str]) -> tuple[tuple[float, ...], str]:
-    """Primaries of the stored values, and in words."""
+    """Primaries of the stored values, as numbers and in words."""
     primaries, colours = REC_709, "Rec. 709, as nothing else is stated"
     for value in map(str.strip, formats):
         if "xyze" in value.lower():
@@ -143,7 +143,7 @@ def _stored_colours(formats: list[str]) -> tuple[tuple[float, ...], str]:
 
 
 def _numbers(text: str, count: int) -> tuple[Array, str]:
-    """The first numbers of a text, with points or commas in them or commas between, and the rest."""
+    """The first numbers of a text, with decimal points or commas, or separated by commas; and the rest."""
     words = text.split()
     if len(words) < count:
         words = re.split(r"[\s,;]+", text)
@@ -154,7 +154,7 @@ def _numbers(text: str, count: int) -> tuple[Array, str]:
 
 
 def _factors(factors: Array) -> Array:
-    """What was multiplied in; zeros, as FreeImage writes, mean that nothing was."""
+    """Factors of the values; zeros, as FreeImage writes, mean none."""
     if not np.any(factors):
         return np.ones_like(factors)
     if not np.all(np.isfinite(factors) & (factors > 0.0)):

@@ -42,7 +42,7 @@ def read_radiance(path: str | Path) -> Array:
     Parameters
     ----------
     path : str or Path
-        OpenEXR or Radiance HDR, told by its first bytes, not by its name; FILE.exr:LAYER for a layer.
+        OpenEXR or Radiance HDR, recognised by its first bytes, not by its name; FILE.exr:LAYER for a layer.
 
     Returns
     -------
@@ -59,7 +59,7 @@ def read_radiance(path: str | Path) -> Array:
     Warns
     -----
     RsibrWarning
-        Something that the header says is not used; says what.
+        A statement of the header is not used; the message names it.
     """
     file = split_layer(path)[0]
     with opened(file) as stream:
@@ -75,7 +75,7 @@ def read_radiance(path: str | Path) -> Array:
 
 
 def describe_radiance(path: str | Path) -> PictureFacts:
-    """Tell what of a picture of radiance is used, by its header alone.
+    """Describe the use of a picture of radiance from its header alone.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def describe_radiance(path: str | Path) -> PictureFacts:
     Raises
     ------
     InputFileError
-        As `read_radiance`, but for the pixels.
+        As `read_radiance`, except for the pixels.
     """
     start = _start(path)
     if start.startswith(exr.MAGIC):

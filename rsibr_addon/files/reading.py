@@ -1,4 +1,4 @@
-"""Opening a file to read it, with sentences for what can be in the way."""
+"""Opening a file to read it, with a sentence for each obstacle."""
 
 import contextlib
 from collections.abc import Iterator
@@ -19,7 +19,7 @@ def opened(path: str | Path) -> Iterator[BinaryIO]:
     Yields
     ------
     BinaryIO
-        Its bytes, from the first.
+        The file's bytes, from the first.
 
     Raises
     ------

@@ -28,7 +28,7 @@ TYPES = {
     11: "<f8",
 }
 LARGEST = 1 << 30
-"""Bytes that a field may take; the largest of the database's RGB files has 20 MB in all."""
+"""Most bytes of a field; the largest of the database's RGB files has 20 MB in all."""
 
 FIELDS = ("phi_i", "theta_i", "sigma", "ndf", "vndf", "rgb", "jacobian")
 
@@ -56,7 +56,8 @@ def read_rgl(path: str | Path) -> MeasuredRgl:
     Warns
     -----
     RsibrWarning
-        Reflectance is negative, as for colours outside Rec. 709, and taken as 0; says how many values.
+        Reflectance is negative, as for colours outside Rec. 709, and taken as 0; the message counts the
+        values.
     """
     fields = _checked_fields(path)
     if negative := int(np.count_nonzero(fields["rgb"] < 0.0)):
@@ -66,7 +67,7 @@ def read_rgl(path: str | Path) -> MeasuredRgl:
             stacklevel=2,
         )
     try:
-        # All azimuths of an isotropic measurement are the same: the first stands for them
+        # All azimuths of an isotropic measurement are equal: the first is used
         return MeasuredRgl(
             theta_v=fields["theta_i"].ravel(),
             sigma=fields["sigma"][0],
@@ -80,7 +81,7 @@ def read_rgl(path: str | Path) -> MeasuredRgl:
 
 
 def _checked_fields(path: str | Path) -> dict[str, Array]:
-    """The `FIELDS` of an isotropic RGB measurement, float64; their values checked, but not how shapes fit."""
+    """The `FIELDS` of an isotropic RGB measurement, float64, with checked values; shapes are not checked."""
     tensors = read_tensors(path)
     if missing := [name for name in FIELDS if name not in tensors]:
         raise InputFileError(f"{path} has no field {', '.join(missing)}: give an RGB file (_rgb.bsdf).")

@@ -1,7 +1,7 @@
-"""Folders for what is being written, beside where it will be or among temporary files.
+"""Folders for unfinished outputs, beside their final place or among temporary files.
 
 Their names are short, whatever the file's. A process that is killed leaves its folder; the next one of ours
-that looks there removes what no living process holds.
+that looks there removes folders that no living process holds.
 """
 
 import contextlib
@@ -17,10 +17,11 @@ from pathlib import Path
 from .locks import LOCK, TRIES, held
 
 REPLACED = "replaced"
-"""Folder in a staging folder, for what had the final name before."""
+"""Folder in a staging folder, for the former owner of the final name."""
 
 STRANGE_SECONDS = 24 * 60 * 60.0
-"""How long is left alone what shows no lock: another machine's, on a shared disk, or an older version's."""
+"""[s] Age from which a folder without a lock is removed: another machine's, on a shared disk, or an older
+version's."""
 
 _NAME = re.compile(r"\.rsibr-([0-9a-f]{8})-[0-9a-f]{8}")
 _BLENDERS_NAME = re.compile(r"blender_\w{6}")
@@ -29,23 +30,23 @@ _own: set[Path] = set()
 
 
 def staging_name() -> str:
-    """A name that no other staging folder has, and that tells which machine it belongs to."""
+    """A unique name for a staging folder, which tells its machine."""
     return f".rsibr-{_machine()}-{os.urandom(4).hex()}"
 
 
 def is_staging_folder(path: Path) -> bool:
-    """Whether a folder has a name of ours."""
+    """Whether a folder's name is that of a staging folder."""
     return _NAME.fullmatch(path.name) is not None
 
 
 @contextlib.contextmanager
 def staging_folder(around: Path) -> Iterator[Path]:
-    """A new folder that is held by this process, and gone afterwards.
+    """A new folder that this process holds, removed afterwards.
 
     Parameters
     ----------
     around : Path
-        The folder that it is made in.
+        The folder in which it is made.
 
     Yields
     ------
@@ -71,7 +72,7 @@ def _new_folder(around: Path, stack: contextlib.ExitStack) -> Path:
     """Make a folder, held as long as `stack` is open."""
     for _ in range(TRIES):
         folder = around / staging_name()
-        # Another process may think that it is a stray before it is held
+        # Before it is held, another process may take it for a stray
         with contextlib.suppress(BlockingIOError):
             stack.enter_context(held(folder))
             return folder
@@ -90,11 +91,11 @@ def clear_strays(around: Path) -> None:
     Parameters
     ----------
     around : Path
-        The folder that they are in; one that cannot be read is left alone.
+        The folder in which they are; one that cannot be read is skipped.
 
     Notes
     -----
-    What a killed process had put away to make place for a new folder gets its name back first.
+    A folder that a killed process had moved away to replace it first gets its name back.
     """
     with contextlib.suppress(OSError):
         strays = [Path(entry) for entry in os.scandir(around) if _may_be_stray(entry)]
@@ -105,7 +106,7 @@ def clear_strays(around: Path) -> None:
 
 
 def clear_old_strays(output: Path) -> None:
-    """Remove what version 0.1.0 left beside an output when it was killed: .NAME.HEX.SUFFIX, a day old.
+    """Remove files that version 0.1.0, when killed, left beside an output: .NAME.HEX.SUFFIX, a day old.
 
     Parameters
     ----------
@@ -130,7 +131,7 @@ def _may_be_stray(entry: os.DirEntry[str]) -> bool:
 
 
 def _age(entry: os.DirEntry[str]) -> float:
-    """Seconds since a file or a folder was last written to, by the clock of the disk that it is on."""
+    """Seconds since a file or a folder was last written to, by the clock of its disk."""
     around = Path(entry).parent
     return around.stat().st_mtime - entry.stat().st_mtime
 

@@ -1,4 +1,4 @@
-"""Folders for temporary files, which go also when their process is killed, and tell of a full disk."""
+"""Folders for temporary files, which are removed even if their process is killed, and report a full disk."""
 
 import contextlib
 import os
@@ -36,7 +36,7 @@ def temporary_folder() -> Iterator[Path]:
         try:
             yield folder
         except (InputFileError, RenderError, OSError) as error:
-            # Blender does not tell when it writes half a file; who reads it then takes it for damaged
+            # Blender does not report that it wrote half a file; its reader then calls it damaged
             if _is_full(folder):
                 # A command has its own folder in the user's
                 place = next(each for each in folder.parents if not is_staging_folder(each))

@@ -1,4 +1,4 @@
-"""Silence of libraries that print: what is wrong with a file is told in one sentence, ours."""
+"""Silence for libraries that print: one sentence of ours tells what is wrong with a file."""
 
 import contextlib
 import io
@@ -11,7 +11,7 @@ _bent = threading.Lock()
 
 @contextlib.contextmanager
 def unheard() -> Iterator[None]:
-    """Within, what a library prints goes nowhere.
+    """Within, output that a library prints is dropped.
 
     OpenEXR prints to Python's stdout, where a command's result belongs, and a line for every damaged chunk
     to the process's stderr; so does libpng. One thread at a time may bend those.

@@ -1,4 +1,4 @@
-"""A folder for finished parts of long work, so that it can go on after an interruption."""
+"""A folder for finished parts of long work, so that work can continue after an interruption."""
 
 import contextlib
 import hashlib
@@ -30,22 +30,22 @@ def work_folder_beside(output: Path) -> Path:
 
 @contextlib.contextmanager
 def work_folder(path: Path, work: dict[str, Any]) -> Iterator[Path]:
-    """Keep parts of `work` in a folder of its own until all is done.
+    """Keep parts of `work` in its own folder until all is done.
 
     Parameters
     ----------
     path : Path
-        Made if it is not there; removed after the body, but kept when the body raises and has left
-        something there.
+        Made if it does not exist. It is removed after the body, unless the body raises and has left files in
+        it.
     work : dict
-        JSON values that say what is done. What the folder holds of the same work stays; what it holds of
-        other work is removed before the body.
+        JSON values that identify the work. Parts of the same work are kept; parts of other work are removed
+        before the body.
 
     Yields
     ------
     Path
-        `path`, for the body's files. No other process can have it at the same time, also after this
-        one was killed.
+        `path`, for the body's files. No other process can hold it at the same time, even after this one was
+        killed.
 
     Raises
     ------
@@ -71,7 +71,7 @@ def work_folder(path: Path, work: dict[str, Any]) -> Iterator[Path]:
 
 
 def clear_work_folder(path: Path) -> None:
-    """Remove what a process that was killed has left of work that it had just finished.
+    """Remove the folder that a killed process left of work that it had just finished.
 
     Parameters
     ----------

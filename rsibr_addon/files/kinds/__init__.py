@@ -1,1 +1,1 @@
-"""What a map set of each kind holds, read from its file: a module for each kind."""
+"""The content of each kind of map set, read from its file: a module for each kind."""

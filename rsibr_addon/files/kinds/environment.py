@@ -1,4 +1,4 @@
-"""Pictures of an environment, taken as map sets of kind `environment`."""
+"""Pictures of an environment, read as map sets of kind `environment`."""
 
 from contextlib import suppress
 from pathlib import Path
@@ -16,7 +16,7 @@ KIND = "environment"
 
 
 def is_environment(path: Path) -> bool:
-    """Whether a file is a picture of radiance, and no map set.
+    """Whether a file is a picture of radiance and not a map set.
 
     Parameters
     ----------
@@ -25,7 +25,7 @@ def is_environment(path: Path) -> bool:
     Returns
     -------
     bool
-        False also where it cannot be read: reading it as a map set tells why.
+        False also where it cannot be read; reading it as a map set then tells why.
     """
     with suppress(InputFileError):
         return holds_radiance(path) and not is_map_set(split_layer(path)[0])
@@ -44,7 +44,7 @@ def read_as_map_set(path: Path, clamp: float | None = None) -> MapSet:
     Returns
     -------
     MapSet
-        It has no parts but the environment, and no material.
+        It has the environment as its only part, and no material.
 
     Raises
     ------
@@ -73,7 +73,7 @@ def from_map_set(path: Path, map_set: MapSet) -> Environment:
     Raises
     ------
     MapSetError
-        The file does not hold it.
+        The file does not hold its environment.
     """
     described = map_set.header["environment"]
     if described["part"] is None:

@@ -31,7 +31,7 @@ def to_map_set(baked: BakedBank, environment: Environment, settings: dict[str, A
     ----------
     baked : BakedBank
     environment : Environment
-        What it was made of; embedded.
+        Its environment; embedded.
     settings, software
         See docs/map-set-format.md.
 
@@ -88,8 +88,8 @@ def from_map_set(path: Path, map_set: MapSet) -> FilteredBank:
     Raises
     ------
     MapSetError
-        Its layout is none of a kernel bank's, it has no kernels or two alike, or a map is not as large as the
-        header says.
+        Its layout is not a kernel bank's, it has no kernels or two equal ones, or a map does not have the
+        header's size.
     """
     parts = [part for part in map_set.header["parts"] if part["role"] == "prefiltered"]
     parts.sort(key=lambda part: part["concentration"])

@@ -25,13 +25,13 @@ from .sheets import sheets_from_strip, strip_from_sheets
 KIND = "lobe_stack"
 
 MOST_LOBES, MOST_ELEVATIONS, MOST_TAPS = 1024, 1024, 64
-"""More than anything that is baked has, and few enough for any memory."""
+"""Limits above those of anything that is baked, and within any memory."""
 
 PROFILES = "profiles"
-"""What the material says of its lobes' shapes, for information."""
+"""Field of the material with the lobes' shapes, for information."""
 
 _DIGITS = 6
-"""Of a profile's weights, significant."""
+"""Significant digits of a profile's weights."""
 
 
 class _Material(TypedDict):
@@ -76,7 +76,7 @@ def to_map_set(
     ----------
     stack : LobeStack
     environment : Environment
-        What it was made of; embedded.
+        Its environment; embedded.
     material, error_bound, settings, software
         See docs/map-set-format.md.
 
@@ -102,13 +102,13 @@ def to_map_set(
 def in_turn(
     baked: BakedStack, environment: Environment, settings: dict[str, Any], software: str
 ) -> MapsInTurn:
-    """A baked stack as a map set is to hold it, its maps summed one after another.
+    """A baked stack as a map set holds it, with its maps summed one after another.
 
     Parameters
     ----------
     baked : BakedStack
     environment : Environment
-        What it was made of; embedded.
+        Its environment; embedded.
     settings, software
         See docs/map-set-format.md.
 
@@ -135,7 +135,7 @@ def in_turn(
 
 
 def _parts(lobes: Fit | LobeStack, map_count: int) -> list[dict[str, Any]]:
-    """What the header lists, of so many maps for each lobe."""
+    """The header's parts, for a number of maps of each lobe."""
     parts: list[dict[str, Any]] = [{"name": ENVIRONMENT, "role": ENVIRONMENT}]
     for lobe in range(len(lobes.scale)):
         elevations = [_elevation(lobes, lobe, number) for number in range(len(lobes.mu))]
@@ -151,7 +151,7 @@ def _maps(environment: Environment, sheets: Iterable[Array]) -> Iterable[Array]:
 
 
 def profiles(fit: Fit) -> dict[str, Any]:
-    """The shapes of a fit's lobes, as a map set's material has them under `PROFILES`."""
+    """The shapes of a fit's lobes, for a map set's material under `PROFILES`."""
     used = np.flatnonzero(np.any(fit.weights, axis=(0, 1, 3)))
     rounded = np.vectorize(lambda value: float(f"{value:.{_DIGITS}g}"))
     return {
@@ -173,12 +173,12 @@ def fit_of(path: Path, header: dict[str, Any]) -> Fit | None:
     Returns
     -------
     Fit or None
-        Its profiles to 6 digits; None where the file does not tell them.
+        With profiles to 6 digits; None where the file does not state them.
 
     Raises
     ------
     MapSetError
-        They are not those of the lobes that it holds.
+        The profiles do not fit the file's lobes.
     """
     material = header["material"]
     if PROFILES not in material:
@@ -218,8 +218,8 @@ def from_map_set(path: Path, map_set: MapSet) -> LobeStack:
     Raises
     ------
     MapSetError
-        Its layout is none of a lobe stack's, its lobes are not numbered from 0 or have not the same
-        elevations and numbers of maps and taps, or a map is not as large as the header says.
+        Its layout is not a lobe stack's, its lobes are not numbered from 0 or do not have the same elevations
+        and numbers of maps and taps, or a map does not have the header's size.
     """
     lobes = _parts_by_lobe(path, map_set)
     tables = _tables(lobes)
@@ -298,7 +298,7 @@ def _elevation(lobes: Fit | LobeStack, lobe: int, number: int) -> dict[str, Any]
 def _array(
     tables: list[list[dict[str, Any]]], value: Callable[[dict[str, Any]], Any], axes: int = 3
 ) -> Array:
-    """One value of every elevation of every lobe."""
+    """A value of every elevation of every lobe."""
     return array([[value(elevation) for elevation in table] for table in tables], axes, "elevations")
 
 

@@ -37,7 +37,7 @@ def to_map_set(
     ----------
     chain : MipChain
     environment : Environment
-        What it was made of; embedded.
+        Its environment; embedded.
     material, error_bound, settings, software
         See docs/map-set-format.md.
 
@@ -83,8 +83,8 @@ def from_map_set(path: Path, map_set: MapSet) -> MipChain:
     Raises
     ------
     MapSetError
-        It is not laid out as cubes, its mips are not numbered from 0 or not each half the one before, the
-        nine coefficients are missing, or some mips state a roughness and others none.
+        It is not laid out as cubes, its mips are not numbered from 0 or do not halve in size, the nine
+        coefficients are missing, or only some mips state a roughness.
     """
     layout = map_set.header["layout"]
     if layout != "cube_map":
@@ -114,7 +114,7 @@ def _strip(faces: Array) -> Array:
 
 
 def _faces(strip: Array) -> Array:
-    """The inverse of `_strip`; a picture that is no strip keeps a shape that `MipChain` refuses."""
+    """The inverse of `_strip`; a picture that is not a strip keeps a shape that `MipChain` refuses."""
     height, width = strip.shape[:2]
     if height != 6 * width:
         return strip

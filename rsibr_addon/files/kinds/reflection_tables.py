@@ -38,7 +38,7 @@ def to_map_set(
     ----------
     tables : ReflectionTables
     environment : Environment
-        What they were made of; embedded.
+        Their environment; embedded.
     material, error_bound, settings, software
         See docs/map-set-format.md.
 
@@ -94,7 +94,7 @@ def from_map_set(path: Path, map_set: MapSet) -> ReflectionTables:
         raise MapSetError(f"{path} holds tables laid out as {layout}, not as equirect: make it again.")
     parts = {part["role"]: part for part in map_set.header["parts"]}
     there = {role: parts[role] for role in Role if role in parts}
-    # Whatever is not known here does no harm, but two of what is would hide one another.
+    # Unknown roles do no harm, but of two parts with one known role, one would hide the other.
     if (
         sum(part["role"] in there or part["role"] == WEIGHTS for part in map_set.header["parts"])
         != len(there) + 1

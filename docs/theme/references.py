@@ -18,28 +18,22 @@ def setup(app: Sphinx) -> dict[str, Any]:
     entries = {key: dict(FIELD.findall(fields)) for key, fields in ENTRY.findall(text)}
     lines = [f"({key.lower()})=\n**{key}** {_told(entry)}\n" for key, entry in entries.items()]
     (Path(app.srcdir) / "references.md").write_text("\n".join(["# References\n", *lines]), encoding="utf-8")
-    links = "".join(f"\n[{key}]: #{key.lower()}" for key in entries)
+    citation = re.compile(rf"\[({'|'.join(entries)})\]")
 
-    def read(app: Sphinx, name: str, source: list[str]) -> None:
-        source[0] += f"\n{links}\n"
+    def link(app: Sphinx, name: str, source: list[str]) -> None:
+        source[0] = citation.sub(lambda found: rf"[\[{found[1]}\]](#{found[1].lower()})", source[0])
 
-    app.connect("source-read", read)
+    app.connect("source-read", link)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
 
 def _told(entry: dict[str, str]) -> str:
     """An entry in words, with a link to where it is published."""
-    authors = [" ".join(reversed(name.split(", "))) for name in entry["author"].split(" and ")]
-    places = [entry[place] for place in PLACES if place in entry]
-    numbers = (
-        [entry["volume"] + (f" ({entry['number']})" if "number" in entry else "")]
-        if "volume" in entry
-        else []
-    )
-    pages = [f"pages {entry['pages']}"] if "pages" in entry else []
-    told = (
-        f"{', '.join(authors)}: *{entry['title']}*. {', '.join([*places, *numbers, *pages, entry['year']])}."
-    )
+    authors = ", ".join(" ".join(reversed(name.split(", "))) for name in entry["author"].split(" and "))
+    volume = entry.get("volume", "") + (f" ({entry['number']})" if "number" in entry else "")
+    pages = f"pages {entry['pages']}" if "pages" in entry else ""
+    places = (*(entry.get(place, "") for place in PLACES), volume.strip(), pages, entry["year"])
+    told = f"{authors}: *{entry['title']}*. {', '.join(filter(None, places))}."
     for written, meant in (("{", ""), ("}", ""), ("``", "“"), ("''", "”"), ("--", "–"), ("\\&", "&")):
         told = told.replace(written, meant)
     address = f"https://doi.org/{entry['doi']}" if "doi" in entry else entry.get("url")

@@ -6,6 +6,7 @@ it in time, removes its temporary files and tells what happened.
 
 import contextlib
 import ctypes
+import math
 import os
 import signal
 import sys
@@ -20,9 +21,6 @@ from . import endings
 
 PATIENCE_SECONDS = 0.6
 """Until a process that was asked to end is killed: a little longer than it takes itself."""
-
-BLENDER_ADDRESSES = 1.6e9
-"""Bytes of addresses that Blender takes before any work, most of which it never uses."""
 
 PR_SET_PDEATHSIG = 1
 """Of Linux's prctl: a signal for this process when its parent ends."""
@@ -115,9 +113,9 @@ def _crash(number: int) -> str:
     if number == signal.SIGKILL:
         return f"The system ended the process ({name}), as it does when memory is short: ask for less."
     limit = address_limit()
-    if limit < BLENDER_ADDRESSES:
+    if limit < math.inf:
         return (
-            f"Blender crashed ({name}), as it needs {BLENDER_ADDRESSES / 1e9:.1f} GB of addresses, and the "
-            f"limit is {limit / 1e9:.1f} GB: raise it (ulimit -v)."
+            f"Blender crashed ({name}), as it does where addresses are short: raise their limit of "
+            f"{limit / 1e9:.1f} GB (ulimit -v); --verbose shows what it said."
         )
     return f"Blender crashed ({name}): --verbose shows what it said."

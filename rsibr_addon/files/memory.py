@@ -33,12 +33,18 @@ def check_memory(
     Raises
     ------
     RangeError
-        It does not fit; the message names a size that does.
+        It does not fit; the message names a size that does, if there is one.
     """
-    left = max(0.0, memory_left() - besides)
+    whole = memory_left()
+    left = whole - besides
+    if left <= needed / (size[0] * size[1]):
+        raise RangeError(
+            f"{what} takes {besides / 1e9:.1f} GB of memory at any size, and {whole / 1e9:.1f} GB are left: "
+            f"close other programs, or raise the limit."
+        )
     if needed > left:
         scale = math.sqrt(left / needed)
-        if powers and scale > 0.0:
+        if powers:
             scale = 2.0 ** math.floor(math.log2(scale))
         fitting = "x".join(str(max(1, math.floor(side * scale))) for side in size)
         raise RangeError(

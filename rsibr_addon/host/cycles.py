@@ -22,8 +22,8 @@ WHOLLY = 0.999
 ROUNDING = 1e-5
 """Share of a sum of float32 radiance that may be rounding: a metal's diffuse part is nothing else."""
 
-BYTES_BESIDES = 5e8
-"""Memory that Cycles takes whatever it renders, most of it addresses that are never used."""
+BYTES_BESIDES = 2e8
+"""Memory that Cycles takes whatever it renders."""
 
 PASSES = ("use_pass_glossy_direct", "use_pass_glossy_color")
 
@@ -90,13 +90,12 @@ class RenderedView:
         return np.concatenate([self.diffuse + self.glossy, self.coverage[..., None]], axis=-1)
 
 
-def bytes_needed(size: int, denoised: bool) -> float:
-    """Memory that it takes to render a view.
+def bytes_needed(texels: int, denoised: bool) -> float:
+    """Memory that it takes to render a view, or a map of what is around a point.
 
     Parameters
     ----------
-    size : int
-        Width and height in pixels.
+    texels : int
     denoised : bool
 
     Returns
@@ -104,7 +103,7 @@ def bytes_needed(size: int, denoised: bool) -> float:
     float
         Measured; what does not depend on the size, `BYTES_BESIDES`, left out.
     """
-    return (1500.0 if denoised else 400.0) * size**2
+    return (1500.0 if denoised else 400.0) * texels
 
 
 def render_view(scene: bpy.types.Scene, settings: RenderSettings) -> RenderedView:

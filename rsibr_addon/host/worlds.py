@@ -20,6 +20,9 @@ LARGEST_IMPORTANCE_MAP = 8192
 LIGHT_OF_TEXEL = 90.0
 """Bytes of memory for each texel of an environment that lights a scene, in Blender and in Cycles."""
 
+WORLD_OF_TEXEL = 100.0
+"""Bytes of memory for each texel that a world is sampled at."""
+
 FEWEST_WORLD_SAMPLES, MOST_WORLD_SAMPLES = 16, 1024
 WORLD_ERROR = 0.01
 """Texels of a world take more samples until their relative error is this: a sun has an edge."""

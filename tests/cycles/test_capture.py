@@ -197,7 +197,7 @@ def test_a_capture_killed_after_it_named_its_output_needs_no_force(
 def test_a_size_that_memory_does_not_hold_is_refused_before_any_view(
     denoise: bool, job: CaptureJob, partial: Path, rendered: list[int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    left = BYTES_BESIDES + LIGHT_OF_TEXEL * 16 * 32 + bytes_needed(100, denoise)
+    left = BYTES_BESIDES + LIGHT_OF_TEXEL * 16 * 32 + bytes_needed(100**2, denoise)
     monkeypatch.setattr(memory, "memory_left", lambda: left)
     with pytest.raises(RangeError, match=r" at 200x200, .*: shrink it to (100x100|99x99) at most"):
         drain(capture(replace(job, size=200, denoise=denoise)))

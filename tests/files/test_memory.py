@@ -85,7 +85,14 @@ class TestLinux:
         assert 0.0 < left < 2**32
 
 
-@pytest.mark.parametrize("left", [1e9, 0.9e9, 1e6, 1.0])
+@pytest.mark.parametrize("left", [0.0, 1e9, 1e9 + 1.0])
+def test_what_fits_at_no_size_says_so(left: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(memory, "memory_left", lambda: left)
+    with pytest.raises(RangeError, match=r"^out.exr takes 1\.0 GB of memory at any size, .* close other"):
+        memory.check_memory(3e9, "out.exr", (1000, 1000), besides=1e9)
+
+
+@pytest.mark.parametrize("left", [1e9, 0.9e9, 1e6, 3e3])
 def test_sizes_that_are_powers_of_two_are_offered_where_no_others_will_do(
     left: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -94,5 +101,4 @@ def test_sizes_that_are_powers_of_two_are_offered_where_no_others_will_do(
         memory.check_memory(3e9, "out.exr", (1024, 1024), powers=True)
     size = int(str(caught.value).split("shrink it to ")[1].split("x")[0])
     assert math.log2(size) % 1.0 == 0.0
-    # It is the largest that fits, or a single texel
-    assert size == 1 or 3e9 * (size / 1024) ** 2 <= left < 3e9 * (2 * size / 1024) ** 2
+    assert 3e9 * (size / 1024) ** 2 <= left < 3e9 * (2 * size / 1024) ** 2

@@ -15,8 +15,9 @@ from ...core.maps import equirect
 from ...core.maps.representation import representation
 from ...core.progress import Progress, Steps
 from ...core.resample import resample
+from ...files.memory import check_memory
 from ...files.radiance_pictures import check_radiance_target, write_radiance
-from ...host.cycles import LARGEST_SAMPLES, LARGEST_SEED
+from ...host.cycles import BYTES_BESIDES, LARGEST_SAMPLES, LARGEST_SEED, bytes_needed
 from ...host.denoising import denoise
 from ...host.lamps import lamps_around, measure_lamps
 from ...host.surroundings import (
@@ -123,7 +124,7 @@ def illuminate_from_scene(light: SceneLight, output: Path, force: bool = False) 
     SceneError
         There is no such scene or object, or nothing around it.
     OutputFileError, RangeError
-        See `write_radiance`.
+        See `write_radiance` and `check_memory`.
     RenderError
         Cycles did not deliver.
 
@@ -138,6 +139,8 @@ def illuminate_from_scene(light: SceneLight, output: Path, force: bool = False) 
     measures what arrives from them instead; it is added to the texels that hold them.
     """
     check_radiance_target(output, force)
+    size = (light.size, light.size // 2)
+    check_memory(bytes_needed(size[0] * size[1], light.denoise), str(output), size, BYTES_BESIDES)
     parts = _parts(light)
     total = len(parts) + 1
     yield Progress(0, total, "measuring lamps")

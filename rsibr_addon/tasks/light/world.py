@@ -4,9 +4,11 @@ from pathlib import Path
 
 from ...core.maps.representation import representation
 from ...core.progress import Progress, Steps
+from ...files.memory import check_memory
 from ...files.radiance_pictures import check_radiance_target, write_radiance
+from ...host.cycles import BYTES_BESIDES
 from ...host.scenes import find_scene
-from ...host.worlds import sample_world, world_of
+from ...host.worlds import WORLD_OF_TEXEL, sample_world, world_of
 
 
 def illuminate_from_world(
@@ -43,7 +45,7 @@ def illuminate_from_world(
     InputFileError, RenderError
         See `sample_world`.
     OutputFileError, RangeError
-        See `write_radiance`; `size` is odd.
+        See `write_radiance` and `check_memory`; `size` is odd.
 
     Warns
     -----
@@ -52,6 +54,7 @@ def illuminate_from_world(
     """
     check_radiance_target(output, force)
     _, height, _ = representation("equirect").shape(size)
+    check_memory(WORLD_OF_TEXEL * size * height, str(output), (size, height), BYTES_BESIDES)
     world = world_of(find_scene(scene))
     yield Progress(0, 1, f"sampling world {world.name}")
     write_radiance(output, sample_world(world, height, clamp).radiance, force)

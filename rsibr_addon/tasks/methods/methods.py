@@ -138,7 +138,7 @@ class Views:
         albedo = 4.0
         return Cost(
             BLENDER_SECONDS + albedo + rendering,
-            BLENDER_MEMORY + cycles.bytes_needed(self.size, self.denoise) + light,
+            BLENDER_MEMORY + cycles.bytes_needed(self.size**2, self.denoise) + light,
             STORED * (maps + ENVIRONMENT_TEXELS * RGB),
         )
 

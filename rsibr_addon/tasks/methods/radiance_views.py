@@ -90,12 +90,7 @@ def capture(job: CaptureJob) -> Steps[Path]:
         clear_work_folder(work_folder_beside(output))
         return output
     check_target(output, job.force)
-    check_memory(
-        bytes_needed(job.size, job.denoise),
-        str(output),
-        (job.size, job.size),
-        BYTES_BESIDES + LIGHT_OF_TEXEL * subject.environment.radiance[..., 0].size,
-    )
+    subject.check_memory(output)
     with work_folder(work_folder_beside(output), subject.identity) as folder:
         paths = [folder / f"view{view:03d}.exr" for view in range(job.views)]
         for view, path in enumerate(paths):
@@ -136,6 +131,13 @@ class _Subject:
             "material": self.fingerprint,
             "software": software(),
         }
+
+    def check_memory(self, output: Path) -> None:
+        height, width = self.environment.radiance.shape[:2]
+        light, size = LIGHT_OF_TEXEL * height * width, self.job.size
+        check_memory(light, self.environment.name, (width, height), BYTES_BESIDES)
+        view = bytes_needed(size**2, self.job.denoise)
+        check_memory(view, str(output), (size, size), BYTES_BESIDES + light)
 
     def is_in(self, path: Path) -> bool:
         """Whether a map set is a capture of this, with the same settings."""

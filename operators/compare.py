@@ -4,7 +4,8 @@ import bpy
 
 from ..rsibr_addon.core.errors import RsibrError
 from ..rsibr_addon.host.map_sets import written_path
-from ..rsibr_addon.tasks.queue.bake_request import check_comparable, comparison_of
+from ..rsibr_addon.tasks.compare.compare import truth_of
+from ..rsibr_addon.tasks.queue.bake_request import comparison_of
 from . import background
 from .reporting import reporting
 
@@ -21,7 +22,7 @@ class RSIBR_OT_compare(bpy.types.Operator):
         if context.object is None or not context.object.rsibr.map_set:
             return False
         try:
-            check_comparable(written_path(context.object.rsibr))
+            truth_of(written_path(context.object.rsibr))
         except RsibrError as error:
             cls.poll_message_set(str(error))
             return False

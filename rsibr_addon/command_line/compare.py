@@ -1,26 +1,13 @@
 """Measure how far previews are from what Cycles renders, or from a BRDF's exact reflection."""
 
 import argparse
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from . import options
 from .report import Report
 
-if TYPE_CHECKING:
-    from ..tasks.compare.comparison import Comparison
-
 MODES = ["paper", "texel", "fragment"]
 WARPS = ["single", "split", "albedo"]
-OWNERS = {
-    "samples": "radiance_views",
-    "modes": "radiance_views",
-    "warpings": "radiance_views",
-    "captured_views": "radiance_views",
-    "material": "radiance_views",
-    "rings": "lobe_stack",
-    "brdf": "lobe_stack",
-}
-"""Name of an option's value -> the kind of map sets that has it."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -98,61 +85,30 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     Raises
     ------
     RsibrError
-        See `tasks.compare.views` and `tasks.compare.stack`.
+        See `tasks.compare.compare`.
     """
-    from ..core.errors import RangeError
-    from ..files.map_set import read_map_set_header
+    from dataclasses import fields
 
-    kind = read_map_set_header(arguments.map_set)["kind"]
-    for name, owner in OWNERS.items():
-        if name in vars(arguments) and owner != kind:
-            raise RangeError(f"The option for {name} is for {owner}, but this map set holds {kind}: omit it.")
-    scene = {
-        "views": arguments.views,
-        "seed": arguments.seed,
-        "mesh": arguments.mesh,
-        "field_of_view": options.radians_or_none(arguments.perspective),
-        "size": arguments.size,
+    from ..core.errors import RangeError
+    from ..core.schema import decode
+    from ..tasks.compare.compare import compare, truth_of
+    from ..tasks.methods.kinds import KINDS
+
+    truth = truth_of(arguments.map_set)
+    owners = {
+        each.name: kind for kind, row in KINDS.items() if row.truth for each in fields(row.truth.settings)
     }
-    compared = _compare_stack if kind == "lobe_stack" else _compare_views
-    comparison, table = compared(arguments, scene, report)
+    given = {name: value for name, value in vars(arguments).items() if name in owners}
+    for name in given:
+        if name not in truth.settings.__dataclass_fields__:
+            raise RangeError(
+                f"The option for {name} is for {owners[name]}, which this map set is not: omit it."
+            )
+    field_of_view = options.radians_or_none(arguments.perspective)
+    settings = decode(truth.settings, given | {"field_of_view": field_of_view})
+    comparison = report.steps(compare(arguments.map_set, settings, arguments.output, arguments.force))
     page = arguments.output / "index.html"
     report.say("Relative RMSE over all views:")
-    report.say(table)
+    report.say(truth.table([comparison]))
     report.say(f"{page}")
     return {"page": str(page), "comparison": comparison.to_json()}
-
-
-def _compare_views(
-    arguments: argparse.Namespace, scene: dict[str, Any], report: Report
-) -> tuple["Comparison", str]:
-    from ..core.kinds.radiance_views.shading import Mode, Warping
-    from ..tasks.compare.comparison import ComparisonSettings, comparison_table
-    from ..tasks.compare.views import compare
-
-    given = vars(arguments)
-    settings = ComparisonSettings(
-        **scene,
-        samples=given.get("samples", 64),
-        modes=tuple(Mode(mode) for mode in given.get("modes", MODES)),
-        warpings=tuple(Warping(warping) for warping in given.get("warpings", WARPS)),
-        captured_views=tuple(given.get("captured_views", ())),
-    )
-    comparison = report.steps(
-        compare(arguments.map_set, settings, arguments.output, arguments.force, given.get("material"))
-    )
-    return comparison, comparison_table([comparison])
-
-
-def _compare_stack(
-    arguments: argparse.Namespace, scene: dict[str, Any], report: Report
-) -> tuple["Comparison", str]:
-    from ..tasks.compare.comparison import StackComparisonSettings, stack_table
-    from ..tasks.compare.stack import compare_stack
-
-    given = vars(arguments)
-    settings = StackComparisonSettings(**scene, rings=given.get("rings"))
-    comparison = report.steps(
-        compare_stack(arguments.map_set, settings, arguments.output, arguments.force, given.get("brdf"))
-    )
-    return comparison, stack_table([comparison])

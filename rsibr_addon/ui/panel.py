@@ -3,6 +3,7 @@
 import bpy
 
 from ..host.world_light import world_light
+from ..tasks.methods.kinds import KINDS
 from ..tasks.viewport.previews import previews
 from .sentences import tell
 
@@ -45,8 +46,8 @@ class RSIBR_PT_preview(bpy.types.Panel):
         if kind is None:
             return
         layout.label(text=kind.replace("_", " ").capitalize())
-        if kind == "kernel_bank":
-            layout.menu("RSIBR_MT_live_models", text="Choose...", icon="MATERIAL")
+        if KINDS[kind].menu:
+            layout.menu(KINDS[kind].menu, text="Choose...", icon="MATERIAL")
         _show_look(layout, getattr(item.rsibr, kind, None))
         view = context.window_manager.rsibr_view
         row = layout.row(heading="Split")

@@ -7,7 +7,7 @@ import bpy
 from ..core.errors import RsibrError
 from ..host.map_sets import written_path
 from ..tasks.compare.measured_error import measured_facts
-from ..tasks.report.facts import is_picture, map_set_facts, map_set_fit
+from ..tasks.report.facts import is_picture, map_set_facts, map_set_fit, map_set_header
 from .map_pictures import map_pictures
 from .map_set_file import draw_file, draw_remedies
 from .sentences import tell
@@ -40,7 +40,7 @@ class RSIBR_PT_result(bpy.types.Panel):
         try:
             path = written_path(item.rsibr)
             facts = map_set_facts(path)
-            measured = measured_facts(path, item.rsibr.radiance_views)
+            measured = measured_facts(path, getattr(item.rsibr, map_set_header(path)["kind"], None))
         except RsibrError as error:
             tell(layout, str(error), context.region.width)
             draw_remedies(layout)

@@ -1,6 +1,7 @@
 """A map set is data: what it names is not opened because it says so."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -20,9 +21,9 @@ from rsibr.rsibr_addon.files.map_set import read_map_set, write_map_set
 from rsibr.rsibr_addon.files.map_set_data import MapSet
 from rsibr.rsibr_addon.host import materials
 from rsibr.rsibr_addon.job import BakeJob
-from rsibr.rsibr_addon.tasks.compare.comparison import ComparisonSettings, StackComparisonSettings
-from rsibr.rsibr_addon.tasks.compare.stack import compare_stack
-from rsibr.rsibr_addon.tasks.compare.views import compare
+from rsibr.rsibr_addon.tasks.compare.compare import compare
+from rsibr.rsibr_addon.tasks.compare.lobe_stack import StackComparison
+from rsibr.rsibr_addon.tasks.compare.radiance_views import ViewsComparison
 from rsibr.rsibr_addon.tasks.queue.bake_request import comparison_of
 from rsibr.rsibr_addon.tasks.reflectance.brdfs import check_told_brdf, told_brdf
 from rsibr.rsibr_addon.tasks.report.page import map_set_page
@@ -102,12 +103,12 @@ def test_the_report_plots_the_model_that_is_named(tmp_path: Path) -> None:
 
 @needs_gl
 def test_stacks_are_compared_with_files_that_are_named(tmp_path: Path) -> None:
-    path, settings = write_stack(tmp_path / "a.rsibr.exr", ELSEWHERE[0]), StackComparisonSettings(1, size=8)
+    path, settings = write_stack(tmp_path / "a.rsibr.exr", ELSEWHERE[0]), StackComparison(1, size=8)
     with pytest.raises(InputFileError, match=r"its model is in /etc/passwd, .* with --brdf"):
-        drain(compare_stack(path, settings, tmp_path / "out"))
+        drain(compare(path, settings, tmp_path / "out"))
     with pytest.raises(AssertionError, match="/etc/passwd is opened"):
-        drain(compare_stack(path, settings, tmp_path / "out", brdf=ELSEWHERE[0]))
-    found = drain(compare_stack(path, settings, tmp_path / "out", brdf="lambert:kd=0.5"))
+        drain(compare(path, replace(settings, brdf=ELSEWHERE[0]), tmp_path / "out"))
+    found = drain(compare(path, replace(settings, brdf="lambert:kd=0.5"), tmp_path / "out"))
     assert found.material == "lambert:kd=0.5"
 
 
@@ -117,11 +118,11 @@ def test_views_are_compared_with_files_that_are_named(tmp_path: Path) -> None:
     path, spec = tmp_path / "a.rsibr.exr", "/art/evil.blend:Evil"
     header = flat.header | {"material": flat.header["material"] | {"spec": spec}}
     write_map_set(path, MapSet(flat.kind, flat.maps, header))
-    settings = ComparisonSettings(1, size=8)
+    settings = ViewsComparison(1, size=8)
     with pytest.raises(InputFileError, match=r"material is /art/evil\.blend:Evil, .* with --material"):
         drain(compare(path, settings, tmp_path / "out"))
     with pytest.raises(AssertionError, match=r"/art/evil\.blend is opened"):
-        drain(compare(path, settings, tmp_path / "out", material=spec))
+        drain(compare(path, replace(settings, material=spec), tmp_path / "out"))
 
 
 @pytest.fixture

@@ -15,19 +15,15 @@ from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.host.materials import fingerprint, load_material
 from rsibr.rsibr_addon.host.scenes import temporary_scene
-from rsibr.rsibr_addon.tasks.compare.comparison import (
-    Comparison,
-    ComparisonSettings,
-    comparison_table,
-    random_directions,
-)
+from rsibr.rsibr_addon.tasks.compare.compare import compare
+from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, random_directions
 from rsibr.rsibr_addon.tasks.compare.pictures import BRIGHTER, DARKER, difference_picture
-from rsibr.rsibr_addon.tasks.compare.views import compare
+from rsibr.rsibr_addon.tasks.compare.radiance_views import ViewsComparison, ViewsWay, views_table
 from rsibr.tests.mirror_capture import mirror_map_set
 
 pytestmark = pytest.mark.needs("gl")
 
-QUICK = ComparisonSettings(views=2, size=32, samples=8, modes=(Mode.FRAGMENT,), warpings=(Warping.SPLIT,))
+QUICK = ViewsComparison(views=2, size=32, samples=8, modes=(Mode.FRAGMENT,), warpings=(Warping.SPLIT,))
 
 BOX = """
 v -1 -2 -3
@@ -89,7 +85,7 @@ class OpenTags(HTMLParser):
 
 def test_a_flawless_capture_is_close_to_cycles_and_all_is_written(tmp_path: Path, capture: Path) -> None:
     before = {repr(item) for item in bpy.data.all_ids}
-    settings = ComparisonSettings(views=3, size=32, samples=16)
+    settings = ViewsComparison(views=3, size=32, samples=16)
     found = drain(compare(capture, settings, tmp_path / "out"))
     # A mirror has no noise but that of where a pixel is sampled: 16 points, on a slope.
     assert 0.0 < found.reference_noise < 0.02
@@ -103,7 +99,7 @@ def test_a_flawless_capture_is_close_to_cycles_and_all_is_written(tmp_path: Path
 
     written = json.loads((tmp_path / "out" / "comparison.json").read_text())
     assert [error["pooled"] for error in written["errors"]] == [error.pooled for error in found.errors]
-    assert Comparison.from_json(written) == found
+    assert Comparison.from_json(written, ViewsComparison, ViewsWay) == found
     assert not [path for path in tmp_path.iterdir() if path.name.startswith(".")]
 
     page = (tmp_path / "out" / "index.html").read_text()
@@ -130,7 +126,7 @@ def test_a_known_error_is_found(tmp_path: Path, mirror_fingerprint: str) -> None
 
 def test_meshes_stand_as_they_are_drawn(tmp_path: Path, capture: Path) -> None:
     (tmp_path / "box.obj").write_text(BOX)
-    settings = ComparisonSettings(
+    settings = ViewsComparison(
         views=3,
         mesh=str(tmp_path / "box.obj"),
         field_of_view=np.radians(50.0),
@@ -146,12 +142,12 @@ def test_meshes_stand_as_they_are_drawn(tmp_path: Path, capture: Path) -> None:
 
 def test_coarser_captures_share_their_references(tmp_path: Path, mirror_fingerprint: str) -> None:
     write_map_set(tmp_path / "m.rsibr.exr", mirror_map_set(42, 32, mirror_fingerprint))
-    settings = ComparisonSettings(
+    settings = ViewsComparison(
         views=1, size=24, samples=4, modes=(Mode.TEXEL,), warpings=(Warping.SINGLE,), captured_views=(12, 42)
     )
     found = drain(compare(tmp_path / "m.rsibr.exr", settings, tmp_path / "out"))
     assert [error.way.slug for error in found.errors] == ["12-texel-single", "42-texel-single"]
-    assert comparison_table([found]).splitlines() == [
+    assert views_table([found]).splitlines() == [
         "| material | environment | views | texel, single | noise |",
         "| --- | --- | --- | ---: | ---: |",
         f"| mirror | one bright side | 12 | {found.errors[0].pooled:.3f} | {found.reference_noise:.3f} |",
@@ -207,7 +203,7 @@ def test_a_cancelled_comparison_leaves_nothing(tmp_path: Path, capture: Path) ->
 )
 def test_settings_have_limits(settings: dict[str, int], complaint: str) -> None:
     with pytest.raises(RangeError, match=complaint):
-        ComparisonSettings(**settings)
+        ViewsComparison(**settings)
 
 
 def test_directions_favour_no_side() -> None:

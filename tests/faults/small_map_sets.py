@@ -16,14 +16,9 @@ from rsibr.rsibr_addon.files.fits import write_fit
 from rsibr.rsibr_addon.files.kinds import kernel_bank, lobe_stack, mip_chain, reflection_tables
 from rsibr.rsibr_addon.files.map_set_data import MapSet
 from rsibr.rsibr_addon.job import BakeJob
-from rsibr.rsibr_addon.tasks.compare.comparison import (
-    Comparison,
-    ComparisonSettings,
-    StackComparisonSettings,
-    StackWay,
-    Way,
-    WayError,
-)
+from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, SceneSettings, WayError
+from rsibr.rsibr_addon.tasks.compare.lobe_stack import StackComparison, StackWay
+from rsibr.rsibr_addon.tasks.compare.radiance_views import ViewsComparison, ViewsWay
 from rsibr.tests.lobe_stacks import random_fit, random_stack
 from rsibr.tests.mirror_capture import mirror_map_set
 
@@ -43,13 +38,13 @@ def json_files(folder: Path) -> dict[str, str]:
     fit = (folder / "fit.json").read_text()
     job = BakeJob(("bake", "--brdf", BRDF, "--size", "16", "--output", "out.rsibr.exr")).to_json()
     views = _comparison(
-        ComparisonSettings(views=2), WayError(Way(12, Mode.PAPER, Warping.SPLIT), (0.1, 0.2), 0.15)
+        ViewsComparison(views=2), WayError(ViewsWay(12, Mode.PAPER, Warping.SPLIT), (0.1, 0.2), 0.15)
     )
-    stack = _comparison(StackComparisonSettings(views=2), WayError(StackWay(2, 4, 2), (0.1, 0.2), 0.15))
+    stack = _comparison(StackComparison(views=2), WayError(StackWay(2, 4, 2), (0.1, 0.2), 0.15))
     return {"fit.json": fit, "job.json": job, "views.json": views, "stack.json": stack}
 
 
-def _comparison(settings: ComparisonSettings | StackComparisonSettings, error: WayError) -> str:
+def _comparison(settings: SceneSettings, error: WayError) -> str:
     view_dirs = ((0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
     found = Comparison("a.rsibr.exr", "0" * 64, "forest", "copper", 8, settings, view_dirs, 0.001, (error,))
     return json.dumps(found.to_json())

@@ -1,19 +1,14 @@
 """What the panel tells of a map set is what its file says, also after the file has changed."""
 
-import json
 import re
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import MapSetError
-from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, ViewsLook, Warping
 from rsibr.rsibr_addon.files.map_set import read_map_set, write_map_set
 from rsibr.rsibr_addon.files.map_set_data import MapSet
-from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, ComparisonSettings, Way, WayError
-from rsibr.rsibr_addon.tasks.compare.measured_error import measured_facts
 from rsibr.rsibr_addon.tasks.report import facts as facts
 from rsibr.rsibr_addon.tasks.report.pictures import map_set_pictures
 from rsibr.tests.faults.small_map_sets import map_sets
@@ -23,24 +18,6 @@ from rsibr.tests.flat_capture import write_flat_capture
 @pytest.fixture
 def path(tmp_path: Path) -> Path:
     return write_flat_capture(tmp_path / "flat.rsibr.exr", (0.5, 0.0, 0.25))
-
-
-def write_comparison(path: Path, content: str) -> None:
-    ways = [Way(12, Mode.FRAGMENT, Warping.ALBEDO), Way(12, Mode.PAPER, Warping.SPLIT)]
-    comparison = Comparison(
-        map_set=path.name,
-        content=content,
-        environment="forest",
-        material="copper",
-        map_size=8,
-        settings=ComparisonSettings(views=2),
-        view_dirs=((0.0, 0.0, 1.0), (1.0, 0.0, 0.0)),
-        reference_noise=0.001,
-        errors=tuple(WayError(way, (0.02, 0.04), 0.031) for way in ways),
-    )
-    folder = path.parent / "flat-compared"
-    folder.mkdir(exist_ok=True)
-    (folder / "comparison.json").write_text(json.dumps(comparison.to_json()))
 
 
 def test_facts_follow_the_file(tmp_path: Path) -> None:
@@ -73,49 +50,13 @@ def test_info_tells_every_kind_in_words(
 
 
 def test_files_are_read_once(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    write_comparison(path, facts.map_set_content(path))
-    first = facts.map_set_facts(path), measured_facts(path)
+    first = facts.map_set_facts(path), facts.map_set_content(path)
 
     def refuse(path: Path) -> None:
         raise AssertionError(f"{path} is read again")
 
     monkeypatch.setattr(facts, "read_map_set_header", refuse)
-    monkeypatch.setattr(Path, "read_text", refuse)
-    assert (facts.map_set_facts(path), measured_facts(path)) == first
-
-
-def test_measured_errors_are_told_while_the_content_is_the_same(path: Path) -> None:
-    assert measured_facts(path) == {}
-    write_comparison(path, facts.map_set_content(path))
-    told = {"Measured": "3.1 %, at worst 4 %", "Against": "Cycles, 2 views"}
-    assert measured_facts(path, ViewsLook("fragment", "albedo")) == told
-    assert measured_facts(path, ViewsLook("texel", "albedo")) == {}
-    assert sum(what.startswith("Measured: 12 views") for what in measured_facts(path)) == 2
-    write_flat_capture(path, (0.5, 0.0, 0.5))
-    assert measured_facts(path) == {"Measured": "before the file changed: compare again"}
-
-
-@pytest.mark.parametrize(
-    ("change", "why"),
-    [
-        ({"settings": {}, "view_dirs": []}, "view_dirs is not 1 to 65536 long"),
-        ({"settings": "x"}, "settings is not an object"),
-        (
-            {"settings": {"views": 0}},
-            "settings is impossible: A comparison of 0 views compares nothing: ask for 1 or more",
-        ),
-        ({"errors": [{"pooled": 10**400}]}, "the number 1000000000000000... is too large"),
-        ({"reference_noise": None}, "reference_noise is not a finite number"),
-        ({"view_dirs": [[0.0, 0.0, 1.0]]}, "errors are of 2 views, not 1"),
-    ],
-)
-def test_a_comparison_of_another_version_is_told(path: Path, change: dict[str, Any], why: str) -> None:
-    write_comparison(path, facts.map_set_content(path))
-    file = path.parent / "flat-compared" / "comparison.json"
-    file.write_text(json.dumps({**json.loads(file.read_text()), **change}))
-    assert measured_facts(path) == {
-        "Measured": f"{file} is no comparison of this version ({why}): compare again."
-    }
+    assert (facts.map_set_facts(path), facts.map_set_content(path)) == first
 
 
 def test_bright_maps_are_shown_darker(tmp_path: Path) -> None:

@@ -16,12 +16,13 @@ from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.kinds.lobe_stack import to_map_set
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.files.map_set_data import MapSet
-from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, StackComparisonSettings, stack_table
-from rsibr.rsibr_addon.tasks.compare.stack import compare_stack
+from rsibr.rsibr_addon.tasks.compare.compare import compare
+from rsibr.rsibr_addon.tasks.compare.comparison import Comparison
+from rsibr.rsibr_addon.tasks.compare.lobe_stack import StackComparison, StackWay, stack_table
 
 KD = 0.8
 LIGHT = np.random.default_rng(61).random((32, 64, 3), dtype=np.float32) ** 2
-QUICK = StackComparisonSettings(views=2, size=32, rings=24)
+QUICK = StackComparison(views=2, size=32, rings=24)
 
 
 def lambert_fit() -> Fit:
@@ -62,14 +63,14 @@ def path(tmp_path: Path) -> Path:
 
 
 def test_a_nearly_exact_stack_is_close_and_all_is_written(tmp_path: Path, path: Path) -> None:
-    found = drain(compare_stack(path, QUICK, tmp_path / "out"))
+    found = drain(compare(path, QUICK, tmp_path / "out"))
     (error,) = found.errors
     # The fit of the cosine's kink with kernels 1/8 wide is off by some 0.5 %, the environment turned into
     # the camera's axes by 32 rows of bilinear lookups, interpolated elevations by (1/16)^2 / 8 of a radian.
     assert error.worst < 0.01
     assert min(error.per_view) <= error.median <= error.worst == max(error.per_view)
     written = json.loads((tmp_path / "out" / "comparison.json").read_text())
-    assert Comparison.from_json(written) == found
+    assert Comparison.from_json(written, StackComparison, StackWay) == found
     page = (tmp_path / "out" / "index.html").read_text()
     assert "integrated exactly" in page
     assert "Cycles" not in page
@@ -81,8 +82,8 @@ def test_a_known_error_is_found_on_any_mesh(tmp_path: Path) -> None:
     (tmp_path / "tilted.obj").write_text(
         "v -1 -1 0\nv 1 -1 0\nv 0 1 1\nvn 0 -.4 1\nvn .5 0 1\nf 1//1 2//2 3//1\n"
     )
-    settings = StackComparisonSettings(views=3, size=24, rings=16, mesh=str(tmp_path / "tilted.obj"))
-    found = drain(compare_stack(tmp_path / "bright.rsibr.exr", settings, tmp_path / "out"))
+    settings = StackComparison(views=3, size=24, rings=16, mesh=str(tmp_path / "tilted.obj"))
+    found = drain(compare(tmp_path / "bright.rsibr.exr", settings, tmp_path / "out"))
     # A quarter too bright, give or take what the stack itself is off by. A view from behind counts too: there
     # the normals point away, and both pictures show what the rim does.
     assert found.errors[0].median == pytest.approx(0.25, abs=0.02)
@@ -97,8 +98,8 @@ def test_the_command_tells_the_table(path: Path, capfd: pytest.CaptureFixture[st
 @pytest.mark.parametrize(
     ("options", "complaint"),
     [
-        (["--warp", "split"], "option for warpings is for radiance_views, but this map set holds lobe_stack"),
-        (["--samples", "16"], "option for samples is for radiance_views, but this map set holds lobe_stack"),
+        (["--warp", "split"], "option for warpings is for radiance_views, which this map set is not"),
+        (["--samples", "16"], "option for samples is for radiance_views, which this map set is not"),
         (["--perspective", "40"], "seen from afar: leave the perspective out"),
         (["--rings", "3"], "3 rings are too few"),
         (["--size", "5000"], "at most 1024"),
@@ -118,7 +119,7 @@ def test_a_stack_without_its_environment_is_refused(tmp_path: Path) -> None:
     del bare.header["parts"][0], bare.maps["environment"]
     write_map_set(tmp_path / "bare.rsibr.exr", bare)
     with pytest.raises(MapSetError, match=r"bare\.rsibr\.exr does not hold the environment"):
-        drain(compare_stack(tmp_path / "bare.rsibr.exr", QUICK, tmp_path / "out"))
+        drain(compare(tmp_path / "bare.rsibr.exr", QUICK, tmp_path / "out"))
 
 
 def test_a_brdf_that_is_gone_is_named(tmp_path: Path) -> None:
@@ -126,4 +127,4 @@ def test_a_brdf_that_is_gone_is_named(tmp_path: Path) -> None:
     strange.header["material"]["brdf"] = "velvet:"
     write_map_set(tmp_path / "strange.rsibr.exr", strange)
     with pytest.raises(RangeError, match='no BRDF model "velvet"'):
-        drain(compare_stack(tmp_path / "strange.rsibr.exr", QUICK, tmp_path / "out"))
+        drain(compare(tmp_path / "strange.rsibr.exr", QUICK, tmp_path / "out"))

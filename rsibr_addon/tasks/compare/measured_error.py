@@ -7,8 +7,10 @@ from ...core.errors import InputFileError, SchemaError
 from ...core.schema import LARGEST_TEXT, loads
 from ...files.output_paths import comparison_beside
 from ...files.reading import opened
-from ..report.facts import map_set_content, read_once
-from .comparison import RESULT, Comparison, ComparisonSettings, StackWay, WayError
+from ..methods.kinds import KINDS
+from ..report.facts import map_set_content, map_set_header, read_once
+from .comparison import RESULT, Comparison, WayError
+from .truth import Truth
 
 
 def measured_facts(map_set: Path, look: Any = None) -> dict[str, str]:
@@ -18,7 +20,7 @@ def measured_facts(map_set: Path, look: Any = None) -> dict[str, str]:
     ----------
     map_set : Path
     look : object, optional
-        Has the attributes `mode` and `warping`, if it is of radiance views: tells of drawing so alone.
+        Of the map set's kind: tells of drawing so alone.
 
     Returns
     -------
@@ -30,27 +32,29 @@ def measured_facts(map_set: Path, look: Any = None) -> dict[str, str]:
     MapSetError
         There is no such map set.
     """
+    truth = KINDS[map_set_header(map_set)["kind"]].truth
+    if truth is None:
+        return {}
     try:
-        comparison = _comparison(comparison_beside(map_set) / RESULT)
+        comparison = _comparison(comparison_beside(map_set) / RESULT, truth)
     except InputFileError as error:
         return {"Measured": str(error)}
     if comparison is None:
         return {}
     if comparison.content != map_set_content(map_set):
         return {"Measured": "before the file changed: compare again"}
-    errors = [error for error in comparison.errors if look is None or _is_of(error, look)]
+    errors = [error for error in comparison.errors if look is None or truth.is_look(error.way, look)]
     if not errors:
         return {}
-    reference = "Cycles" if isinstance(comparison.settings, ComparisonSettings) else "the model itself"
     named = len(errors) > 1
     return {
         **{f"Measured{f': {error.way.name}' if named else ''}": _words(error) for error in errors},
-        "Against": f"{reference}, {len(comparison.view_dirs)} views",
+        "Against": f"{truth.name}, {len(comparison.view_dirs)} views",
     }
 
 
 @read_once
-def _comparison(path: Path) -> Comparison | None:
+def _comparison(path: Path, truth: Truth) -> Comparison | None:
     """What a comparison has written; None where there is none.
 
     Raises
@@ -63,15 +67,9 @@ def _comparison(path: Path) -> Comparison | None:
     with opened(path) as stream:
         text = stream.read(LARGEST_TEXT + 1)
     try:
-        return Comparison.from_json(loads(text))
+        return Comparison.from_json(loads(text), truth.settings, truth.way)
     except SchemaError as error:
         raise InputFileError(f"{path} is no comparison of this version ({error}): compare again.") from error
-
-
-def _is_of(error: WayError, look: Any) -> bool:
-    """Whether it is of a way that is drawn so; there is but one way to draw a lobe stack."""
-    way = error.way
-    return isinstance(way, StackWay) or (way.mode, way.warping) == (look.mode, look.warping)
 
 
 def _words(error: WayError) -> str:

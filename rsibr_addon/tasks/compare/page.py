@@ -6,30 +6,21 @@ from html import escape
 from pathlib import Path
 from string import Template
 
-from .comparison import Comparison, ComparisonSettings, StackWay, Way, WayError
+from .comparison import Comparison, Way, WayError
 from .pictures import BRIGHTER, COLUMNS, DARKER, FULL_DIFFERENCE, Sheets
+from .truth import Truth
 
 TEMPLATE = Path(__file__).with_suffix(".html")
 
-RENDERED = (
-    "Cycles&rsquo; own noise, which makes <b>{noise}</b> of the reference, is not counted: two renders "
-    "tell it apart."
-)
-OCCLUSION = (
-    "In Cycles&rsquo; pictures the mesh hides parts of its surroundings from itself; no map knows that."
-)
-INTEGRATED = (
-    "The reference is the sum over all texels of the environment of radiance times BRDF times cosine, "
-    "without noise; in neither picture does the mesh hide its surroundings from itself."
-)
 
-
-def comparison_page(comparison: Comparison, sheets: Sheets) -> str:
+def comparison_page(comparison: Comparison, truth: Truth, sheets: Sheets) -> str:
     """Show numbers and pictures of a comparison.
 
     Parameters
     ----------
     comparison : Comparison
+    truth : Truth
+        What it was held against.
     sheets : Sheets
         Its pictures, which the page takes in.
 
@@ -45,9 +36,9 @@ def comparison_page(comparison: Comparison, sheets: Sheets) -> str:
         environment=escape(comparison.environment),
         map_set=escape(comparison.map_set),
         mesh=escape(_mesh(comparison)),
-        reference_name=_reference_name(comparison),
-        made="rendered by Cycles" if _is_rendered(comparison) else "integrated exactly",
-        notes=_notes(comparison),
+        reference_name=truth.name,
+        made=truth.made,
+        notes=truth.notes(comparison),
         view_count=count,
         full_difference=f"{100.0 * FULL_DIFFERENCE:g}&thinsp;%",
         brighter=_css_colour(BRIGHTER),
@@ -56,28 +47,14 @@ def comparison_page(comparison: Comparison, sheets: Sheets) -> str:
         reference=_embedded(sheets.reference),
         rules="\n".join(_rules(error.way, sheets) for error in comparison.errors),
         ways="\n".join(_row(error, comparison, error.way == shown) for error in comparison.errors),
-        figures="\n".join(_figure(comparison, number) for number in range(count)),
-        settings="\n".join(f"<dt>{name}</dt><dd>{value}</dd>" for name, value in _settings(comparison)),
+        figures="\n".join(_figure(comparison, truth, number) for number in range(count)),
+        settings="\n".join(
+            f"<dt>{name}</dt><dd>{value}</dd>" for name, value in _settings(comparison, truth)
+        ),
     )
 
 
-def _is_rendered(comparison: Comparison) -> bool:
-    return isinstance(comparison.settings, ComparisonSettings)
-
-
-def _reference_name(comparison: Comparison) -> str:
-    return "Cycles" if _is_rendered(comparison) else "exact"
-
-
-def _notes(comparison: Comparison) -> str:
-    """What else is to be known of the references."""
-    if not _is_rendered(comparison):
-        return INTEGRATED
-    occlusion = "" if comparison.settings.mesh == "sphere" else OCCLUSION
-    return f"{RENDERED.format(noise=_percent(comparison.reference_noise))} {occlusion}"
-
-
-def _rules(way: Way | StackWay, sheets: Sheets) -> str:
+def _rules(way: Way, sheets: Sheets) -> str:
     """The style sheet's rules that show a way's pictures and numbers when its button is pressed."""
     chosen = f"body:has(#way-{way.slug}:checked)"
     return f"""{chosen} .drawing {{ background-image: {_embedded(sheets.drawing[way])}; }}
@@ -97,13 +74,13 @@ def _row(error: WayError, comparison: Comparison, checked: bool) -> str:
     return f"<tr><td><label>{button}{way.name}</label></td>{numbers}{bar}</tr>"
 
 
-def _figure(comparison: Comparison, number: int) -> str:
+def _figure(comparison: Comparison, truth: Truth, number: int) -> str:
     count = len(comparison.view_dirs)
     columns, rows = min(count, COLUMNS), math.ceil(count / COLUMNS)
     row, column = divmod(number, COLUMNS)
     # Percentages of a background's position run from its first tile to its last.
     at = f"{100.0 * column / max(columns - 1, 1):.4f}% {100.0 * row / max(rows - 1, 1):.4f}%"
-    names = {"reference": _reference_name(comparison), "drawing": "RSIBR", "difference": "difference"}
+    names = {"reference": truth.name, "drawing": "RSIBR", "difference": "difference"}
     tiles = "".join(
         f'<div class="tile {kind}" style="--at: {at}" role="img" aria-label="{name}, view {number + 1}">'
         "</div>"
@@ -119,14 +96,10 @@ def _figure(comparison: Comparison, number: int) -> str:
     return f"<figure>{tiles}{labels}<figcaption>{caption}</figcaption></figure>"
 
 
-def _settings(comparison: Comparison) -> list[tuple[str, str]]:
+def _settings(comparison: Comparison, truth: Truth) -> list[tuple[str, str]]:
     """Names and values, in words."""
     settings = comparison.settings
     angle = settings.field_of_view
-    if isinstance(settings, ComparisonSettings):
-        reference = ("Cycles", f"two renders of {settings.samples // 2} samples a pixel, not denoised")
-    else:
-        reference = ("exact", f"{settings.rings} rings of surface points")
     return [
         ("map set", escape(comparison.map_set)),
         ("material", escape(comparison.material)),
@@ -135,7 +108,7 @@ def _settings(comparison: Comparison) -> list[tuple[str, str]]:
         ("mesh", escape(_mesh(comparison))),
         ("camera", "orthographic" if angle is None else f"perspective, {math.degrees(angle):g}&deg;"),
         ("pictures", f"{settings.size}&times;{settings.size}"),
-        reference,
+        (truth.name, truth.quality(settings)),
         ("seed", str(settings.seed)),
     ]
 

@@ -8,7 +8,7 @@ import numpy as np
 from ...core.conventions import Array
 from ...core.metrics import unpremultiplied
 from ...host.pictures import save_png
-from .comparison import StackWay, Way
+from .comparison import Way
 from .contact_sheet import contact_sheet
 
 COLUMNS = 5
@@ -31,17 +31,15 @@ class Sheets:
     Attributes
     ----------
     reference : Path
-    drawing, difference : dict of Way or StackWay to Path
+    drawing, difference : dict of Way to Path
     """
 
     reference: Path
-    drawing: dict[Way | StackWay, Path]
-    difference: dict[Way | StackWay, Path]
+    drawing: dict[Way, Path]
+    difference: dict[Way, Path]
 
 
-def save_sheets(
-    folder: Path, references: list[Array], drawn: dict[Way, list[Array]] | dict[StackWay, list[Array]]
-) -> Sheets:
+def save_sheets(folder: Path, references: list[Array], drawn: dict[Way, list[Array]]) -> Sheets:
     """Write the pictures of a comparison.
 
     Parameters
@@ -50,7 +48,7 @@ def save_sheets(
         To be made.
     references : list of ndarray, each of shape (size, size, 4)
         Radiance times coverage, and coverage; row 0 at the bottom.
-    drawn : dict of Way or StackWay to list of ndarray
+    drawn : dict of Way to list of ndarray
         The same views, drawn.
 
     Returns

@@ -19,7 +19,7 @@ from ...host.worlds import light_with
 
 
 @dataclass(frozen=True)
-class Subject:
+class Captured:
     """What is rendered.
 
     Attributes
@@ -87,12 +87,12 @@ def check_material(spec: str, expected_fingerprint: str) -> None:
         )
 
 
-def render_reference(subject: Subject, camera: Camera, size: int, samples: int, seed: int) -> Reference:
+def render_reference(captured: Captured, camera: Camera, size: int, samples: int, seed: int) -> Reference:
     """Render one view with Cycles, without denoising.
 
     Parameters
     ----------
-    subject : Subject
+    captured : Captured
     camera : Camera
     size : int
         Width and height in pixels.
@@ -112,12 +112,12 @@ def render_reference(subject: Subject, camera: Camera, size: int, samples: int, 
     RenderError, InputFileError, SceneError, RangeError
     """
     with temporary_scene() as scene:
-        light_with(scene, subject.environment)
-        material = load_material(subject.material)
-        if subject.mesh is None:
+        light_with(scene, captured.environment)
+        material = load_material(captured.material)
+        if captured.mesh is None:
             add_sphere(scene, material)
         else:
-            add_mesh(scene, subject.mesh, material)
+            add_mesh(scene, captured.mesh, material)
         add_camera(scene, camera)
         first, second = (
             render_view(scene, RenderSettings(size, samples // 2, seed=each)) for each in (seed, seed + 1)

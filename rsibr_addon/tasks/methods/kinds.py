@@ -30,6 +30,9 @@ from ...files.kinds import (
 )
 from ...files.map_set import read_map_set, read_map_set_header
 from ...files.map_set_data import MapSet
+from ..compare import lobe_stack as stack_truth
+from ..compare import radiance_views as views_truth
+from ..compare.truth import Truth
 from .live_materials import LiveMaterials
 
 
@@ -40,28 +43,38 @@ class Kind:
     Attributes
     ----------
     from_map_set : callable
-        The file's path, for messages, and a `MapSet` to what it holds, the subject.
+        The file's path, for messages, and a `MapSet` to what it holds, its content.
     on_device : callable
-        The subject to an `OnDevice`.
+        The content to an `OnDevice`.
     look : type
         How it is shaded; its defaults are this kind's best.
     newest : callable
         What is uploaded and looks that were asked for, oldest first, to the last that can be drawn, or None.
+    truth : Truth or None
+        What pictures drawn from it are compared with; None for nothing.
+    menu : str
+        A menu of Blender that its preview offers beside its look; empty for none.
     """
 
     from_map_set: Callable[[Path, MapSet], Any]
     on_device: Callable[[Any], OnDevice]
     look: type
     newest: Callable[[Any, list[Any]], Any] = lambda on_device, looks: looks[-1]
+    truth: Truth | None = None
+    menu: str = ""
 
 
 KINDS = {
-    "radiance_views": Kind(radiance_views.from_map_set, RadianceViewsOnDevice, ViewsLook),
-    "lobe_stack": Kind(lobe_stack.from_map_set, LobeStackOnDevice, StackLook),
-    "reflection_tables": Kind(reflection_tables.from_map_set, ReflectionTablesOnDevice, TablesLook),
-    "mip_chain": Kind(mip_chain.from_map_set, MipChainOnDevice, MipLook),
+    radiance_views.KIND: Kind(
+        radiance_views.from_map_set, RadianceViewsOnDevice, ViewsLook, truth=views_truth.TRUTH
+    ),
+    lobe_stack.KIND: Kind(lobe_stack.from_map_set, LobeStackOnDevice, StackLook, truth=stack_truth.TRUTH),
+    reflection_tables.KIND: Kind(reflection_tables.from_map_set, ReflectionTablesOnDevice, TablesLook),
+    mip_chain.KIND: Kind(mip_chain.from_map_set, MipChainOnDevice, MipLook),
     environment.KIND: Kind(environment.from_map_set, EnvironmentOnDevice, EnvironmentLook),
-    "kernel_bank": Kind(kernel_bank.from_map_set, LiveMaterials, BankLook, LiveMaterials.newest),
+    kernel_bank.KIND: Kind(
+        kernel_bank.from_map_set, LiveMaterials, BankLook, LiveMaterials.newest, menu="RSIBR_MT_live_models"
+    ),
 }
 
 
@@ -72,7 +85,7 @@ class OpenedMapSet:
     Attributes
     ----------
     kind : str
-    subject : object
+    content : object
         What `Kind.from_map_set` made of it.
     environment : Environment or None
         The light it was made in; None where the file does not hold it.
@@ -83,13 +96,13 @@ class OpenedMapSet:
     """
 
     kind: str
-    subject: Any
+    content: Any
     environment: Environment | None
     material: dict[str, Any]
     texels: int
 
     def upload(self) -> OnDevice:
-        """Put the subject on the GPU.
+        """Put the content on the GPU.
 
         Raises
         ------
@@ -97,7 +110,7 @@ class OpenedMapSet:
             There is no graphics driver, or it refuses a shader.
         """
         ensure_context()
-        return KINDS[self.kind].on_device(self.subject)
+        return KINDS[self.kind].on_device(self.content)
 
 
 def kind_of(path: Path) -> str:

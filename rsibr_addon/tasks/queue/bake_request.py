@@ -30,8 +30,8 @@ from ...host.materials import ORIGINAL, fingerprint
 from ...host.version import software
 from ...host.worlds import world_of
 from ...job import BakeJob
-from ..methods.methods import METHODS, Lobes, Method, Views, measured_spec
-from ..report.facts import map_set_header
+from ..compare.compare import truth_of
+from ..methods.methods import METHODS, Lobes, Method, measured_spec
 from .background import Bake, blender_command
 
 HASH_LETTERS = 10
@@ -40,8 +40,8 @@ HASH_LETTERS = 10
 NAME_LETTERS = 50
 """Of a file's name at most, for people: a letter may take 4 bytes of 255."""
 
-COMPARED, COMPARED_VIEWS = (Views.kind, Lobes.kind), 6
-"""Kinds that can be compared with the truth; and from how many sides."""
+COMPARED_VIEWS = 6
+"""From so many sides a map set is compared with the truth."""
 
 
 @dataclass(frozen=True)
@@ -233,7 +233,7 @@ def comparison_of(item: Any, map_set: Path) -> ObjectBake:
     SceneError, OutputFileError
         See `bake_of`.
     """
-    check_comparable(map_set)
+    truth_of(map_set)
     folder = comparison_beside(map_set)
     views = ("--views", str(COMPARED_VIEWS))
     job = BakeJob(("compare", str(map_set), *views, *_named_model(item), "--output", str(folder), "--force"))
@@ -252,20 +252,6 @@ def _named_model(item: Any) -> tuple[str, ...]:
             return "--brdf", chosen.brdf
         case _:
             return ()
-
-
-def check_comparable(map_set: Path) -> None:
-    """Refuse to compare what there is no truth for.
-
-    Raises
-    ------
-    MapSetError
-        The file is no map set, or of a kind that nothing is compared with.
-    """
-    if map_set_header(map_set)["kind"] not in COMPARED:
-        raise MapSetError(
-            f"{map_set.name} is of a kind without a truth to compare with: bake radiance views or lobes."
-        )
 
 
 def _in_background(title: str, job: BakeJob, item: Any, output: Path, needs_file: bool) -> ObjectBake:

@@ -15,22 +15,23 @@ from ...files.map_set_header import content_hash
 from ...files.pictures import split_layer
 
 
-def read_once[Told](read: Callable[[Path], Told]) -> Callable[[Path], Told]:
+def read_once[*More, Told](read: Callable[[Path, *More], Told]) -> Callable[[Path, *More], Told]:
     """Have a function of a file called again only when the file's time or size is another.
 
     Parameters
     ----------
     read : callable
-        Takes the path of a file, that need not be there, or FILE.exr:LAYER. What it raises is not kept.
+        Takes the path of a file, that need not be there, or FILE.exr:LAYER, and perhaps more that can be
+        hashed. What it raises is not kept.
     """
 
     @lru_cache(maxsize=16)
-    def kept(path: Path, stamp: tuple[int, int] | None) -> Told:
-        return read(path)
+    def kept(stamp: tuple[int, int] | None, path: Path, more: tuple[*More]) -> Told:
+        return read(path, *more)
 
     @wraps(read)
-    def told(path: Path) -> Told:
-        return kept(path, file_stamp(split_layer(path)[0]))
+    def told(path: Path, *more: *More) -> Told:
+        return kept(file_stamp(split_layer(path)[0]), path, more)
 
     return told
 

@@ -1,0 +1,171 @@
+"""Lobe stacks against their BRDF itself, integrated over the environment."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...core.conventions import Array
+from ...core.environment import Environment
+from ...core.errors import RangeError
+from ...core.geometry.camera import Camera
+from ...core.geometry.lit_sphere import lit_spheres
+from ...core.kinds.lobe_stack.shading import StackLook
+from ...core.kinds.lobe_stack.stack import LobeStack
+from ...core.metrics import relative_rmse, unpremultiplied
+from ...core.progress import Steps
+from ...device.drawing import OnDevice
+from ...device.kinds.lobe_stack import LobeStackOnDevice
+from ...device.lit_sphere import LitSphereOnDevice
+from ...device.preview import PreviewRenderer
+from ...host.meshes import TriangleMesh, load_mesh
+from ..reflectance.brdfs import check_told_brdf, load_brdf
+from .comparison import Comparison, SceneSettings, way_error
+from .truth import Drawn, Truth
+
+LEAST_RINGS = 32
+"""Of a reference, where no number is asked for."""
+
+
+@dataclass(frozen=True)
+class StackComparison(SceneSettings):
+    """What to light exactly, and to hold a lobe stack against.
+
+    Attributes
+    ----------
+    rings : int or None
+        Of `core.geometry.lit_sphere`, at least 4; None for half as many as a map has texels in a row, at
+        least 32.
+    brdf : str or None
+        The model that counts as true, as `tasks.reflectance.brdfs.load_brdf` takes it; None for the map
+        set's own, which must not be in another file.
+
+    Raises
+    ------
+    RangeError
+        The camera is a perspective one, there are too few rings, or as `SceneSettings`.
+    """
+
+    rings: int | None = None
+    brdf: str | None = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.field_of_view is not None:
+            raise RangeError("Exact references are seen from afar: leave the perspective out.")
+        if self.rings is not None and self.rings < 4:
+            raise RangeError(f"{self.rings} rings are too few to interpolate between: ask for 4 or more.")
+
+
+@dataclass(frozen=True)
+class StackWay:
+    """The way to draw a lobe stack: there is one.
+
+    Attributes
+    ----------
+    lobes, elevations, taps : int
+        How many there are.
+    """
+
+    lobes: int
+    elevations: int
+    taps: int
+
+    @property
+    def slug(self) -> str:
+        """A name for files and pages: 3-lobes."""
+        return f"{self.lobes}-lobes"
+
+    @property
+    def name(self) -> str:
+        """A name for people."""
+        return f"lobes: {self.lobes}, elevations: {self.elevations}, taps: {self.taps}"
+
+
+def draw(
+    map_set: Path,
+    stack: LobeStack,
+    environment: Environment,
+    material: dict[str, Any],
+    settings: StackComparison,
+) -> Steps[Drawn]:
+    """Light a sphere exactly, and show a mesh as it and from the stack: see `Truth.draw`.
+
+    Notes
+    -----
+    Seen from afar, radiance depends on the normal alone, and so a sphere's is any mesh's: what
+    [Kautz2000] section 6 calls filtering with the true BRDF on a per-pixel basis. Both pictures take the
+    same samples of the same mesh. Texels of a stack lie so close that linear lookups are good to some 0.3 %;
+    cubics between rings twice as far apart are good to a tenth of that.
+    """
+    spec = settings.brdf or material["brdf"]
+    if settings.brdf is None:
+        check_told_brdf(spec)
+    model = yield from load_brdf(spec)
+    mesh, cameras = load_mesh(settings.mesh), settings.cameras
+    rings = settings.rings or max(LEAST_RINGS, stack.size // 2)
+    view_dirs = [camera.view_dir for camera in cameras]
+    spheres = yield from lit_spheres(model, environment.radiance, view_dirs, rings)
+    references = [
+        _picture(LitSphereOnDevice(sphere), None, mesh, camera, settings.size)
+        for sphere, camera in zip(spheres, cameras, strict=True)
+    ]
+    ours = LobeStackOnDevice(stack)
+    drawn = [_picture(ours, StackLook(), mesh, camera, settings.size) for camera in cameras]
+    way = StackWay(len(stack.maps), len(stack.mu), stack.taps.shape[2])
+    pictures, true = np.stack(drawn), np.stack(references)
+    compared = unpremultiplied(pictures), unpremultiplied(true), true[..., 3]
+    return Drawn(
+        material=spec,
+        map_size=stack.size,
+        settings=replace(settings, rings=rings),
+        references=references,
+        drawn={way: drawn},
+        errors=(way_error(way, relative_rmse, *compared),),
+    )
+
+
+def _picture(
+    content: OnDevice, look: StackLook | None, mesh: TriangleMesh, camera: Camera, size: int
+) -> Array:
+    surface = mesh.positions, mesh.normals, mesh.triangles
+    return PreviewRenderer(content).draw(*surface, camera, size, look)
+
+
+def stack_table(comparisons: Sequence[Comparison]) -> str:
+    """Errors of several comparisons as a table in Markdown.
+
+    Parameters
+    ----------
+    comparisons : sequence of Comparison
+
+    Returns
+    -------
+    str
+        A row for each.
+    """
+    head = ["BRDF", "environment", "lobes", "size", "all views", "median view", "worst view"]
+    rows = [head, ["---"] * 2 + ["---:"] * 5]
+    for comparison in comparisons:
+        (error,) = comparison.errors
+        numbers = [f"{number:.4f}" for number in (error.pooled, error.median, error.worst)]
+        maps = [str(error.way.lobes), str(comparison.map_size)]
+        rows.append([comparison.material, comparison.environment, *maps, *numbers])
+    return "".join(f"| {' | '.join(row)} |\n" for row in rows)
+
+
+TRUTH = Truth(
+    settings=StackComparison,
+    way=StackWay,
+    draw=draw,
+    name="the model itself",
+    made="integrated exactly",
+    notes=lambda comparison: (
+        "The reference is the sum over all texels of the environment of radiance times BRDF times cosine, "
+        "without noise; in neither picture does the mesh hide its surroundings from itself."
+    ),
+    quality=lambda settings: f"{settings.rings} rings of surface points",
+    table=stack_table,
+)

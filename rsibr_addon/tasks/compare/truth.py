@@ -1,0 +1,78 @@
+"""What pictures drawn from map sets of a kind are held against."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from ...core.conventions import Array
+from ...core.environment import Environment
+from ...core.progress import Steps
+from .comparison import Comparison, SceneSettings, Way, WayError
+
+
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """The pictures of a comparison, each of shape (size, size, 4): radiance times coverage, and coverage.
+
+    Attributes
+    ----------
+    material : str
+        What counts as true, in words.
+    map_size : int
+        Width and height of the maps in texels.
+    settings : SceneSettings
+        With all that they left open.
+    references : list of ndarray
+        The truth, of each view; row 0 at the bottom.
+    drawn : dict of Way to list of ndarray
+        The same views from the map set.
+    errors : tuple of WayError
+        In the order of `drawn`.
+    noise : float
+        See `Comparison.reference_noise`.
+    """
+
+    material: str
+    map_size: int
+    settings: SceneSettings
+    references: list[Array]
+    drawn: dict[Any, list[Array]]
+    errors: tuple[WayError, ...]
+    noise: float = 0.0
+
+
+@dataclass(frozen=True)
+class Truth:
+    """How map sets of a kind are compared.
+
+    Attributes
+    ----------
+    settings : type
+        A dataclass derived from `SceneSettings`.
+    way : type
+        A dataclass that is a `Way`.
+    draw : callable
+        The map set's file, for messages; its content, environment and material; and settings, to `Drawn`.
+    name : str
+        Who tells the truth: "Cycles".
+    made : str
+        How: "rendered by Cycles".
+    notes : callable
+        A comparison to what else there is to know of its references, as HTML.
+    quality : callable
+        Settings to how good the references are, in words.
+    table : callable
+        Several comparisons to a table in Markdown, a row or more for each.
+    is_look : callable
+        Whether a way to draw is that of a look.
+    """
+
+    settings: type[SceneSettings]
+    way: type[Way]
+    draw: Callable[[Any, Any, Environment, dict[str, Any], Any], Steps[Drawn]]
+    name: str
+    made: str
+    notes: Callable[[Comparison], str]
+    quality: Callable[[Any], str]
+    table: Callable[[Sequence[Comparison]], str]
+    is_look: Callable[[Any, Any], bool] = lambda way, look: True

@@ -1,0 +1,82 @@
+"""What the panel tells of a comparison is what its file says, while it is of this map set."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, ViewsLook, Warping
+from rsibr.rsibr_addon.tasks.compare import comparison as comparisons
+from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, WayError
+from rsibr.rsibr_addon.tasks.compare.measured_error import measured_facts
+from rsibr.rsibr_addon.tasks.compare.radiance_views import ViewsComparison, ViewsWay
+from rsibr.rsibr_addon.tasks.report import facts
+from rsibr.tests.flat_capture import write_flat_capture
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    return write_flat_capture(tmp_path / "flat.rsibr.exr", (0.5, 0.0, 0.25))
+
+
+def write_comparison(path: Path, content: str) -> None:
+    ways = [ViewsWay(12, Mode.FRAGMENT, Warping.ALBEDO), ViewsWay(12, Mode.PAPER, Warping.SPLIT)]
+    comparison = Comparison(
+        map_set=path.name,
+        content=content,
+        environment="forest",
+        material="copper",
+        map_size=8,
+        settings=ViewsComparison(views=2),
+        view_dirs=((0.0, 0.0, 1.0), (1.0, 0.0, 0.0)),
+        reference_noise=0.001,
+        errors=tuple(WayError(way, (0.02, 0.04), 0.031) for way in ways),
+    )
+    folder = path.parent / "flat-compared"
+    folder.mkdir(exist_ok=True)
+    (folder / "comparison.json").write_text(json.dumps(comparison.to_json()))
+
+
+def test_a_comparison_is_read_once(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write_comparison(path, facts.map_set_content(path))
+    first = measured_facts(path)
+
+    def refuse(*values: Any) -> None:
+        raise AssertionError("it is read again")
+
+    monkeypatch.setattr(comparisons, "decode", refuse)
+    assert measured_facts(path) == first
+
+
+def test_measured_errors_are_told_while_the_content_is_the_same(path: Path) -> None:
+    assert measured_facts(path) == {}
+    write_comparison(path, facts.map_set_content(path))
+    told = {"Measured": "3.1 %, at worst 4 %", "Against": "Cycles, 2 views"}
+    assert measured_facts(path, ViewsLook("fragment", "albedo")) == told
+    assert measured_facts(path, ViewsLook("texel", "albedo")) == {}
+    assert sum(what.startswith("Measured: 12 views") for what in measured_facts(path)) == 2
+    write_flat_capture(path, (0.5, 0.0, 0.5))
+    assert measured_facts(path) == {"Measured": "before the file changed: compare again"}
+
+
+@pytest.mark.parametrize(
+    ("change", "why"),
+    [
+        ({"settings": {}, "view_dirs": []}, "view_dirs is not 1 to 65536 long"),
+        ({"settings": "x"}, "settings is not an object"),
+        (
+            {"settings": {"views": 0}},
+            "settings is impossible: A comparison of 0 views compares nothing: ask for 1 or more",
+        ),
+        ({"errors": [{"pooled": 10**400}]}, "the number 1000000000000000... is too large"),
+        ({"reference_noise": None}, "reference_noise is not a finite number"),
+        ({"view_dirs": [[0.0, 0.0, 1.0]]}, "errors are of 2 views, not 1"),
+    ],
+)
+def test_a_comparison_of_another_version_is_told(path: Path, change: dict[str, Any], why: str) -> None:
+    write_comparison(path, facts.map_set_content(path))
+    file = path.parent / "flat-compared" / "comparison.json"
+    file.write_text(json.dumps({**json.loads(file.read_text()), **change}))
+    assert measured_facts(path) == {
+        "Measured": f"{file} is no comparison of this version ({why}): compare again."
+    }

@@ -1,4 +1,4 @@
-// Shows at every normal what an exactly lit sphere shows there.
+// Shades every normal with the radiance of an exactly lit sphere.
 #include "lib/lit_sphere_lib.glsl"
 
 void main()

@@ -1,4 +1,4 @@
-// Brings a mip from a strip to the atlas, each face within its neighbours' texels.
+// Copies a mip from a strip to the atlas, each face within its neighbours' texels.
 #include "lib/live_environment_lib.glsl"
 
 void main()

@@ -1,5 +1,5 @@
-// Takes a render into its place in the strip of faces; what is no radiance is black, or as bright as half
-// precision goes.
+// Copies a render to its place in the strip of faces; values that are not radiance become black, or the
+// greatest half float.
 
 const float BRIGHTEST = 65504.0;
 

@@ -6,7 +6,7 @@ void main()
 {
   vec3 unit_normal = normalize(world_normal);
   vec3 view_dir = view_direction(draw.eye, world_position);
-  // What the pixel reflects, taking neighbours' differences for its own; or nothing but its middle.
+  // The region that the pixel reflects, by differences to its neighbours; or its middle alone.
   vec3 mirror_dir = reflect_dir(view_dir, facing_normal(unit_normal, view_dir));
   radiance.rgb = stack_radiance(maps,
                                 elevations,

@@ -1,5 +1,5 @@
-// A mesh in world space. The position is transformed in the order of Blender's own draws, so that
-// the depths agree to the last bit. What is shaded is turned into the map set's world.
+// A mesh in world space. The position is transformed in the order of Blender's own draws, so that the depths
+// agree to the last bit. For shading, position and normal are turned into the map set's world.
 #include "lib/directions_lib.glsl"
 
 void main()

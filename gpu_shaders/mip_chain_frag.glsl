@@ -18,7 +18,7 @@ void main()
 #endif
   vec3 diffuse = look.k_d.rgb / 3.14159265 * max(light, 0.0);
   vec3 mirror_dir = reflect_dir(view_dir, unit_normal);
-  // What the pixel reflects, taking neighbours' differences for its own; or nothing but its middle.
+  // The region that the pixel reflects, by differences to its neighbours; or its middle alone.
   vec3 across = look.antialiased * dFdx(mirror_dir);
   vec3 up = look.antialiased * dFdy(mirror_dir);
   vec3 glossy = glossy_mean(

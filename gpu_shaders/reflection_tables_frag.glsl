@@ -11,7 +11,7 @@ void main()
   vec3 mirror_dir = reflect_dir(view_dir, unit_normal);
   vec3 refracted_dir = refract_dir(view_dir, unit_normal, tables.eta);
   float cosine = dot(unit_normal, view_dir);
-  // What the pixel reflects, taking neighbours' differences for its own.
+  // The region that the pixel reflects, by differences to its neighbours.
   vec3 corners[4];
   parallelogram(mirror_dir, dFdx(mirror_dir), dFdy(mirror_dir), corners);
   radiance = vec4(0.0, 0.0, 0.0, 1.0);

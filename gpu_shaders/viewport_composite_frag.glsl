@@ -1,5 +1,5 @@
-// Brings the previews of one frame to the display, at the depths that they were drawn at. What is
-// written here is encoded as sRGB on its way to the window, hence the curve undone.
+// Brings the previews of one frame to the display, at the depths that they were drawn at. Colours that are
+// written here are encoded as sRGB on their way to the window, hence the curve is undone.
 #include "lib/display_lib.glsl"
 #include "lib/false_colour_lib.glsl"
 #include "lib/transfer_curve_lib.glsl"

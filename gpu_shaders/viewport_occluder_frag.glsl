@@ -1,4 +1,4 @@
-// A surface that is no preview, but may hide one: covered by nothing.
+// A surface that is not a preview but may hide one: it has no coverage.
 
 void main()
 {

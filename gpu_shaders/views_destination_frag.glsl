@@ -9,7 +9,7 @@ void main()
   vec3 view_dir = view_direction(draw.eye, world_position);
   mat3 frame = camera_frame(destination.view_dir.xyz);
   vec2 normal_uv = uv_from_normal(unit_normal * frame);
-  // What the pixel reflects, taking neighbours' differences for its own; or nothing but its middle.
+  // The region that the pixel reflects, by differences to its neighbours; or its middle alone.
   vec3 mirror_dir = reflect_dir(view_dir, unit_normal);
   vec3 across = mode.antialiased * dFdx(mirror_dir);
   vec3 up = mode.antialiased * dFdy(mirror_dir);

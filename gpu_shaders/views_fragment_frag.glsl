@@ -15,7 +15,7 @@ void main()
   float cosine = dot(unit_normal, view_dir);
   vec3 by_normal = warp_and_blend(
       views, albedo, warping, WARP_NORMAL, unit_normal, view_dir, sources, corners, weights);
-  // What the pixel reflects, taking neighbours' differences for its own; or nothing but its middle.
+  // The region that the pixel reflects, by differences to its neighbours; or its middle alone.
   vec3 mirror_dir = reflect_dir(view_dir, unit_normal);
   vec3 across = mode.antialiased * dFdx(mirror_dir);
   vec3 up = mode.antialiased * dFdy(mirror_dir);

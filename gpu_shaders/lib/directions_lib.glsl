@@ -5,7 +5,7 @@ vec3 reflect_dir(vec3 view_dir, vec3 normal)
   return 2.0 * dot(normal, view_dir) * normal - view_dir;
 }
 
-// The inverse: 0, which is as good there, where both directions are opposite.
+// The inverse of reflection; 0 where both directions are opposite, which serves as well.
 vec3 mirror_normal(vec3 view_dir, vec3 mirror_dir)
 {
   vec3 both = view_dir + mirror_dir;
@@ -20,8 +20,8 @@ vec3 refract_dir(vec3 view_dir, vec3 normal, float eta)
   return normalize(along - sqrt(max(1.0 - dot(along, along), 0.0)) * normal);
 }
 
-// The normal of a surface that a matrix transforms, of another length: by the matrix of cofactors, which is
-// the inverse's transpose times the determinant, and is there when a scale is 0.
+// The normal of a surface that a matrix transforms, of another length: by the matrix of cofactors, the
+// inverse's transpose times the determinant, which exists even where a scale is 0.
 vec3 transformed_normal(mat3 model, vec3 normal)
 {
   mat3 cofactors = mat3(cross(model[1], model[2]), cross(model[2], model[0]), cross(model[0], model[1]));
@@ -33,7 +33,7 @@ mat3 camera_frame(vec3 view_dir)
 {
   vec3 x = vec3(-view_dir.y, view_dir.x, 0.0);
   float len = length(x);
-  // Straight above and below, "upright" means nothing: x is -X there.
+  // Straight above and below, where "upright" has no meaning, x is -X.
   x = (len > 1e-7) ? x / len : vec3(-1.0, 0.0, 0.0);
   return mat3(x, cross(view_dir, x), view_dir);
 }

@@ -1,4 +1,4 @@
-// Twin of rsibr_addon/core/antialiased/footprint.py: what a pixel reflects, of [Miller1984] section 8.
+// Twin of rsibr_addon/core/antialiased/footprint.py: a pixel's region of directions, [Miller1984] section 8.
 
 // Corners counterclockwise from the left one at the bottom; across and up are the pixel's whole sides.
 void parallelogram(vec3 middle, vec3 across, vec3 up, out vec3 corners[4])
@@ -11,14 +11,14 @@ void parallelogram(vec3 middle, vec3 across, vec3 up, out vec3 corners[4])
 
 // From here on, twin of rsibr_addon/core/antialiased/sampling.py.
 
-// How many lookups a pixel takes along its sides: a texel apart, but four at most.
+// Lookups of a pixel along its sides: a texel apart, but four at most.
 ivec2 sample_counts(vec3 across, vec3 up, float texel_angle)
 {
   vec2 sides = vec2(length(across), length(up));
   return ivec2(clamp(ceil(sides / texel_angle), 1.0, 4.0));
 }
 
-// The direction of one of them; number runs over the product of the counts.
+// The direction of one of these lookups; number runs over the product of the counts.
 vec3 sample_direction(vec3 middle, vec3 across, vec3 up, ivec2 counts, int number)
 {
   ivec2 cell = ivec2(number % counts.x, number / counts.x);

@@ -125,7 +125,7 @@ vec3 stack_radiance(sampler3D maps,
                     map_radiance(maps, layout_number, slices, lobe, axis, elevation.x + elevation.y);
       }
     }
-    // Signed lobes may sum to less than nothing.
+    // Signed lobes may have a negative sum.
     mean += max(radiance, 0.0) / float(lookups);
   }
   return mean;

@@ -7,7 +7,7 @@
 #define WARPING_SPLIT 1
 #define WARPING_ALBEDO 2
 
-// What radiance is divided by where a source saw it, and multiplied by where it is shown.
+// The divisor of radiance where a source saw it, and its factor where it is shown.
 vec3 albedo_at(sampler2D albedo, int warping, int warp, float cosine)
 {
   if (warping != WARPING_ALBEDO) {
@@ -16,7 +16,7 @@ vec3 albedo_at(sampler2D albedo, int warping, int warp, float cosine)
   return textureLod(albedo, vec2(cosine, (warp == WARP_NORMAL) ? 0.25 : 0.75), 0.0).rgb;
 }
 
-// Where a source shows a surface point: u, v and the cosine at which it saw it.
+// Place of a surface point in a source: u, v and the cosine at which the source saw it.
 vec3 seen_by(int warp, vec3 normal, vec3 view_dir, vec3 source_dir)
 {
   return vec3(source_uv(warp, normal, view_dir, camera_frame(source_dir)),

@@ -15,7 +15,7 @@ vec3 table_weight(sampler2D weights, int role, float cosine)
   return textureLod(weights, vec2(cosine, (float(role) + 0.5) / float(TABLES)), 0.0).rgb;
 }
 
-// Weight times table, times a factor: 0 where the table is not there or not to be shown.
+// Weight times table, times a factor: 0 where the table is missing or not shown.
 vec3 weighted_table(float factor, sampler2D table, sampler2D weights, int role, float cosine, vec3 direction)
 {
   if (factor == 0.0) {

@@ -38,7 +38,7 @@ vec4 footprint_box(vec3 corners[4], vec2 size)
   return vec4(low.x - turn, max(low.y, 0.0), high.x - turn, min(high.y, 1.0));
 }
 
-// An interval as three: its first texel, those it holds whole, its last one.
+// An interval in three parts: its first texel, the texels that it holds whole, its last texel.
 void cut(float low, float high, int last_edge, out ivec4 edges, out vec3 weights)
 {
   float first = floor(low);

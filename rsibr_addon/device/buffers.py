@@ -80,7 +80,7 @@ def texture_3d(images: Array, texel_format: str) -> gpu.types.GPUTexture:
 
 
 def with_alpha(image: Array) -> Array:
-    """A map as textures hold it.
+    """A map with the four channels of textures.
 
     Parameters
     ----------
@@ -118,21 +118,22 @@ def uniform_block(*fields: Array) -> gpu.types.GPUUniformBuf:
 
 
 FRAMES_IN_FLIGHT = 3
-"""Drivers draw up to so many frames behind the program; some wait for them before a buffer changes."""
+"""Frames that drivers may draw behind the program; some wait for them before a buffer changes."""
 
 
 class KeptBlock:
-    """A uniform block that is filled anew for each draw, and allocated for the first few.
+    """A uniform block that is refilled for each draw, and allocated for the first few.
 
-    Keep it with what is drawn: Blender binds a block without a reference to it, and it has to outlive the
-    draw. Filling and drawing are commands in one order, so the draws of a frame may share a block.
+    Keep it with the thing that is drawn: Blender binds a block without a reference to it, and the block has
+    to outlive the draw. Filling and drawing are commands in one order, so the draws of a frame may share a
+    block.
     """
 
     def __init__(self) -> None:
         self._uploaded: dict[bytes, gpu.types.GPUUniformBuf] = {}
 
     def filled(self, *fields: Array) -> gpu.types.GPUUniformBuf:
-        """Upload fields, as many each time, unless they were uploaded lately.
+        """Upload fields, the same number each time, unless they were uploaded lately.
 
         Parameters
         ----------
@@ -168,7 +169,7 @@ def triangles(
     Parameters
     ----------
     shader : GPUShader
-        A program with those vertex attributes.
+        A program with these vertex attributes.
     attributes : dict of str to ndarray, shape (V, n)
     indices : ndarray of int, shape (F, 3)
 
@@ -181,7 +182,7 @@ def triangles(
 
 
 def _block(fields: tuple[Array, ...]) -> Array:
-    """Fields as a block holds them, shape (rows, 4), float32."""
+    """Fields in a block's layout, shape (rows, 4), float32."""
     return np.ascontiguousarray(np.concatenate([_rows_of_four(field) for field in fields]), np.float32)
 
 

@@ -31,7 +31,7 @@ def ensure_context() -> None:
 
 
 def _limit() -> str:
-    """What to do first where drivers may be there and find no place in memory."""
+    """The advice where drivers may exist but find too little memory."""
     if sys.platform == "win32":
         return ""
     import resource

@@ -1,4 +1,4 @@
-"""What every kind of map set has in common on the GPU: an upload, drawn on a mesh as its look says."""
+"""The interface of every kind of map set on the GPU: an upload that is drawn on a mesh with a look."""
 
 from copy import copy
 from dataclasses import dataclass, field
@@ -13,18 +13,18 @@ from . import buffers, shaders
 
 @dataclass(frozen=True)
 class Draw:
-    """Where a mesh stands and from where it is seen; matrices of shape (4, 4) for column vectors.
+    """The place of a mesh and of the eye; matrices of shape (4, 4) for column vectors.
 
     Attributes
     ----------
     model, view, projection : ndarray, shape (4, 4)
     eye : ndarray, shape (4,)
-        Homogeneous position of the eye in world space, as `core.geometry.camera.Camera.eye`.
+        Homogeneous position of the eye in world space: see `core.geometry.camera.Camera.eye`.
     view_dir : ndarray, shape (3,)
-        Unit vector from the object to the eye: the view that destination maps are made for.
+        Unit vector from the object to the eye: the view of destination maps.
     turn : ndarray, shape (3, 3)
-        Rotation from the world to that of the map set, for a world that has been turned since. It is for
-        shading alone: position, normal and `eye` are turned by it, `view_dir` has been.
+        Rotation from the world to that of the map set, for a world that was turned since the bake. It is for
+        shading alone: it turns position, normal and `eye`; `view_dir` is already turned.
     """
 
     model: Array
@@ -42,7 +42,7 @@ class Draw:
 
 
 class MeshOnDevice:
-    """A mesh, uploaded, and the block that says where it stands.
+    """An uploaded mesh, and the block with its place.
 
     Parameters
     ----------
@@ -56,13 +56,13 @@ class MeshOnDevice:
         self._placed = buffers.KeptBlock()
 
     def again(self) -> "MeshOnDevice":
-        """The same mesh, to be drawn elsewhere in the same frames: with a block of its own."""
+        """The same mesh for another place in the same frames, with its own block."""
         other = copy(self)
         other._placed = buffers.KeptBlock()
         return other
 
     def draw(self, shader: gpu.types.GPUShader, draw: Draw) -> None:
-        """Draw it into the active frame buffer.
+        """Draw the mesh into the active frame buffer.
 
         Parameters
         ----------
@@ -78,7 +78,7 @@ class OnDevice(Protocol):
     """What a map set holds, uploaded."""
 
     def draw(self, mesh: MeshOnDevice, draw: Draw, look: Any) -> None:
-        """Draw a mesh into the active frame buffer, with the depth test as it is set.
+        """Draw a mesh into the active frame buffer, with the current depth test.
 
         Parameters
         ----------

@@ -1,6 +1,6 @@
-"""Whether Linux's graphics drivers give a context such as Blender wants.
+"""A check whether Linux's graphics drivers give a context that Blender can use.
 
-Blender ends with a segmentation fault where they do not, so it is asked for before, in Blender's own way.
+Blender crashes with a segmentation fault where they do not, so we ask before, in Blender's own way.
 """
 
 import ctypes
@@ -18,26 +18,26 @@ PROFILE_MASK, CORE_PROFILE_BIT = 0x30FD, 0x0001
 NONE = 0x3038
 
 OLDEST_OPENGL = 4, 3
-"""That Blender works with."""
+"""Oldest version of OpenGL that Blender works with."""
 
 
 @functools.cache
 def check_drivers() -> None:
-    """Refuse to go on without a driver; one that is there is looked for once.
+    """Refuse to continue without a driver; a driver that was found is not looked for again.
 
     Raises
     ------
     OSError
         EGL is not installed.
     DeviceError
-        No driver of it gives such a context; the message says only what there is not.
+        No driver gives such a context; the message names only what is missing.
     """
     egl = ctypes.CDLL("libEGL.so.1")
     for name in ("eglGetDisplay", "eglGetPlatformDisplay", "eglCreateContext"):
         getattr(egl, name).restype = c_void_p
     display = c_void_p(egl.eglGetDisplay(None))
     if not egl.eglInitialize(display, None, None):
-        # No screen: drivers can draw without
+        # No screen: drivers can draw without one
         display = c_void_p(egl.eglGetPlatformDisplay(PLATFORM_SURFACELESS, None, None))
         if not egl.eglInitialize(display, None, None):
             raise DeviceError("EGL has no display")

@@ -22,7 +22,7 @@ class Sums:
     texture : GPUTexture
         See `summed_area_texture`.
     unit : ndarray, shape (3,)
-        What its sums count.
+        Unit of its sums.
     """
 
     texture: gpu.types.GPUTexture
@@ -30,12 +30,12 @@ class Sums:
 
 
 def no_map() -> gpu.types.GPUTexture:
-    """What stands in for a map that is not looked up."""
+    """A stand-in for a map that is not looked up."""
     return buffers.texture(np.zeros((1, 1, 4)))
 
 
 def no_sums() -> Sums:
-    """What stands in for sums that are not looked up."""
+    """A stand-in for sums that are not looked up."""
     return Sums(buffers.texture_array(np.zeros((3, 2, 2, 4))), np.ones(3))
 
 
@@ -85,7 +85,7 @@ def map_texture(name: str, image: Array) -> gpu.types.GPUTexture:
 
 
 def bordered(image: Array) -> Array:
-    """A latitude-longitude map with what lies across its seam and poles around it.
+    """A latitude-longitude map with a border of the texels across its seam and poles.
 
     Parameters
     ----------

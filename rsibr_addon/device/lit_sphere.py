@@ -1,4 +1,4 @@
-"""An exactly lit sphere on the GPU, to show any mesh as it does: the reference of pictures."""
+"""An exactly lit sphere on the GPU, to shade any mesh as the sphere: the reference of pictures."""
 
 import gpu
 import numpy as np
@@ -12,7 +12,7 @@ _SPHERE_BLOCK = "struct Sphere { mat4 frame; };"
 
 
 class LitSphereOnDevice:
-    """Radiance by normals, uploaded; meshes are to be seen from where the sphere was.
+    """Uploaded radiance by normals; meshes must be seen from the sphere's view.
 
     Parameters
     ----------

@@ -11,11 +11,11 @@ from . import buffers
 from .drawing import Draw, MeshOnDevice, OnDevice
 
 SAMPLES_PER_AXIS = 4
-"""Each pixel is the mean of SAMPLES_PER_AXIS**2 samples: antialiased, as Cycles' box filter."""
+"""Samples along each axis of a pixel, whose mean is the pixel: antialiased, as by Cycles' box filter."""
 
 
 class PreviewRenderer:
-    """Draws meshes with what a map set holds into pictures.
+    """Draws meshes, shaded from a map set, into pictures.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ class PreviewRenderer:
         size : int
             Width and height of the picture in pixels.
         look : object
-            Of the subject's kind: see `core.kinds`.
+            Look of the subject's kind: see `core.kinds`.
 
         Returns
         -------

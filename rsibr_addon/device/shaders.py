@@ -1,4 +1,4 @@
-"""The GPU programs: their interfaces; their sources stand in `gpu_shaders`."""
+"""Interfaces of the GPU programs; their sources are in `gpu_shaders`."""
 
 import atexit
 from collections.abc import Callable
@@ -9,16 +9,16 @@ import gpu
 from ..core.errors import DeviceError
 from .shader_source import shader_source
 
-# Uniform blocks hold vec4 and mat4 alone: the layout is then the same for every driver.
+# Uniform blocks hold only vec4 and mat4, so that the layout is the same for every driver.
 _DRAW_BLOCK = "struct Draw { mat4 model; mat4 view; mat4 projection; mat4 turn; vec4 eye; };"
 _DESTINATION_BLOCK = "struct Destination { vec4 view_dir; };"
 _MODE_BLOCK = "struct Mode { float warping; float last_level; float antialiased; float unused_0; };"
 
 
 def kept_until_exit(build: Callable[[], gpu.types.GPUShader]) -> Callable[[], gpu.types.GPUShader]:
-    """Build a program when it is first wanted, and let go of it before Blender's graphics end.
+    """Build a program on first use, and free it before Blender's graphics end.
 
-    A program that is freed later than them ends the process with a segmentation fault.
+    A program that is freed after them ends the process with a segmentation fault.
     """
     cached = cache(build)
     _kept.append(cached.cache_clear)
@@ -30,7 +30,7 @@ _kept: list[Callable[[], None]] = []
 
 @atexit.register
 def release_programs() -> None:
-    """Let go of every program; those that are wanted again are built again."""
+    """Free every program; programs that are needed again are built again."""
     for release in _kept:
         release()
 
@@ -81,7 +81,7 @@ def views_disk_shader() -> gpu.types.GPUShader:
 
 
 def mesh_interface(blocks: str) -> gpu.types.GPUShaderCreateInfo:
-    """What every program that draws a mesh has: the block `draw` in slot 0, and mesh_vert.glsl's varyings.
+    """The interface that programs of meshes share: the block `draw` in slot 0, mesh_vert.glsl's varyings.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def mesh_interface(blocks: str) -> gpu.types.GPUShaderCreateInfo:
     Returns
     -------
     GPUShaderCreateInfo
-        To be completed with them, with samplers, and built with mesh_vert.glsl.
+        To be completed with these blocks and with samplers, and built with mesh_vert.glsl.
     """
     info = gpu.types.GPUShaderCreateInfo()
     # Once for all blocks: a second call would replace the first.

@@ -1,4 +1,4 @@
-"""A summed table on the GPU, in whole numbers that single precision holds."""
+"""A summed table on the GPU, in whole numbers that single precision can hold."""
 
 import gpu
 import numpy as np
@@ -9,7 +9,7 @@ from . import buffers
 
 DIGITS = 3
 DIGIT_BITS = 21
-"""Sums have 62 bits; of four such digits, one of them in a second turn, every sum fits 24."""
+"""Bits of a digit. Sums have 62 bits; the sum of four digits, one of them in a second turn, fits into 24."""
 
 
 def summed_area_texture(table: SummedAreaTable) -> gpu.types.GPUTexture:
@@ -18,7 +18,7 @@ def summed_area_texture(table: SummedAreaTable) -> gpu.types.GPUTexture:
     Parameters
     ----------
     table : SummedAreaTable
-        Of three channels.
+        Table of three channels.
 
     Returns
     -------
@@ -28,7 +28,7 @@ def summed_area_texture(table: SummedAreaTable) -> gpu.types.GPUTexture:
     Raises
     ------
     ShapeError
-        The table has not three channels.
+        The table does not have three channels.
     """
     if table.sums.shape[-1] != 3:
         raise ShapeError(f"A table for the GPU has red, green and blue, not {table.sums.shape[-1]} channels.")

@@ -1,4 +1,4 @@
-"""What surrounds a point, rendered by Blender's own viewport into a texture."""
+"""The surroundings of a point, rendered by Blender's own viewport into a texture."""
 
 import bpy
 import gpu
@@ -22,7 +22,7 @@ class SurroundingsCamera:
     def see(
         self, scene: bpy.types.Scene, layer: str, space: bpy.types.SpaceView3D, view: Array, projection: Array
     ) -> gpu.types.GPUTexture:
-        """Render one view, as a viewport is shaded; only while a viewport's pixels are being drawn.
+        """Render one view with a viewport's shading; only while a viewport's pixels are drawn.
 
         Parameters
         ----------
@@ -30,14 +30,14 @@ class SurroundingsCamera:
         layer : str
             Name of one of its view layers.
         space : bpy.types.SpaceView3D
-            That which is being drawn.
+            The viewport that is being drawn.
         view, projection : ndarray, shape (4, 4)
             See `core.kinds.live_environment.face_view` and `face_projection`.
 
         Returns
         -------
         GPUTexture
-            Before the view transform; until the next view is rendered.
+            Radiance before the view transform; valid until the next view is rendered.
         """
         self._target.draw_view3d(
             scene,

@@ -1,8 +1,8 @@
-"""Previews in Blender's own viewport, among what it has drawn already.
+"""Previews in Blender's own viewport, among the surfaces that it has drawn.
 
-Previews are drawn into a picture of radiance and depth first. One pass over the screen then brings
-them to the display and tests each pixel's depth against what Blender has drawn: any kind of map
-set is shaded by the programs it has, and only what is seen is brought to the display.
+Previews are drawn into a picture of radiance and depth first. One pass over the screen then brings them to
+the display and tests each pixel's depth against Blender's. So every kind of map set uses its own programs,
+and only visible pixels are brought to the display.
 """
 
 from collections.abc import Iterator
@@ -55,10 +55,10 @@ class Sight:
 
 
 def current_sight() -> Sight:
-    """What Blender is drawing."""
+    """The view that Blender is drawing now."""
     view, projection = gpu.matrix.get_model_view_matrix(), gpu.matrix.get_projection_matrix()
     pose = view.inverted()
-    # The camera's origin, or where a parallel projection's rays come from
+    # The camera's origin, or the direction from which a parallel projection's rays come
     eye = pose.col[3] if projection[3][3] == 0.0 else pose.col[2]
     return Sight(np.array(view), np.array(projection), np.array(eye))
 
@@ -77,14 +77,14 @@ def draw_occluder(mesh: MeshOnDevice, draw: Draw) -> None:
 
 
 class Stage:
-    """Where previews are drawn before they are shown; kept from frame to frame, for all viewports."""
+    """The target of previews before they are shown; kept from frame to frame, for all viewports."""
 
     def __init__(self) -> None:
         self._size = (0, 0)
 
     @contextmanager
     def drawing(self) -> Iterator[None]:
-        """Within, meshes are drawn into the stage, where the view has its pixels; it is empty at first."""
+        """Within, meshes are drawn into the stage, at the view's pixels; it is empty at first."""
         x, y, width, height = gpu.state.active_framebuffer_get().viewport_get()
         self._fit(x + width, y + height)
         with self._target.bind():
@@ -101,21 +101,21 @@ class Stage:
         among_others: bool,
         difference: "tuple[Stage, float] | None" = None,
     ) -> None:
-        """Bring what was drawn to the active frame buffer.
+        """Show the stage in the active frame buffer.
 
         Parameters
         ----------
         display : GPUTexture
             A display's colours, see `core.pictures.display`, from `buffers.table_texture`.
         scale : float
-            What radiance is multiplied by.
+            Factor of radiance.
         span : (float, float)
-            The part of the width that is shown, from 0 to 1; lines mark where it begins and ends.
+            The part of the width that is shown, from 0 to 1; lines mark its begin and end.
         among_others : bool
-            Whether the frame buffer holds the depths of what else is to be seen.
+            Whether the frame buffer holds the depths of other surfaces.
         difference : (Stage, float), optional
-            Instead of what was drawn, how far it is from what was drawn on another stage: the largest of the
-            channels' differences on the display, as heat, white at that number; with a scale.
+            Shows the difference from another stage instead: the largest of the channels' differences on the
+            display, as heat, white at that number; with a scale.
         """
         others, full = difference or (self, 0.0)
         shader = composite_shader()
@@ -134,7 +134,7 @@ class Stage:
             self._screen.draw(shader)
 
     def _fit(self, width: int, height: int) -> None:
-        """Grow where a viewport is larger than those before."""
+        """Grow for a viewport that is larger than those before."""
         if width <= self._size[0] and height <= self._size[1]:
             return
         size = (max(width, self._size[0]), max(height, self._size[1]))
@@ -144,7 +144,7 @@ class Stage:
         self._screen = buffers.triangles(
             composite_shader(), {"position": _SCREEN_TRIANGLE}, np.array([[0, 1, 2]])
         )
-        self._size = size  # at last: what fails above is tried again
+        self._size = size  # last, so that a failure above is tried again
 
 
 @contextmanager

@@ -1,4 +1,4 @@
-"""The GPU programs of viewports: their interfaces; their sources stand in `gpu_shaders`."""
+"""Interfaces of the GPU programs of viewports; their sources are in `gpu_shaders`."""
 
 import gpu
 

@@ -1,4 +1,4 @@
-"""What an artist has chosen to bake: the scene's settings and the active object, as names and paths."""
+"""An artist's choices for a bake: the scene's settings and the active object, as names and paths."""
 
 import os
 from pathlib import Path
@@ -13,13 +13,13 @@ from .materials import surface_output
 from .worlds import studio_environments, world_of
 
 EXTENSION = __package__.rpartition(".rsibr_addon")[0]
-"""The package that Blender knows us by."""
+"""The package name under which Blender knows us."""
 
 FOLDER = "//rsibr"
-"""Where baked files go beside a saved file."""
+"""Folder of baked files, beside a saved file."""
 
 SHAPED = ("MESH", "CURVE", "SURFACE", "FONT", "META")
-"""Types of objects that have surfaces."""
+"""Types of objects with surfaces."""
 
 
 class LightSettings(Settings, Protocol):
@@ -29,13 +29,13 @@ class LightSettings(Settings, Protocol):
 
 
 def chosen_picture(settings: LightSettings) -> str:
-    """The light's picture as Blender writes paths, FILE.exr:LAYER where a layer is named; empty without."""
+    """The light's picture as Blender writes paths, FILE.exr:LAYER if a layer is named; empty for none."""
     path = chosen_path(settings)
     return f"{path}:{settings.layer}" if path and settings.layer else path
 
 
 def use_picture(settings: LightSettings, path: str) -> None:
-    """Choose the light's picture, as `chosen_picture` tells it; it need not be there."""
+    """Choose the light's picture, as `chosen_picture` returns it; it need not exist."""
     _, layer = split_layer(bpy.path.abspath(path))
     settings.layer = layer or ""
     use_file(settings, path.removesuffix(f":{layer}"))
@@ -54,7 +54,7 @@ def chosen_environment(scene: bpy.types.Scene) -> str | None:
     SceneError
         There is no world.
     InputFileError
-        No file is given, or it is not there.
+        No file is given, or it is missing.
     OutputFileError
         It is packed, and the disk is full.
     """
@@ -77,14 +77,14 @@ def existing(path: str, what: str, wanted: str) -> str:
     Parameters
     ----------
     path : str
-        As Blender writes paths, `//` and all.
+        As Blender writes paths, also with `//`.
     what, wanted : str
-        What the file is to be, and in more words.
+        The kind of file that is needed, in short and in more words.
 
     Raises
     ------
     InputFileError
-        None was chosen, or it is not there.
+        None was chosen, or it is missing.
     """
     if not path:
         raise InputFileError(f"No {what} is chosen: give {wanted}.")
@@ -95,7 +95,7 @@ def existing(path: str, what: str, wanted: str) -> str:
 
 
 def check_choices(chosen: bpy.types.PropertyGroup) -> None:
-    """Refuse a choice that a newer version has, and this one does not.
+    """Refuse a choice that only a newer version has.
 
     Parameters
     ----------
@@ -113,7 +113,7 @@ def check_choices(chosen: bpy.types.PropertyGroup) -> None:
 
 
 def check_object(item: bpy.types.Object | None) -> None:
-    """Refuse to bake for nothing.
+    """Refuse to bake for no object, or for one that cannot be shaded.
 
     Raises
     ------
@@ -133,12 +133,12 @@ def check_object(item: bpy.types.Object | None) -> None:
 
 
 def own_material(item: bpy.types.Object) -> bpy.types.Material:
-    """The material that an object shows.
+    """The material of an object.
 
     Raises
     ------
     SceneError
-        It has none, or one without a surface.
+        It has none, or its material has no surface.
     """
     material = item.active_material
     if material is None:
@@ -151,12 +151,12 @@ def own_material(item: bpy.types.Object) -> bpy.types.Material:
 
 
 def baked_folder() -> Path:
-    """Where baked files go: as the preferences say, or beside the open file, or among the user's own.
+    """The folder of baked files: that of the preferences, or beside the open file, or among the user's files.
 
     Raises
     ------
     OutputFileError
-        It cannot be made, or written to.
+        The folder cannot be made, or written to.
     """
     addon = bpy.context.preferences.addons.get(EXTENSION)
     wished = (addon and addon.preferences and addon.preferences.folder) or FOLDER
@@ -176,7 +176,7 @@ def baked_folder() -> Path:
 
 
 def user_folder() -> Path:
-    """The extension's own folder among the user's files, which outlasts upgrades."""
+    """The extension's own folder among the user's files, which upgrades keep."""
     try:
         return Path(bpy.utils.extension_path_user(EXTENSION, path="baked"))
     except ValueError:  # Not installed as an extension, but imported from elsewhere.
@@ -184,7 +184,7 @@ def user_folder() -> Path:
 
 
 def save_copy(path: Path) -> None:
-    """Write the open file as it is now, unsaved changes too; it stays as it was, and stays open.
+    """Write a copy of the open file with its unsaved changes; the open file stays as it was.
 
     Raises
     ------
@@ -202,12 +202,12 @@ def open_file() -> str:
 
 
 def blender_program() -> str:
-    """What starts this Blender again; empty where it is but a module of Python."""
+    """The program of this Blender; empty where Blender is a module of Python."""
     return bpy.app.binary_path
 
 
 def assign(uid: int, path: Path, settings: dict[str, Any]) -> str | None:
-    """Have an object shaded from a map set.
+    """Shade an object from a map set.
 
     Parameters
     ----------
@@ -215,12 +215,12 @@ def assign(uid: int, path: Path, settings: dict[str, Any]) -> str | None:
         Its `session_uid`, which stays while names change.
     path : Path
     settings : dict
-        What it was baked with, as `plain_settings` gives them.
+        Settings of its bake, from `plain_settings`.
 
     Returns
     -------
     str or None
-        Its name; None where it is gone, or may not be changed.
+        The object's name; None where it is gone, or may not be changed.
     """
     item = next((each for each in bpy.data.objects if each.session_uid == uid), None)
     if item is None or not item.is_editable:
@@ -232,12 +232,12 @@ def assign(uid: int, path: Path, settings: dict[str, Any]) -> str | None:
 
 
 def plain_settings(group: bpy.types.PropertyGroup) -> dict[str, Any]:
-    """What a group says, less what this version of ours does not know.
+    """A group's settings, without those that this version does not know.
 
     Returns
     -------
     dict
-        Name -> text, number or truth; or of a group within, such a dict.
+        Name -> text, number or truth; for a group within, such a dict.
     """
     settings: dict[str, Any] = {}
     for prop in group.bl_rna.properties:
@@ -245,7 +245,7 @@ def plain_settings(group: bpy.types.PropertyGroup) -> dict[str, Any]:
             continue
         value = getattr(group, prop.identifier)
         if prop.type == "POINTER":
-            if isinstance(value, bpy.types.PropertyGroup):  # an image is told of by its path
+            if isinstance(value, bpy.types.PropertyGroup):  # a path stands for an image
                 settings[prop.identifier] = plain_settings(value)
         elif prop.type != "ENUM" or value:
             settings[prop.identifier] = value
@@ -253,7 +253,7 @@ def plain_settings(group: bpy.types.PropertyGroup) -> dict[str, Any]:
 
 
 def apply_settings(group: bpy.types.PropertyGroup, settings: dict[str, Any]) -> None:
-    """Have a group say what `plain_settings` told of another."""
+    """Set a group to the settings that `plain_settings` returned for another."""
     for name, value in settings.items():
         if isinstance(value, dict):
             apply_settings(getattr(group, name), value)

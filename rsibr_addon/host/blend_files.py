@@ -1,4 +1,4 @@
-"""Blender's own files."""
+"""Opening Blender's own files."""
 
 from pathlib import Path
 
@@ -27,7 +27,7 @@ def open_blend(path: Path) -> None:
 
 
 def check_there(path: Path) -> None:
-    """Refuse a file that is not there.
+    """Refuse a missing file.
 
     Raises
     ------
@@ -38,7 +38,7 @@ def check_there(path: Path) -> None:
 
 
 def unreadable(path: Path) -> InputFileError:
-    """What to raise when Blender cannot read a file."""
+    """The error to raise when Blender cannot read a file."""
     version = ".".join(map(str, bpy.app.version[:2]))
     return InputFileError(
         f"{path} is no file that Blender {version} can read: save it with Blender {version}."

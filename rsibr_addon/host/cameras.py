@@ -1,4 +1,4 @@
-"""Our cameras as Blender's."""
+"""Our cameras as objects of Blender."""
 
 import bpy
 import numpy as np
@@ -9,18 +9,18 @@ from ..core.geometry.camera import Camera
 from ..core.maps.cube_map import FACES
 
 CLOSE = 1e-4
-"""What stands about a camera, and is not to meet anything, measures so much of what is around it."""
+"""Size of things about a camera that must not meet anything, relative to their surroundings."""
 
 
 def add_camera(scene: bpy.types.Scene, camera: Camera) -> bpy.types.Object:
-    """Look at a scene through a camera.
+    """Add a camera that looks at a scene.
 
     Parameters
     ----------
     scene : bpy.types.Scene
         Its active camera becomes the new one.
     camera : Camera
-        Fills square frames as `core.geometry.camera` says; the scene's resolution should be square.
+        Its frame is square: see `core.geometry.camera`; the scene's resolution should be square.
 
     Returns
     -------
@@ -36,14 +36,14 @@ def add_camera(scene: bpy.types.Scene, camera: Camera) -> bpy.types.Object:
 
 
 def add_panoramic_camera(scene: bpy.types.Scene, point: ArrayLike = (0.0, 0.0, 0.0)) -> bpy.types.Object:
-    """Look at a scene from within, all around.
+    """Add a camera within a scene that looks all around.
 
     Parameters
     ----------
     scene : bpy.types.Scene
-        Its active camera becomes the new one, and its picture shows all directions whatever its resolution.
+        The camera becomes its active one; at any resolution, the picture shows all directions.
     point : array_like, shape (3,)
-        Where it stands, in world coordinates.
+        The camera's place, in world coordinates.
 
     Returns
     -------
@@ -56,7 +56,7 @@ def add_panoramic_camera(scene: bpy.types.Scene, point: ArrayLike = (0.0, 0.0, 0
 
 
 def add_face_camera(scene: bpy.types.Scene, face: int, point: ArrayLike) -> bpy.types.Object:
-    """Look at a scene from within through one face of a cube.
+    """Add a camera within a scene that looks through one face of a cube.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def add_face_camera(scene: bpy.types.Scene, face: int, point: ArrayLike) -> bpy.
     Returns
     -------
     bpy.types.Object
-        Its pictures are that face, in the world's axes: row 0 is OpenGL's first.
+        Its pictures show that face, in the world's axes: row 0 is OpenGL's first.
     """
     data = bpy.data.cameras.new("RSIBR face")
     data.type, data.angle = "PERSP", np.pi / 2.0

@@ -1,26 +1,26 @@
-"""What makes a camera see as a surface does: a shell through which its rays go as others."""
+"""A shell that makes a camera see as a surface does: its rays go on as other rays."""
 
 import bpy
 
 from ..core.conventions import ArrayLike
 
 RAYS = ("diffuse", "glossy", "transmission", "volume_scatter", "shadow")
-"""Kinds of rays but the camera's own, by their names in Blender."""
+"""Kinds of rays except the camera's, by their names in Blender."""
 
 
 def add_clear_shell(
     scene: bpy.types.Scene, point: ArrayLike = (0.0, 0.0, 0.0), half_width: float = 1.0
 ) -> bpy.types.Object:
-    """Put a cube about a camera through which rays go straight, no longer as the camera's own.
+    """Put a cube about a camera through which its rays go straight, but no longer as camera rays.
 
     Parameters
     ----------
     scene : bpy.types.Scene
-        To be rendered by Cycles with one bounce, of transmission, more than the camera alone would need.
+        To be rendered by Cycles with one more bounce, of transmission, than without the shell.
     point : array_like, shape (3,)
-        Its middle, in world coordinates.
+        The cube's middle, in world coordinates.
     half_width : float
-        To each side.
+        Half the cube's width.
 
     Returns
     -------
@@ -28,8 +28,8 @@ def add_clear_shell(
 
     Notes
     -----
-    Beyond, Cycles shows what it hides from the camera's rays: lamps, above all, and what a world's nodes
-    have for other rays. No ray but the camera's meets the shell.
+    Beyond it, Cycles shows what it hides from camera rays: above all lamps, and what a world's nodes have for
+    other rays. Only camera rays meet the shell.
     """
     material = bpy.data.materials.new("RSIBR shell")
     tree = material.node_tree

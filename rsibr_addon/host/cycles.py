@@ -17,20 +17,20 @@ LARGEST_SAMPLES = 1 << 24
 LARGEST_SEED = (1 << 31) - 1
 
 WHOLLY = 0.999
-"""Coverage above which no sample has missed the object."""
+"""Coverage above which no sample missed the object."""
 
 ROUNDING = 1e-5
-"""Share of a sum of float32 radiance that may be rounding: a metal's diffuse part is nothing else."""
+"""Share of a sum of float32 radiance that may be rounding: all of a metal's diffuse part is."""
 
 BYTES_BESIDES = 2e8
-"""Memory that Cycles takes whatever it renders."""
+"""Bytes of memory that Cycles takes for any render."""
 
 PASSES = ("use_pass_glossy_direct", "use_pass_glossy_color")
 
 
 @dataclass(frozen=True)
 class RenderSettings:
-    """How to render.
+    """Settings of a render.
 
     Attributes
     ----------
@@ -70,8 +70,8 @@ class RenderedView:
     Attributes
     ----------
     diffuse, glossy : ndarray, shape (size, size, 3), float32
-        Radiance times coverage: reflected by glossy lobes, and everything else (Lambert, emission,
-        transmission).
+        Radiance times coverage: `glossy` is reflected by glossy lobes, `diffuse` is all other
+        (Lambert, emission, transmission).
     coverage : ndarray, shape (size, size), float32
         Covered part of each pixel, in [0, 1].
     noise : float
@@ -91,7 +91,7 @@ class RenderedView:
 
 
 def bytes_needed(texels: int, denoised: bool) -> float:
-    """Memory that it takes to render a view, or a map of what is around a point.
+    """Memory for rendering a view, or a map of the surroundings of a point.
 
     Parameters
     ----------
@@ -101,13 +101,13 @@ def bytes_needed(texels: int, denoised: bool) -> float:
     Returns
     -------
     float
-        Measured; what does not depend on the size, `BYTES_BESIDES`, left out.
+        Bytes, as measured; without `BYTES_BESIDES`, which do not depend on the size.
     """
     return (1500.0 if denoised else 400.0) * texels
 
 
 def render_view(scene: bpy.types.Scene, settings: RenderSettings) -> RenderedView:
-    """Render what the camera of a scene sees of a convex object in the light of the world.
+    """Render a scene's convex object in the light of its world.
 
     Parameters
     ----------
@@ -118,7 +118,7 @@ def render_view(scene: bpy.types.Scene, settings: RenderSettings) -> RenderedVie
     Returns
     -------
     RenderedView
-        Row 0 at the bottom; the world itself does not show.
+        Row 0 at the bottom; the world itself is not in the picture.
 
     Raises
     ------
@@ -127,13 +127,13 @@ def render_view(scene: bpy.types.Scene, settings: RenderSettings) -> RenderedVie
 
     Notes
     -----
-    Light that was reflected once is all there is on a convex object, so no path goes on after it
-    (``max_bounces = 0``; the reflected ray that finds the world still counts). Always on the CPU:
-    the same seed gives the same bits wherever a capture is resumed.
+    A convex object reflects light only once, so paths end after that (``max_bounces = 0``; the reflected ray
+    that finds the world still counts). Renders are always made on the CPU, so that the same seed
+    gives the same bits wherever a capture is resumed.
 
-    The samples are taken in two halves of one sequence: together exactly what one render of all
-    gives, while half their difference estimates the error. As the halves of a low-discrepancy sequence
-    complement each other, it tends to overstate it: by a quarter for copper in the light of "forest".
+    The samples are taken in two halves of one sequence: together they are exactly one render of all, and half
+    their difference estimates the error. The halves of a low-discrepancy sequence complement each other, so
+    this tends to overstate the error: by a quarter for copper in the light of "forest".
     """
     _configure(scene, settings)
     half = settings.samples // 2
@@ -181,12 +181,12 @@ def _configure(scene: bpy.types.Scene, settings: RenderSettings) -> None:
 
 
 def _render_subset(scene: bpy.types.Scene, start: int, count: int) -> dict[str, Array]:
-    """What `count` of the samples, from `start` on, show; with guides for the denoiser where they are."""
+    """A picture of `count` samples from `start` on, with the denoiser's guides where there are any."""
     scene.cycles.sample_offset, scene.cycles.sample_subset_length = start, count
     passes = {name: pixels.astype(np.float64) for name, pixels in render_passes(scene).items()}
     seen: dict[str, Array] = {
         "whole": passes["Combined"][..., :3],
-        # Cycles has divided light by colour pixel by pixel, so only within one render is this the light.
+        # Cycles divides light by colour for each pixel, so the product is the light only within one render.
         "glossy": passes["Glossy Direct"] * passes["Glossy Color"],
         "coverage": passes["Combined"][..., 3],
     }
@@ -196,7 +196,7 @@ def _render_subset(scene: bpy.types.Scene, start: int, count: int) -> dict[str, 
 
 
 def _relative_noise(a: Array, b: Array, count_a: int, count_b: int) -> float:
-    """Of the mean of all samples, from the means `a` and `b` of two independent sets of them.
+    """Relative noise of the mean of all samples, from the means `a` and `b` of two independent sets.
 
     var(a - b) = s^2 (1/m + 1/n) and var(mean) = s^2 / (m + n), so the second is m n / (m + n)^2 of
     the first.

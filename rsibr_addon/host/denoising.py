@@ -16,9 +16,9 @@ def denoise(radiance: Array, albedo: Array, normal: Array) -> Array:
     Parameters
     ----------
     radiance : ndarray, shape (height, width, 3)
-        Of any range.
+        Radiance of any range.
     albedo, normal : ndarray, shape (height, width, 3)
-        What Cycles stores as "Denoising Albedo" and "Denoising Normal" of the same picture.
+        Cycles' passes "Denoising Albedo" and "Denoising Normal" of the same picture.
 
     Returns
     -------
@@ -31,22 +31,21 @@ def denoise(radiance: Array, albedo: Array, normal: Array) -> Array:
 
     Notes
     -----
-    Cycles denoises only the whole picture. Parts denoised here one by one make a whole that is as good:
-    of a sphere of 96x96 pixels and 16 samples in the light of Blender's "forest" the relative RMS error
-    fell from .166 to .026 for copper of GGX alpha .3 (Cycles' own denoised whole: .026), and from .174
-    to .027 for plastic of alpha .1 (its own: .032), whose diffuse part went from .174 to .023 and glossy
-    part from .365 to .100. From a darker side, 64x64 pixels: copper .186 to .055, plastic .244 to .092,
-    car paint .287 to .229. A mirror, whose detail looks like noise, gains nothing: .046 to .085, and .090
-    to .077.
+    Cycles denoises only the whole picture. Parts that are denoised separately here make an equally good
+    whole: for a sphere of 96x96 pixels and 16 samples in the light of Blender's "forest" the relative RMS
+    error fell from .166 to .026 for copper of GGX alpha .3 (Cycles' own denoised whole: .026), and from .174
+    to .027 for plastic of alpha .1 (its own: .032), whose diffuse part went from .174 to .023 and glossy part
+    from .365 to .100. From a darker side, 64x64 pixels: copper .186 to .055, plastic .244 to .092, car paint
+    .287 to .229. A mirror, whose detail looks like noise, gains nothing: .046 to .085, and .090 to .077.
     """
-    if not np.any(radiance):  # which the denoiser would not leave black
+    if not np.any(radiance):  # the denoiser would not leave it black
         return radiance.astype(np.float32)
     height, width = radiance.shape[:2]
     with temporary_folder() as folder, temporary_scene() as scene:
         tree = bpy.data.node_groups.new("RSIBR denoise", "CompositorNodeTree")
         scene.compositing_node_group = tree
         node = tree.nodes.new("CompositorNodeDenoise")
-        # The guides are means over many samples of a smooth sphere: clean enough as they are.
+        # The guides are means over many samples of a smooth sphere, clean enough without denoising.
         node.inputs["Prefilter"].default_value = "None"
         for name, pixels in (("Image", radiance), ("Albedo", albedo), ("Normal", normal)):
             source = tree.nodes.new("CompositorNodeImage")

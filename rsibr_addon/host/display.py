@@ -1,4 +1,4 @@
-"""How a scene's radiance is shown: its view transform, look, exposure, gamma and curves."""
+"""The display of a scene's radiance: its view transform, look, exposure, gamma and curves."""
 
 import bpy
 import numpy as np
@@ -10,14 +10,14 @@ from .scenes import temporary_copy
 from .working_space import working_from_rec709
 
 WIDTH = 1024
-"""Of the picture that colours are sent through, in pixels."""
+"""Width of the picture through which colours are sent, in pixels."""
 
 type Display = tuple[object, ...]
-"""What decides on how radiance is shown; equal for scenes that show it equally."""
+"""All settings that determine the display of radiance; equal for scenes that show it equally."""
 
 
 def display_of(scene: bpy.types.Scene) -> Display:
-    """What `displayed_colours` depends on.
+    """All settings on which `displayed_colours` depends.
 
     Parameters
     ----------
@@ -26,7 +26,7 @@ def display_of(scene: bpy.types.Scene) -> Display:
     Returns
     -------
     Display
-        To be compared. Exposure is not among it, but see `baked_exposure`.
+        For comparison. It does not include exposure, but see `baked_exposure`.
     """
     view = scene.view_settings
     balance = (view.white_balance_temperature, view.white_balance_tint) if view.use_white_balance else ()
@@ -44,20 +44,20 @@ def display_of(scene: bpy.types.Scene) -> Display:
 def baked_exposure(scene: bpy.types.Scene) -> float:
     """The stops of exposure that `displayed_colours` contains.
 
-    Those that it does not contain double radiance before it is shown, which a shader does at once
-    while the artist moves the slider. With curves, exposure comes after them and has to be contained.
+    All other stops double radiance before it is shown, which a shader does at once while the artist moves the
+    slider. With curves, exposure comes after them and has to be contained.
     """
     view = scene.view_settings
     return float(view.exposure) if view.use_curve_mapping else 0.0
 
 
 def scale_before_display(scene: bpy.types.Scene) -> float:
-    """What radiance is to be multiplied by before it is looked up in `displayed_colours`."""
+    """The factor of radiance before its lookup in `displayed_colours`."""
     return float(2.0 ** (scene.view_settings.exposure - baked_exposure(scene)))
 
 
 def displayed_colours(scene: bpy.types.Scene, radiance: Array) -> Array:
-    """What radiance looks like in a scene.
+    """The displayed colours of radiance in a scene.
 
     Parameters
     ----------
@@ -72,8 +72,8 @@ def displayed_colours(scene: bpy.types.Scene, radiance: Array) -> Array:
 
     Notes
     -----
-    Blender's module has no interface to its colour management. But a picture that is saved as a render
-    goes through the scene's.
+    Blender's module has no interface to its colour management, but applies the scene's to a picture that is
+    saved as a render.
     """
     colours = radiance.reshape(-1, 3)
     height = -(-len(colours) // WIDTH)

@@ -1,4 +1,4 @@
-"""The white furnace: how much of uniform light a material reflects to each side."""
+"""The white furnace: a material's reflection of uniform light to each side."""
 
 import bpy
 import numpy as np
@@ -14,10 +14,10 @@ COSINES = 64
 """Rows of tiles, each at its own cosine to the view: (k + 0.5) / COSINES."""
 
 STRIPS = 8
-"""Tiles a cosine: the steepest one must not reach the camera."""
+"""Tiles per cosine: the steepest one must not reach the camera."""
 
 SAMPLES = 256
-"""Of Cycles a pixel; each cosine is the mean of COSINES pixels: a coat over a base is noisy, as each
+"""Cycles' samples per pixel. Each cosine is the mean of COSINES pixels: a coat over a base is noisy, as each
 sample takes one of the two."""
 
 
@@ -50,7 +50,7 @@ def directional_albedo(scene: bpy.types.Scene, material: bpy.types.Material, see
 
 
 def _add_fan(scene: bpy.types.Scene, material: bpy.types.Material) -> None:
-    """Tiles over the frame of an orthographic camera above, tilted more and more from right to left.
+    """Tiles over the frame of an orthographic camera above, each more tilted from right to left.
 
     Only the camera sees them: no tile takes light from another.
     """

@@ -1,7 +1,7 @@
-"""A goniophotometer: how much of a sun's light a material sends from one direction to another.
+"""A goniophotometer: a material's reflectance from one direction to another, by a sun.
 
-A sun without extent and an orthographic camera make one pair of directions; what changes from tile to tile is
-the surface between them. Cycles evaluates all closures of a material for such a sun, so each pixel is the
+A sun without extent and an orthographic camera make one pair of directions; only the surface between them
+changes from tile to tile. Cycles evaluates all closures of a material for such a sun, so each pixel is the
 reflectance itself, without noise.
 """
 
@@ -17,16 +17,17 @@ from .rendering import configure_cycles, render_passes
 from .working_space import rec709_from_working
 
 SAMPLES = 4
-"""Of Cycles a tile; they differ only where a material depends on the place."""
+"""Cycles' samples per tile; they differ only where a material depends on the place."""
 
 FILTER = 0.2
 """Width of the pixel filter in pixels, so that no sample falls on a tile's neighbour."""
 
 HALF_FRAME = 0.1
-"""Of what the camera sees: tiles of a small frame are small, and steep ones do not reach the camera."""
+"""Half the width that the camera sees: in a small frame tiles are small, and steep ones do not reach the
+camera."""
 
 LEAST_COSINE = 1e-3
-"""Of a tile's normal and the view or the light: a steeper tile could reach the camera."""
+"""Least cosine between a tile's normal and the view or the light: a steeper tile could reach the camera."""
 
 VIEW = Camera((0.0, 0.0, 1.0))
 
@@ -42,14 +43,14 @@ def measure(
         An empty `temporary_scene`.
     material : bpy.types.Material
     light_dir, view_dir : ndarray, shape (N, 3)
-        Unit vectors; the surface's normal is +Z, above which both stand by `LEAST_COSINE` at least; the
-        same angle lies between all pairs.
+        Unit vectors; the surface's normal is +Z, to which both have a cosine of at least `LEAST_COSINE`. All
+        pairs enclose the same angle.
 
     Returns
     -------
     diffuse, glossy : ndarray, shape (N, 3), float64
-        [1/sr] in linear Rec. 709, by closures that Cycles calls diffuse and those it calls glossy. Mirrors
-        without roughness, transmitted light and emission are not in it.
+        [1/sr] in linear Rec. 709, of the closures that Cycles calls diffuse and of those that it calls
+        glossy. Mirrors without roughness, transmitted light and emission are not included.
 
     Raises
     ------
@@ -61,7 +62,7 @@ def measure(
     _add_tiles(scene, material, _normals(light_dir, view_dir), size)
     add_camera(scene, VIEW).data.ortho_scale = 2.0 * HALF_FRAME
     configure_cycles(scene, size, size, SAMPLES)
-    scene.cycles.transparent_max_bounces = 0  # what passes through a tile meets no other
+    scene.cycles.transparent_max_bounces = 0  # light that passes through a tile meets no other
     scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BLACKMAN_HARRIS", FILTER
     layer = scene.view_layers[0]
     for part in ("diffuse", "glossy"):
@@ -79,17 +80,17 @@ def measure(
 def _normals(light_dir: Array, view_dir: Array) -> Array:
     """Each pair's surface normal in the camera's axes, with the light in their x-z plane, towards x.
 
-    The rows of a rotation that takes the view to z and the light to that plane, times +Z.
+    They are a rotation that takes the view to z and the light to that plane, times +Z.
     """
     x = light_dir - dot(light_dir, view_dir)[:, None] * view_dir
     length = np.linalg.norm(x, axis=1, keepdims=True)
-    # Where light and view are one, any plane holds them.
+    # Where light and view are equal, any plane contains them.
     x = np.where(length > 1e-9, x / np.maximum(length, 1e-9), camera_frame(view_dir)[..., 0])
     return np.stack([x[:, 2], np.cross(view_dir, x)[:, 2], view_dir[:, 2]], axis=-1)
 
 
 def _add_sun(scene: bpy.types.Scene, cosine: float) -> None:
-    """A sun of irradiance 1, at an angle from the camera of which the cosine is given."""
+    """A sun of irradiance 1, at an angle from the camera that is given by its cosine."""
     sun = bpy.data.lights.new("RSIBR sun", "SUN")
     sun.energy, sun.angle, sun.use_shadow = 1.0, 0.0, False
     item = bpy.data.objects.new("RSIBR sun", sun)
@@ -100,7 +101,7 @@ def _add_sun(scene: bpy.types.Scene, cosine: float) -> None:
 
 
 def _unsampled(material: bpy.types.Material) -> bpy.types.Material:
-    """A copy that Cycles takes for no lamp where it glows: the sun is to be the only one, chosen always."""
+    """A copy that Cycles does not take for a lamp where it glows: the sun must be the only one."""
     copy = material.copy()
     copy.cycles.emission_sampling = "NONE"
     return copy

@@ -1,4 +1,4 @@
-"""Pictures that panels can show."""
+"""Pictures for panels."""
 
 import bpy.utils.previews
 import numpy as np
@@ -12,7 +12,7 @@ def add_icon(icons: bpy.utils.previews.ImagePreviewCollection, name: str, pixels
     Parameters
     ----------
     icons : ImagePreviewCollection
-        Holds it until it is removed or cleared.
+        Keeps the picture until it is removed or cleared.
     name : str
         New in the collection.
     pixels : ndarray, shape (height, width, 3)
@@ -21,7 +21,7 @@ def add_icon(icons: bpy.utils.previews.ImagePreviewCollection, name: str, pixels
     Returns
     -------
     int
-        Blender's number of it.
+        Blender's number of the picture.
     """
     height, width = pixels.shape[:2]
     icon = icons.new(name)

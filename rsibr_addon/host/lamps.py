@@ -1,4 +1,4 @@
-"""Lamps as they are seen from a point, and what light of theirs arrives there."""
+"""Lamps as seen from a point, and their light that arrives there."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ from .surroundings import TWIN_OF, Surroundings, stand_in
 from .working_space import rec709_from_working
 
 PARTS = 1024
-"""Of a lamp that has an extent: enough for one of a few texels."""
+"""Parts of a lamp with an extent: enough for one of a few texels."""
 
 PROBE_SIZE, PROBE_SAMPLES = 64, 64
 """Pixels across the probe, and samples of each: 2e5 in all, shared among the lamps by their light."""
@@ -27,16 +27,16 @@ PROBE_SIZE, PROBE_SAMPLES = 64, 64
 
 @dataclass(frozen=True)
 class Lamp:
-    """A lamp as it is seen from a point.
+    """A lamp as seen from a point.
 
     Attributes
     ----------
     item : bpy.types.Object
         In the scene of the surroundings.
     name : str
-        Full name of the artist's own.
+        Full name of the artist's lamp.
     directions : ndarray, shape (count, 3)
-        Unit directions to equal parts of it.
+        Unit directions to equal parts of the lamp.
     """
 
     item: bpy.types.Object
@@ -45,12 +45,12 @@ class Lamp:
 
     @property
     def width(self) -> float:
-        """How wide it is seen [rad]."""
+        """Angular width [rad]."""
         return angular_width(self.directions)
 
 
 def lamps_around(scene: bpy.types.Scene, point: ArrayLike) -> list[Lamp]:
-    """The lamps of a scene, but for those that must be left to rays.
+    """The lamps of a scene, except those that must be left to rays.
 
     Parameters
     ----------
@@ -61,10 +61,11 @@ def lamps_around(scene: bpy.types.Scene, point: ArrayLike) -> list[Lamp]:
     Returns
     -------
     list of Lamp
-        Not: portals, which give no light; instances that have a size, as they cannot be hidden from rays.
+        Without portals, which give no light, and without instances that have a size, which cannot be hidden
+        from rays.
     """
     centre = np.asarray(point, dtype=np.float64)
-    # Read to its end before anything is added, after which the list is another.
+    # Read to the end before anything is added, which changes the list.
     seen = [
         (found.object.original, found.is_instance, pose, _directions(found.object.data, pose, centre))
         for found in scene.view_layers[0].depsgraph.object_instances
@@ -82,7 +83,7 @@ def lamps_around(scene: bpy.types.Scene, point: ArrayLike) -> list[Lamp]:
 
 
 def measure_lamps(scene: bpy.types.Scene, around: Surroundings, lamps: Sequence[Lamp]) -> Array:
-    """Measure what light arrives from each of several small lamps.
+    """Measure the light that arrives from each of several small lamps.
 
     Parameters
     ----------
@@ -90,12 +91,12 @@ def measure_lamps(scene: bpy.types.Scene, around: Surroundings, lamps: Sequence[
         As `surroundings_scene` yields it; its render settings are replaced.
     around : Surroundings
     lamps : sequence of Lamp
-        Of that scene.
+        Lamps of that scene.
 
     Returns
     -------
     ndarray, shape (len(lamps), 3)
-        Irradiance on a surface that faces the lamp, in Rec. 709; 0 where something stands in between.
+        Irradiance on a surface that faces the lamp, in Rec. 709; 0 where something hides the lamp.
 
     Raises
     ------
@@ -104,10 +105,10 @@ def measure_lamps(scene: bpy.types.Scene, around: Surroundings, lamps: Sequence[
 
     Notes
     -----
-    Energy over distance squared [Miller1984], but as Cycles knows it: with cones, node trees, photometric
-    profiles and transparent shadows. A tiny white ball without a shadow both reflects and transmits
-    diffusely: where its normal is n it shows E |n.w| / pi of a lamp in direction w, on whatever side. E is
-    fitted to all its pixels; light groups tell the lamps apart.
+    Energy over distance squared [Miller1984], but with all that Cycles supports: cones, node trees,
+    photometric profiles and transparent shadows. A tiny white ball without a shadow both reflects and
+    transmits diffusely: where its normal is n it shows E |n.w| / pi of a lamp in direction w, on either side.
+    E is fitted to all its pixels; light groups tell the lamps apart.
     """
     layer = scene.view_layers[0]
     for index, lamp in enumerate(lamps):
@@ -124,7 +125,7 @@ def measure_lamps(scene: bpy.types.Scene, around: Surroundings, lamps: Sequence[
 
 
 def _add_probe(scene: bpy.types.Scene, around: Surroundings) -> tuple[Array, Array]:
-    """A ball and its camera; normals (count, 3) of pixels that lie inside, and which those are."""
+    """A ball and its camera; normals (count, 3) of the pixels inside, and which pixels these are."""
     radius, camera = closeness(around.point), Camera((0.0, 0.0, 1.0))
     ball = add_ball(scene, radius, _white(), around.point)
     show_to_camera_only(ball)
@@ -139,7 +140,7 @@ def _add_probe(scene: bpy.types.Scene, around: Surroundings) -> tuple[Array, Arr
 
 
 def _white() -> bpy.types.Material:
-    """Shows the light of both its sides."""
+    """A material that shows the light of both its sides."""
     material = bpy.data.materials.new("RSIBR white")
     tree = material.node_tree
     tree.nodes.clear()
@@ -154,7 +155,7 @@ def _white() -> bpy.types.Material:
 
 
 def _can_be_hidden(found: bpy.types.DepsgraphObjectInstance) -> bool:
-    """Whether rays can be kept from finding a lamp: a twin, or an instance that none finds anyway."""
+    """Whether a lamp can be hidden from rays: a twin, or an instance that no ray finds anyway."""
     return not _has_size(found.object.data) if found.is_instance else TWIN_OF in found.object
 
 
@@ -177,7 +178,7 @@ def _has_size(data: bpy.types.Light) -> bool:
 
 
 def _directions(data: bpy.types.Light, pose: Array, point: Array) -> Array:
-    """Unit directions to equal parts of a lamp, shape (count, 3); all around when the point is at it."""
+    """Unit directions to equal parts of a lamp, shape (count, 3); all around if the point is in it."""
     count = PARTS if _has_size(data) else 1
     if data.type == "SUN":
         return directions_in_cap(normalize(pose[:3, 2]), 0.5 * data.angle, count)

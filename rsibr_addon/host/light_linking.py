@@ -1,4 +1,4 @@
-"""Lamps that light chosen objects only: what takes an object's place must be chosen as it is."""
+"""Lamps that light chosen objects only: an object's stand-in must be chosen as the object is."""
 
 import bpy
 
@@ -10,9 +10,9 @@ def take_place_of(subject: bpy.types.Object, item: bpy.types.Object, lamps: list
     ----------
     subject : bpy.types.Object
     item : bpy.types.Object
-        What takes its place.
+        Its stand-in.
     lamps : list of bpy.types.Object
-        Their collections of receivers, where they have one, are changed.
+        Lamps whose collections of receivers, if any, are changed.
     """
     for lamp in lamps:
         receivers = lamp.light_linking.receiver_collection

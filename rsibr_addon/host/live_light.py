@@ -1,4 +1,4 @@
-"""What live light takes from Blender: where an object stands, and which viewport shows its surroundings."""
+"""Blender's data for live light: an object's place, and the viewport that shows its surroundings."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -10,7 +10,7 @@ import numpy as np
 from ..core.conventions import Array
 
 _SHADINGS = ("SOLID", "MATERIAL", "RENDERED")
-"""Shadings of viewports, those that come nearer to light last."""
+"""Shadings of viewports, in ascending order of nearness to real light."""
 
 _SHADING = [each for each in bpy.types.View3DShading.bl_rna.properties if each.type != "POINTER"]
 _COLOURS = {each.identifier for each in _SHADING if getattr(each, "is_array", False)}
@@ -19,7 +19,7 @@ _colours_of = attrgetter(*_COLOURS)
 
 
 def live_name(item: bpy.types.Object) -> str:
-    """A name for the light around an object, which no file has; another for another size.
+    """A name for the light around an object, different for each size, that no file can have.
 
     Parameters
     ----------
@@ -33,12 +33,12 @@ def live_name(item: bpy.types.Object) -> str:
 
 
 def is_live_name(name: str) -> bool:
-    """Whether a name is one of `live_name`."""
+    """Whether a name is from `live_name`."""
     return name.startswith("live\0")
 
 
 def points_of(item: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Array:
-    """Points that an object reaches: its vertices, or the corners of the box about it.
+    """Outer points of an object: its vertices, or the corners of its bounding box.
 
     Parameters
     ----------
@@ -60,19 +60,19 @@ def points_of(item: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Array:
 
 
 def shows_surroundings(space: bpy.types.SpaceView3D, layer: tuple[int, str]) -> bool:
-    """Whether surroundings are to be rendered as a viewport shows them.
+    """Whether surroundings are rendered with a viewport's shading.
 
     Parameters
     ----------
     space : bpy.types.SpaceView3D
     layer : (int, str)
-        The view layer that it shows: its scene's number in this session, and its name.
+        The viewport's view layer: its scene's number in this session, and its name.
 
     Returns
     -------
     bool
-        True for one viewport of a layer at most: the first of those that come nearest to light. None does
-        where Cycles draws, or another engine that is not Blender's own.
+        True for at most one viewport of a layer: the first of those that come nearest to real light.
+        Viewports of Cycles and of engines that are not Blender's own do not count.
     """
     spaces = [
         area.spaces.active
@@ -85,7 +85,7 @@ def shows_surroundings(space: bpy.types.SpaceView3D, layer: tuple[int, str]) -> 
 
 
 def appearance_of(space: bpy.types.SpaceView3D) -> tuple[object, ...]:
-    """All that a viewport says of how it shows things, to be compared with what it said before.
+    """All settings of a viewport's shading, for comparison with earlier ones.
 
     Parameters
     ----------

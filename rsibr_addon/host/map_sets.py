@@ -1,7 +1,7 @@
-"""The file that an object is shaded from, or the picture of the light to bake in, as one of Blender's images.
+"""The file from which an object is shaded, or the picture of the light to bake in, as an image of Blender.
 
-So Blender looks after it. Its path follows when the .blend is saved elsewhere, appended from or linked; and
-it may be packed. What it shows is of no interest here: nothing asks for its pixels.
+So Blender looks after the file. Its path follows when the .blend is saved elsewhere, appended from or linked,
+and the file may be packed. Nothing here asks for the image's pixels.
 """
 
 import hashlib
@@ -31,14 +31,14 @@ class PreviewSettings(Settings, Protocol):
 
 
 class UnpackedFiles:
-    """Packed files, written out once for as long as this Blender runs: who reads one needs a path."""
+    """Packed files, written out once per run of Blender, because reading a file needs a path."""
 
     def __init__(self) -> None:
         self._paths: dict[int, tuple[tuple[int, int], Path]] = {}
 
     def path(self, image: bpy.types.Image) -> Path:
-        """Where a packed image's bytes are written to, whether they are there yet or not."""
-        # They are read when they are others only: it would take long for every frame
+        """Path for a packed image's bytes, written or not."""
+        # The bytes are read only when they have changed: for every frame it would take too long
         packed = image.packed_file
         stamp = packed.as_pointer(), packed.size
         known, path = self._paths.get(image.session_uid, (None, Path()))
@@ -48,11 +48,11 @@ class UnpackedFiles:
         return path
 
     def forget(self, image: bpy.types.Image) -> None:
-        """Note that an image is not packed; other bytes may come to where its own were."""
+        """Note that an image is not packed; other bytes may take the place of its own."""
         self._paths.pop(image.session_uid, None)
 
     def write(self, image: bpy.types.Image) -> Path:
-        """Write a packed image's bytes, unless they are there.
+        """Write a packed image's bytes, unless this is done.
 
         Raises
         ------
@@ -67,21 +67,21 @@ class UnpackedFiles:
         return path
 
     def remove(self) -> None:
-        """Take all of them from the disk."""
+        """Remove all of them from the disk."""
         self._paths.clear()
         shutil.rmtree(self._folder(), ignore_errors=True)
 
     def _folder(self) -> Path:
-        # Blender removes it when it ends
+        # Blender removes the folder when it ends
         return Path(bpy.app.tempdir) / "rsibr-packed"
 
 
 unpacked = UnpackedFiles()
-"""Those of this Blender."""
+"""The packed files that this Blender has written out."""
 
 
 def chosen_path(settings: Settings) -> str:
-    """The file's path as Blender writes paths, absolute where it is a library's; empty without."""
+    """The file's path as Blender writes paths, absolute if it is a library's; empty if there is none."""
     image = settings.image
     if image is None:
         return ""
@@ -95,19 +95,19 @@ def use_file(settings: Settings, path: str) -> None:
     ----------
     settings : Settings
     path : str
-        As Blender writes paths; it need not be there. Empty for none.
+        As Blender writes paths; the file need not exist. Empty for none.
     """
     settings.image = _image_of(path) if path else None
 
 
 def use_map_set(settings: PreviewSettings, path: str) -> None:
-    """Have an object shaded from a file, as `use_file`, and remember what it holds."""
+    """Shade an object from a file, as `use_file`, and remember the file's content."""
     use_file(settings, path)
     remember_content(settings)
 
 
 def remember_content(settings: PreviewSettings) -> None:
-    """Take what an object's map set holds now for what it is to hold; how another was baked is forgotten."""
+    """Remember what an object's map set holds, and forget the settings of another's bake."""
     path, before = planned_path(settings), settings.content
     try:
         settings.content = content_hash(read_map_set_header(path)) if path else ""
@@ -118,9 +118,9 @@ def remember_content(settings: PreviewSettings) -> None:
 
 
 def planned_path(settings: Settings) -> str:
-    """The absolute path of the file; empty without.
+    """The absolute path of the file; empty if there is none.
 
-    Where it is packed, that is a file of our own, which `written_path` writes.
+    For a packed file it is a file of our own, which `written_path` writes.
     """
     image = settings.image
     if image is None:
@@ -132,7 +132,7 @@ def planned_path(settings: Settings) -> str:
 
 
 def written_path(settings: Settings) -> Path:
-    """The same, ready to be read: written out where it is packed.
+    """The same, ready to be read: a packed file is written out.
 
     Raises
     ------
@@ -149,12 +149,12 @@ def is_packed(settings: Settings) -> bool:
 
 
 def pack(settings: Settings) -> None:
-    """Take an object's map set into the open file, for all objects that share it.
+    """Pack an object's map set into the open file, for all objects that share it.
 
     Raises
     ------
     OutputFileError
-        Blender cannot pack it.
+        Blender cannot pack the file.
     """
     try:
         settings.image.pack()
@@ -175,7 +175,7 @@ def unpack(settings: Settings, folder: Path) -> Path:
     Returns
     -------
     Path
-        The file; under another name where its own is another file's.
+        The file; under another name if its own is taken.
 
     Raises
     ------
@@ -196,7 +196,7 @@ def unpack(settings: Settings, folder: Path) -> Path:
 
 
 def stored_path(path: Path) -> str:
-    """A path as the open file keeps it: relative to it where that is possible."""
+    """A path for storage in the open file: relative to it where possible."""
     if not bpy.data.filepath:
         return str(path)
     try:
@@ -214,7 +214,7 @@ def _file_name(image: bpy.types.Image) -> str:
 
 
 def _image_of(path: str) -> bpy.types.Image:
-    """The image of a file; one that is packed holds what that file was."""
+    """The image of a file; a packed image holds an earlier state of the file."""
     wanted = bpy.path.abspath(path)
     for image in bpy.data.images:
         if (

@@ -1,4 +1,4 @@
-"""Materials by name, and what tells one from another."""
+"""Materials by name, and their fingerprints."""
 
 import hashlib
 import json
@@ -16,13 +16,13 @@ from .blend_files import check_there, unreadable
 from .presets import PRESETS, build_preset
 
 ORIGINAL = "RSIBR_ORIGINAL"
-"""Environment variable: the file that the open one is a copy of, where it is; empty if that has no name."""
+"""Environment variable: the file of which the open one is a copy, if it is one; empty if that has no name."""
 
 NAMES_SHOWN = 8
-"""So many materials of a file are listed when one is asked for that it does not hold."""
+"""Number of a file's materials that are listed when an unknown one is asked for."""
 
 MATRIX_DIGITS = 5
-"""After the point, of an object's matrix: sines in it may differ in their last digits between processors."""
+"""Decimals of an object's matrix: sines in it may differ in their last digits between processors."""
 
 
 def load_material(spec: str) -> bpy.types.Material:
@@ -37,7 +37,7 @@ def load_material(spec: str) -> bpy.types.Material:
     Returns
     -------
     bpy.types.Material
-        In the open file, so to be called within a `temporary_scene`.
+        A material of the open file; so call this within a `temporary_scene`.
 
     Raises
     ------
@@ -61,36 +61,36 @@ def load_material(spec: str) -> bpy.types.Material:
 
 
 def surface_output(material: bpy.types.Material) -> bpy.types.Node | None:
-    """The output node that Cycles takes a material's surface from; None where there is no surface."""
+    """The output node from which Cycles takes a material's surface; None where there is no surface."""
     tree = material.node_tree
     output = tree.get_output_node("CYCLES") if tree else None
     return output if output and output.inputs["Surface"].is_linked else None
 
 
 def material_name(spec: str) -> str:
-    """The name alone of what `load_material` takes."""
+    """The name in a text that `load_material` takes."""
     return _parsed(spec)[1]
 
 
 def names_other_file(spec: str) -> bool:
-    """Whether `load_material` would open a file for it that is not open.
+    """Whether `load_material` would open another file for a text.
 
     Raises
     ------
     InputFileError
-        It names no material.
+        The text names no material.
     """
     file, _ = _parsed(spec)
     return bool(file and not _is_open(Path(file)))
 
 
 def lasting_spec(spec: str) -> str:
-    """What names the same material also when another file is open, as far as this one has a name."""
+    """A text that names the same material also when another file is open, if this file has a name."""
     return f"{_open_path()}{spec}" if spec.startswith(":") else spec
 
 
 def fingerprint(material: bpy.types.Material | bpy.types.World) -> str:
-    """A hash of what a material is, or a world.
+    """A hash of the content of a material or world.
 
     Parameters
     ----------
@@ -99,15 +99,15 @@ def fingerprint(material: bpy.types.Material | bpy.types.World) -> str:
     Returns
     -------
     str
-        SHA-256 of its nodes with all properties, unlinked inputs, links, groups and the content of
-        images; names of datablocks, and how nodes are laid out, do not count.
+        SHA-256 of its nodes with all properties, unlinked inputs, links, groups and the content of images;
+        names of datablocks and the layout of nodes do not count.
     """
     content = {"nodes": _tree_content(material.node_tree), "cycles": _struct_content(material.cycles)}
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
 def _parsed(spec: str) -> tuple[str | None, str]:
-    """File and name; None for the file of a preset, an empty one for the open file."""
+    """File and name; None as the file of a preset, an empty one for the open file."""
     if spec in PRESETS:
         return None, spec
     # Names may hold colons, and so may paths: C:\materials.blend:red:dark
@@ -149,7 +149,7 @@ def _named(where: str, name: str, found: Any) -> Any:
     return names[name]
 
 
-# What of a node is content: everything but what all nodes have, less a few things of that.
+# A node's content: all properties except those that every node has; a few of these count too.
 _LAYOUT = set(bpy.types.Node.bl_rna.properties.keys()) - {"mute"}
 
 
@@ -166,7 +166,7 @@ def _tree_content(tree: bpy.types.NodeTree | None) -> Any:
 
 
 def _node_content(node: bpy.types.Node) -> Any:
-    # The nodes Value and RGB keep what they are in their output.
+    # The nodes Value and RGB keep their value in their output.
     sockets = [("input", socket) for socket in node.inputs if not socket.is_linked]
     sockets += [("output", socket) for socket in node.outputs]
     values = {
@@ -183,7 +183,7 @@ def _struct_content(struct: bpy.types.bpy_struct, skipped: Collection[str] = ())
 
 
 def _content(value: Any) -> Any:
-    """Anything a property holds, as JSON values."""
+    """Any property's value, as JSON values."""
     match value:
         case None | bool() | int() | float() | str():
             return value

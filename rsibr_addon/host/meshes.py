@@ -1,4 +1,4 @@
-"""Meshes to shade: from Blender's objects, from files, and the two that everyone knows.
+"""Meshes to shade: from Blender's objects, from files, and two that are built in.
 
 A shader wants one position and one normal per vertex, Blender keeps normals per face corner: where
 corners at a vertex disagree, the vertex is split.
@@ -21,7 +21,7 @@ from ..core.errors import InputFileError, SceneError
 from .scenes import temporary_scene
 
 MESH_NAMES = ("sphere", "monkey")
-"""What `load_mesh` makes itself; anything else is a file."""
+"""Meshes that `load_mesh` makes itself; any other name is a file."""
 
 SPHERE_RINGS = 160
 """Bands of latitude of the tessellated sphere, which has twice as many meridians.
@@ -41,7 +41,7 @@ class TriangleMesh:
     Attributes
     ----------
     name : str
-        What a person calls it, for reports.
+        Its name for reports.
     positions : ndarray, shape (V, 3), float32
     normals : ndarray, shape (V, 3), float32
         Unit vectors.
@@ -56,7 +56,7 @@ class TriangleMesh:
 
 
 def load_mesh(spec: str) -> TriangleMesh:
-    """The mesh that a command's ``--mesh`` names, within the unit sphere about the origin.
+    """The mesh of a command's ``--mesh``, within the unit sphere about the origin.
 
     Parameters
     ----------
@@ -74,8 +74,8 @@ def load_mesh(spec: str) -> TriangleMesh:
     Raises
     ------
     InputFileError
-        The file is missing, is no OBJ, has no faces or no extent, or holds positions that are
-        not finite.
+        The file is missing, is not an OBJ file, has no faces or no extent, or has positions that are not
+        finite.
     """
     if spec == "sphere":
         return _sphere()
@@ -90,7 +90,7 @@ def mesh_from_object(item: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> 
     Parameters
     ----------
     item : bpy.types.Object
-        Of any type that Blender can turn into a mesh.
+        Object of any type that Blender can turn into a mesh.
     depsgraph : bpy.types.Depsgraph
         Evaluated, and holding `item`.
 
@@ -126,7 +126,7 @@ def evaluated_mesh(item: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> It
 
 
 def content_of(mesh: bpy.types.Mesh) -> bytes:
-    """A hash of all that `triangle_mesh` depends on, at a fraction of its time.
+    """A hash of all data that `triangle_mesh` depends on, in a fraction of its time.
 
     Parameters
     ----------
@@ -169,7 +169,7 @@ def add_mesh(scene: bpy.types.Scene, mesh: TriangleMesh, material: bpy.types.Mat
     data.loops.foreach_set("vertex_index", mesh.triangles.ravel())
     data.polygons.add(len(mesh.triangles))
     data.polygons.foreach_set("loop_start", np.arange(0, mesh.triangles.size, 3, dtype=np.int32))
-    # As a float attribute Blender takes normals as they are; its usual int16 encoding rounds them.
+    # Blender keeps normals exactly as a float attribute; its usual int16 encoding rounds them.
     normals = data.attributes.new("custom_normal", "FLOAT_VECTOR", "POINT")
     normals.data.foreach_set("vector", mesh.normals.ravel())
     data.update(calc_edges=True)
@@ -231,7 +231,7 @@ def _read_obj(path: Path) -> TriangleMesh:
 
 
 def _repair(data: bpy.types.Mesh, path: Path) -> None:
-    """Blender's own validation, less what it would hide, and normals for a file without any."""
+    """Blender's own validation, without its hiding of faults, and normals for a file without any."""
     unusable = int(np.count_nonzero(~np.isfinite(_read(data.vertices, "co", np.float32, 3))))
     if unusable:
         raise InputFileError(
@@ -315,7 +315,7 @@ def _corner_vertices(mesh: bpy.types.Mesh) -> Indices:
 
 
 def _normals(mesh: bpy.types.Mesh) -> Array:
-    """Of each vertex where corners agree, of each corner otherwise."""
+    """Normals of each vertex where corners agree, of each corner otherwise."""
     of_vertices = mesh.normals_domain == "POINT"
     return _read(mesh.vertex_normals if of_vertices else mesh.corner_normals, "vector", np.float32, 3)
 

@@ -19,8 +19,8 @@ def save_movie(path: Path, frames: Sequence[Path], frames_per_second: int = 24) 
     path : Path
         Written as it is, replaced if it exists.
     frames : sequence of Path
-        sRGB pictures of one even width and height in one folder, in the order shown. What is
-        transparent becomes black: the movie has no alpha.
+        sRGB pictures of one even width and height in one folder, in the order shown. Transparent pixels
+        become black: the movie has no alpha.
     frames_per_second : int
 
     Raises
@@ -28,18 +28,18 @@ def save_movie(path: Path, frames: Sequence[Path], frames_per_second: int = 24) 
     InputFileError
         A picture is missing.
     RangeError
-        The pictures' width or height is odd, which H.264 cannot have.
+        The pictures' width or height is odd, which H.264 does not allow.
     RenderError
         Blender cannot encode the movie.
 
     Notes
     -----
-    The sequencer of a scene of its own shows the pictures as they are: the view transform
-    "Standard" undoes what reading an sRGB picture does. Blender encodes into a temporary folder,
-    because it takes braces in a path for a template.
+    The sequencer of a separate scene shows the pictures unchanged: the view transform "Standard" undoes the
+    decoding of an sRGB picture. Blender encodes into a temporary folder, because it reads braces in a path as
+    a template.
     """
     for frame in frames:
-        if not frame.is_file():  # at which Blender's sequencer may crash
+        if not frame.is_file():  # on which Blender's sequencer may crash
             raise InputFileError(f"The movie's picture {frame} is missing: draw it again.")
     with temporary_folder() as folder, temporary_scene() as scene:
         strip = scene.sequence_editor_create().strips.new_image(
@@ -60,7 +60,7 @@ def save_movie(path: Path, frames: Sequence[Path], frames_per_second: int = 24) 
             bpy.ops.render.render(animation=True, scene=scene.name)
         except RuntimeError as error:
             raise RenderError(f"Blender cannot encode the movie {path.name}: {error}") from error
-        if not _is_whole(movie.read_bytes()):  # of which Blender says nothing
+        if not _is_whole(movie.read_bytes()):  # Blender does not report this
             raise RenderError(f"The movie {path.name} was cut short by Blender: draw it again.")
         shutil.move(movie, path)
 

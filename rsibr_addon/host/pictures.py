@@ -1,4 +1,4 @@
-"""Radiance as pictures for people: PNG through Blender's own view transform."""
+"""Radiance as pictures for people: PNG through Blender's view transform."""
 
 import errno
 import shutil
@@ -55,7 +55,7 @@ def save_png(path: Path, rgba: Array) -> None:
             image.save_render(str(picture), scene=scene)
         except RuntimeError as error:
             raise OSError(errno.EIO, "Blender cannot write the picture", str(path)) from error
-        # Blender says nothing when the disk is full; a PNG that lacks its last chunk does.
+        # Blender does not report a full disk; a PNG without its last chunk does.
         if picture.read_bytes()[-8:-4] != b"IEND":
             raise OSError(errno.ENOSPC, "the picture is not whole", str(path))
         shutil.move(picture, path)

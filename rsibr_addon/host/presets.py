@@ -1,4 +1,4 @@
-"""Materials that come with us: each is one BSDF node of Cycles and its inputs."""
+"""Materials that come with RSIBR: each is one BSDF node of Cycles with its inputs."""
 
 from dataclasses import dataclass, field
 
@@ -25,7 +25,7 @@ class Preset:
         Values of its inputs by name; others keep their defaults. Colours are linear Rec. 709 with
         alpha, roughness is the square root of GGX's alpha.
     options : dict of str to str
-        Its other properties.
+        The node's other properties.
     """
 
     summary: str

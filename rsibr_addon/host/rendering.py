@@ -1,4 +1,4 @@
-"""What all our renders have in common."""
+"""Settings and files of all our renders."""
 
 from pathlib import Path
 
@@ -32,13 +32,13 @@ def configure_cycles(scene: bpy.types.Scene, width: int, height: int, samples: i
     cycles.sampling_pattern = "TABULATED_SOBOL"
     cycles.pixel_filter_type = "BOX"
     cycles.max_bounces = 0
-    # Each of these would save time by giving up light.
+    # Each of these would save time but lose light.
     cycles.light_sampling_threshold = 0.0
     cycles.sample_clamp_direct = 0.0
 
 
 def render_to(scene: bpy.types.Scene, path: Path) -> None:
-    """Render a scene, at its current frame, into a file of the kind that it is set to.
+    """Render a scene, at its current frame, into a file in the scene's format.
 
     Parameters
     ----------
@@ -49,12 +49,12 @@ def render_to(scene: bpy.types.Scene, path: Path) -> None:
     Raises
     ------
     RenderError
-        There is no file afterwards.
+        The render leaves no file.
     """
     scene.render.filepath = str(path)
     scene.render.use_file_extension = False
     try:
-        # Given by its name, a scene would be put at the frame of the one that the artist works in.
+        # Blender would set a scene given by name to the frame of the artist's scene.
         with bpy.context.temp_override(scene=scene):
             bpy.ops.render.render(write_still=True)
     except RuntimeError as error:

@@ -1,4 +1,4 @@
-"""Scenes: the artist's, and ones of our own for as long as they are needed."""
+"""Scenes: the artist's, and temporary ones of our own."""
 
 import contextlib
 from collections.abc import Iterator
@@ -40,15 +40,15 @@ def temporary_scene() -> Iterator[bpy.types.Scene]:
     Yields
     ------
     bpy.types.Scene
-        Not shown in any window, at the frame of the artist's. Everything that is added to the file in the
-        body is removed after it: not only to the scene, but also materials, images, appended data, the
-        render result.
+        Not shown in any window, at the frame of the artist's scene. Everything that the body adds to the file
+        is removed after it: the scene's content, but also materials, images, appended data and the render
+        result.
 
     Notes
     -----
-    Whatever appears meanwhile counts as ours, so the body must not let go of control: no ``yield``
-    of a task in it. Handlers (``bpy.app.handlers``) rest, so that an artist's own, say at each
-    render, do not meet our scene.
+    Whatever appears meanwhile counts as ours, so the body must not give up control by a ``yield`` of a task.
+    Handlers (``bpy.app.handlers``) are suspended, so that an artist's own, for example at each render, do not
+    see our scene.
     """
     with _temporary_data():
         artists, scene = bpy.context.scene, bpy.data.scenes.new("RSIBR")
@@ -67,8 +67,8 @@ def temporary_copy(scene: bpy.types.Scene) -> Iterator[bpy.types.Scene]:
     Yields
     ------
     bpy.types.Scene
-        With all settings of its own, but the same objects and collections: what is changed of those,
-        is changed for the artist.
+        A scene with its own settings, but the same objects and collections: changes of those are changes for
+        the artist.
     """
     with _temporary_data():
         yield scene.copy()
@@ -76,7 +76,7 @@ def temporary_copy(scene: bpy.types.Scene) -> Iterator[bpy.types.Scene]:
 
 @contextlib.contextmanager
 def _temporary_data() -> Iterator[None]:
-    """Within, the artist's handlers rest; whatever was added to the file is removed afterwards."""
+    """Within, the artist's handlers are suspended; whatever was added to the file is removed afterwards."""
     with _resting_handlers():
         before = {item.session_uid for item in bpy.data.all_ids}
         try:

@@ -1,4 +1,4 @@
-"""Why a material's look may depend on more than normal and view: then no radiance map can hold it."""
+"""Reasons why a material's look depends on more than normal and view, so that no radiance map can hold it."""
 
 from collections.abc import Iterator
 
@@ -10,7 +10,7 @@ SHAPE_OUTPUTS = {
     "ShaderNodeTexCoord": {"Generated", "UV", "Object", "Camera", "Window"},
     "ShaderNodeNewGeometry": {"Position", "Tangent", "Parametric", "Pointiness", "Random Per Island"},
 }
-"""Type of node -> its outputs that tell points of equal normal apart."""
+"""Type of node -> its outputs that differ between points of equal normal."""
 
 SHAPE_NODES = {
     "ShaderNodeAmbientOcclusion": "it looks at what is near the surface",
@@ -59,10 +59,10 @@ INERT_VALUES = {
 
 
 def shape_dependence(material: bpy.types.Material) -> list[str]:
-    """Why a radiance map can show a material only as it looks on a sphere.
+    """Reasons why a radiance map can show a material only as it looks on a sphere.
 
-    A radiance map holds one radiance for each normal and view, so it cannot hold what depends on
-    the place on a surface, on its tangent, or on what lies behind it.
+    A radiance map holds one radiance for each normal and view, so it cannot hold a look that depends on the
+    place on a surface, on its tangent, or on things behind it.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def _outputs_behind(inputs: list[bpy.types.NodeSocket], seen: set[int]) -> Itera
 
 
 def _group_inputs(socket: bpy.types.NodeSocket) -> list[bpy.types.NodeSocket]:
-    """Within a group, what becomes its output `socket`."""
+    """Within a group, the inputs that become its output `socket`."""
     tree = getattr(socket.node, "node_tree", None)
     ends = [node for node in tree.nodes if node.bl_idname == "NodeGroupOutput"] if tree else []
     return [

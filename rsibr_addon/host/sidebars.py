@@ -4,7 +4,7 @@ import bpy
 
 
 def redraw_sidebars() -> None:
-    """Have the panels in them drawn again."""
+    """Redraw the panels in all sidebars."""
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             if area.type == "VIEW_3D":

@@ -1,11 +1,11 @@
-"""Spheres, such as the one that materials are captured on."""
+"""Spheres, such as the one on which materials are captured."""
 
 import bpy
 
 from ..core.conventions import ArrayLike
 
 CORE_RADIUS = 0.99999
-"""Of the black core: too close beneath the surface to show at its rim."""
+"""Radius of the black core: too close beneath the surface to show at its rim."""
 
 
 def add_sphere(scene: bpy.types.Scene, material: bpy.types.Material) -> bpy.types.Object:
@@ -23,9 +23,9 @@ def add_sphere(scene: bpy.types.Scene, material: bpy.types.Material) -> bpy.type
 
     Notes
     -----
-    A point cloud of one point, which Cycles intersects as a sphere: its normals are exact. A black
-    core that only the camera sees stands behind what a transparent material lets through, so that
-    coverage is the sphere's own. What is refracted leaves without meeting the sphere again.
+    A point cloud of one point, which Cycles intersects as a sphere: its normals are exact. A black core that
+    only the camera sees closes a transparent material from behind, so that coverage is the sphere's own.
+    Refracted light leaves without meeting the sphere again.
     """
     core = add_ball(scene, CORE_RADIUS, _black())
     core.visible_diffuse = core.visible_glossy = core.visible_transmission = False
@@ -47,7 +47,7 @@ def add_ball(
     radius : float
     material : bpy.types.Material
     point : array_like, shape (3,)
-        Its centre.
+        The sphere's centre.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Objects that are lit: what belongs to them, and where they are."""
+"""Objects that are lit: their parts, and their centres."""
 
 import bpy
 import numpy as np
@@ -7,10 +7,10 @@ from ..core.conventions import Array
 from ..core.errors import SceneError
 
 NAMES_SHOWN = 8
-"""So many objects of a scene are listed when one is asked for that it does not hold."""
+"""Number of a scene's objects that are listed when an unknown one is asked for."""
 
 SOLID = {"MESH", "CURVE", "SURFACE", "META", "FONT", "CURVES", "POINTCLOUD", "VOLUME", "GREASEPENCIL"}
-"""Types of objects that have an extent."""
+"""Types of objects with an extent."""
 
 
 def find_object(scene: bpy.types.Scene, name: str) -> bpy.types.Object:
@@ -31,7 +31,7 @@ def find_object(scene: bpy.types.Scene, name: str) -> bpy.types.Object:
 
 
 def parts_of(subject: bpy.types.Object) -> set[bpy.types.Object]:
-    """An object, and what is parented to it, directly or not, but for lamps.
+    """An object, and all objects that are parented to it, directly or not, except lamps.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def parts_of(subject: bpy.types.Object) -> set[bpy.types.Object]:
     Returns
     -------
     set of bpy.types.Object
-        What an object instances goes with it without being named here.
+        Without instances, which go with the object that makes them.
     """
     return {subject, *(child for child in subject.children_recursive if child.type != "LIGHT")}
 
@@ -51,14 +51,14 @@ def centre_of(layer: bpy.types.ViewLayer, subject: bpy.types.Object) -> Array:
     Parameters
     ----------
     layer : bpy.types.ViewLayer
-        Of a scene that is evaluated at the frame that counts.
+        View layer of a scene that is evaluated at the frame in question.
     subject : bpy.types.Object
 
     Returns
     -------
     ndarray, shape (3,)
-        Of the box along the world's axes that holds their boxes, with all modifiers and instances; the
-        object's origin where nothing has an extent. In world coordinates.
+        Centre, in world coordinates, of the box along the world's axes that contains their boxes, with all
+        modifiers and instances; the object's origin where nothing has an extent.
     """
     depsgraph = layer.depsgraph
     parts = parts_of(subject)

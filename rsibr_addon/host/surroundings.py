@@ -1,4 +1,4 @@
-"""A scene as it is seen from a point within, without the object that stands there."""
+"""A scene as seen from a point within, without the object that stands there."""
 
 import math
 from collections.abc import Iterator
@@ -19,12 +19,12 @@ from .subjects import centre_of, find_object, parts_of
 from .working_space import rec709_from_working
 
 TWIN_OF = "RSIBR twin of"
-"""Property of a lamp of ours that holds the full name of the artist's own."""
+"""Property of a lamp of ours with the full name of the artist's lamp."""
 
 
 @dataclass(frozen=True)
 class Surroundings:
-    """What is around a point of a scene of the open file.
+    """The surroundings of a point in a scene of the open file.
 
     Attributes
     ----------
@@ -34,11 +34,11 @@ class Surroundings:
         The view layer whose collections count.
     frame : float
     subject : str or None
-        The object that is left out, with its parts: see `host.subjects.parts_of`.
+        Name of the object that is left out, with its parts: see `host.subjects.parts_of`.
     point : tuple of 3 floats
         In world coordinates.
     unseen : frozenset of str
-        Full names of lamps that light everything, but do not show themselves.
+        Full names of lamps that light everything but are hidden from rays.
     """
 
     scene: str
@@ -51,18 +51,18 @@ class Surroundings:
 
 @dataclass(frozen=True)
 class Sampling:
-    """Which samples are taken of a picture.
+    """The samples of a picture.
 
     Attributes
     ----------
     start, count : int
-        From where in the sequence, and how many.
+        First sample in the sequence, and number of samples.
     total : int
-        Of all pictures that will be averaged.
+        Number of samples of all pictures that will be averaged.
     seed : int
-        Of the sequence.
+        Seed of the sequence.
     guides : bool
-        Whether the picture comes with what a denoiser asks for.
+        Whether the picture comes with a denoiser's guides.
     """
 
     start: int
@@ -75,7 +75,7 @@ class Sampling:
 def surroundings_of(
     scene: str | None, subject: str | None, point: tuple[float, float, float] | None, frame: int | None
 ) -> Surroundings:
-    """What is around an object, or around a point.
+    """The surroundings of an object, or of a point.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ def surroundings_of(
     Raises
     ------
     SceneError
-        There is no such scene or object; or there is nothing around.
+        There is no such scene or object, or it has no surroundings.
     """
     source = find_scene(scene)
     layer = bpy.context.view_layer if source == bpy.context.scene else source.view_layers[0]
@@ -133,12 +133,12 @@ def surroundings_scene(around: Surroundings) -> Iterator[bpy.types.Scene]:
     Raises
     ------
     SceneError
-        The scene, the view layer or the object is not there.
+        The scene, the view layer or the object is missing.
 
     Notes
     -----
-    Collections and view layers may hold objects out, or show them in reflections only; light does not
-    know of that. Nor does what was set up for pictures count, as borders, compositing or exposure.
+    Collections and view layers may hold objects out, or show them in reflections only; light ignores this. It
+    also ignores settings for pictures, such as borders, compositing or exposure.
     """
     source = find_scene(around.scene)
     layer = source.view_layers.get(around.layer)
@@ -163,7 +163,7 @@ def render_surroundings(
     size: tuple[int, int],
     sampling: Sampling,
 ) -> dict[str, Array]:
-    """Render what light arrives at a point.
+    """Render the light that arrives at a point.
 
     Parameters
     ----------
@@ -171,7 +171,7 @@ def render_surroundings(
         As `surroundings_scene` yields it.
     around : Surroundings
     face : int or None
-        Of a cube: see `add_face_camera`; None for all around, as `add_panoramic_camera` has it.
+        Face of a cube: see `add_face_camera`; None for a panorama: see `add_panoramic_camera`.
     size : tuple of 2 int
         Width and height of the picture in pixels.
     sampling : Sampling
@@ -188,8 +188,8 @@ def render_surroundings(
 
     Notes
     -----
-    With one bounce more than the scene asks for, as the shell about the camera takes one: lamps show
-    through it, and what is seen is what lights a surface, not what the camera is shown.
+    The render has one bounce more than the scene, because the shell about the camera takes one: lamps show
+    through it, and the picture is the light on a surface, not the camera's view.
     """
     bounces = scene.cycles.max_bounces, scene.cycles.transmission_bounces
     configure_cycles(scene, *size, sampling.total)
@@ -211,7 +211,7 @@ def render_surroundings(
 
 
 def stand_in(scene: bpy.types.Scene, around: Surroundings, item: bpy.types.Object) -> None:
-    """Have the lamps of a scene of surroundings light an object of ours as they light the subject, if any."""
+    """Make the lamps of a scene of surroundings light an object of ours as they light the subject, if any."""
     if around.subject:
         subject = find_object(find_scene(around.scene), around.subject)
         take_place_of(subject, item, [lamp for lamp in scene.objects if TWIN_OF in lamp])
@@ -246,12 +246,12 @@ def _replace_contents(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> Non
 
 
 def _is_lamp(item: bpy.types.Object) -> bool:
-    """Whether an object gives light; a portal only helps Cycles to find the world's."""
+    """Whether an object gives light; a portal only helps Cycles to find the world's light."""
     return item.type == "LIGHT" and not (item.data.type == "AREA" and item.data.cycles.is_portal)
 
 
 def _twin(lamp: bpy.types.Object, unseen: frozenset[str]) -> bpy.types.Object:
-    """A lamp that shows itself to whatever asks what lights a surface, or to nothing."""
+    """A lamp that shows itself to all rays from surfaces, or to none."""
     twin = lamp.copy()
     twin.data = lamp.data.copy()
     twin[TWIN_OF] = lamp.name_full
@@ -271,6 +271,6 @@ def _take_light_as_it_is(scene: bpy.types.Scene) -> None:
     cycles.film_exposure = 1.0
     cycles.use_animated_seed = cycles.use_sample_subset = False
     cycles.time_limit = 0.0
-    # What a surface sees directly is indirect light to a camera behind the shell.
+    # To a camera behind the shell, a surface's direct light is indirect light.
     cycles.sample_clamp_indirect = 0.0
     cycles.use_light_tree = True

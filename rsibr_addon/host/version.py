@@ -1,4 +1,4 @@
-"""Who we are, for the files that we write."""
+"""Our name and version, for the files that we write."""
 
 import tomllib
 from pathlib import Path
@@ -9,6 +9,6 @@ MANIFEST = Path(__file__).parents[2] / "blender_manifest.toml"
 
 
 def software() -> str:
-    """Ours and Blender's name and version, as "rsibr 0.1.0, Blender 5.2.0"."""
+    """Names and versions of RSIBR and Blender, as "rsibr 0.1.0, Blender 5.2.0"."""
     manifest = tomllib.loads(MANIFEST.read_text())
     return f"{manifest['id']} {manifest['version']}, Blender {bpy.app.version_string}"

@@ -1,4 +1,4 @@
-"""What a 3D viewport shows: the surfaces of a scene, instances and all, and the view on them."""
+"""The content of a 3D viewport: the surfaces of a scene, with instances, and the view on them."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -20,16 +20,16 @@ type Layer = tuple[int, str]
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """A mesh as it stands in a scene.
+    """A mesh and its place in a scene.
 
     Attributes
     ----------
     item : bpy.types.Object
-        Whose surface it is: the artist's own object, not its evaluated copy.
+        The surface's object: the artist's own, not its evaluated copy.
     shown_by : bpy.types.Object
-        That whose visibility counts: `item`, or what makes instances of it.
+        The object whose visibility counts: `item`, or one that makes instances of it.
     mesh : int
-        Equal for equal meshes; another number whenever Blender evaluates a mesh again.
+        Number of the mesh: equal for equal meshes, and new whenever Blender evaluates a mesh again.
     matrix : ndarray, shape (4, 4)
         World from object coordinates.
     """
@@ -49,9 +49,9 @@ class Side:
     other : bool
         Whether objects show their other look.
     left, right : float
-        Where it begins and ends, as parts of the width.
+        Begin and end, as parts of the width.
     difference : float
-        Where it is not 0, the difference of both looks is shown, as bright as can be at that number.
+        If it is not 0, the difference of both looks is shown, brightest at this number.
     """
 
     other: bool
@@ -62,7 +62,7 @@ class Side:
 
 @dataclass(frozen=True)
 class View:
-    """What is looked at, and through which area.
+    """The view that a viewport shows, and its area.
 
     Attributes
     ----------
@@ -81,17 +81,17 @@ class View:
 
     @property
     def shaded(self) -> bool:
-        """Whether surfaces are drawn, and not wires alone."""
+        """Whether surfaces are drawn, not only wires."""
         return bool(self.space.shading.type != "WIREFRAME")
 
     @property
     def has_depth(self) -> bool:
-        """Whether Blender leaves its surfaces' depths to those who draw later."""
+        """Whether Blender leaves its surfaces' depths for later drawing."""
         return bool(self.space.shading.type == "SOLID" or self.space.overlay.show_overlays)
 
     @property
     def sides(self) -> tuple[Side, ...]:
-        """What is shown from left to right; the rest is Blender's."""
+        """The parts with previews from left to right; Blender draws the rest."""
         settings = bpy.context.window_manager.rsibr_view
         if not settings.split:
             return (Side(other=False, left=0.0, right=1.0),)
@@ -101,7 +101,7 @@ class View:
         return (first,) if settings.beyond == "blender" else (first, second)
 
     def light_of(self, item: bpy.types.Object) -> WorldLight:
-        """What the world makes of the environment of an object's map set: nothing, unless it is followed."""
+        """The world's turn and strength for an object's map set; none unless the object follows the world."""
         follows = item.rsibr.follow_world and not item.rsibr.live.on
         followed = world_light(self.scene.world) if follows else None
         return followed or AS_IT_IS
@@ -121,9 +121,9 @@ def shown_layers() -> set[Layer]:
 
 
 def map_set_of(item: bpy.types.Object) -> str:
-    """Path of the file that is to shade an object; empty for none, also when it is not to be shown.
+    """Path of the file that shades an object; empty if there is none or previews are off.
 
-    In live light, `live_light.live_name` instead.
+    In live light, `live_light.live_name`.
     """
     settings = item.rsibr
     if settings.show and settings.live.on:
@@ -132,7 +132,7 @@ def map_set_of(item: bpy.types.Object) -> str:
 
 
 def is_wanted() -> bool:
-    """Whether any object of the file is to be shaded from a map set."""
+    """Whether any object of the file is shaded from a map set."""
     return any(map(map_set_of, bpy.data.objects))
 
 
@@ -148,12 +148,12 @@ def surfaces(depsgraph: bpy.types.Depsgraph) -> Iterator[tuple[Surface, bpy.type
     ------
     surface : Surface
     evaluated : bpy.types.Object
-        What `meshes.mesh_from_object` makes its mesh from; only until the next one is asked for.
+        The object for `meshes.mesh_from_object`; valid until the next one is taken.
 
     Notes
     -----
-    Curves, texts, metaballs and what geometry nodes make are there too: Blender lists an instance of
-    type mesh for each.
+    Curves, texts, metaballs and results of geometry nodes are included: Blender lists an instance of type
+    mesh for each.
     """
     for instance in depsgraph.object_instances:
         evaluated = instance.object

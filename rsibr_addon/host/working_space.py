@@ -1,4 +1,4 @@
-"""The colours that Blender computes in, which a file's author may choose, and Rec. 709."""
+"""Blender's working colour space, which a file's author may choose, and Rec. 709."""
 
 import numpy as np
 from mathutils import Color
@@ -16,7 +16,7 @@ def working_from_rec709(radiance: Array) -> Array:
     Returns
     -------
     ndarray, shape (..., 3)
-        As the nodes of shaders and the pixels of float images have it.
+        Radiance for the nodes of shaders and the pixels of float images.
 
     Notes
     -----

@@ -1,4 +1,4 @@
-"""How a world turns and scales its environment, where its nodes say no more than that."""
+"""The turn and strength that a world gives its environment, if its nodes do nothing else."""
 
 from dataclasses import dataclass
 
@@ -10,14 +10,14 @@ from ..core.conventions import Array
 
 @dataclass(frozen=True)
 class WorldLight:
-    """What a world makes of an environment.
+    """The strength and turn of an environment in a world.
 
     Attributes
     ----------
     strength : float
-        Radiance is multiplied by it.
+        Factor of radiance.
     turn : ndarray, shape (3, 3)
-        A rotation: from a direction in the world to that in the environment.
+        Rotation from a direction in the world to that in the environment.
     """
 
     strength: float
@@ -37,8 +37,8 @@ def world_light(world: bpy.types.World | None) -> WorldLight | None:
     Returns
     -------
     WorldLight or None
-        None unless the world is a Background of constant strength with an Environment Texture, which
-        may have a Mapping that does nothing but rotate.
+        None unless the world is a Background of constant strength with an Environment Texture, which may have
+        a Mapping that only rotates.
     """
     background = _before(world.node_tree.get_output_node("ALL") if world else None, "Surface", "BACKGROUND")
     texture = _before(background, "Color", "TEX_ENVIRONMENT")
@@ -64,7 +64,7 @@ def _only_rotates(mapping: bpy.types.Node) -> bool:
     vector = mapping.inputs["Vector"]
     linked = [socket.name for socket in mapping.inputs if socket.is_linked]
     generated = vector.is_linked and vector.links[0].from_socket.name == "Generated"
-    # Where the type of mapping has no location, the socket is there all the same, and counts for nothing.
+    # Where the type of mapping has no location, its socket still exists, without effect.
     moved = mapping.vector_type in ("POINT", "TEXTURE") and any(mapping.inputs["Location"].default_value)
     scaled = any(size != 1.0 for size in mapping.inputs["Scale"].default_value)
     return linked == ["Vector"] and generated and not moved and not scaled

@@ -25,7 +25,7 @@ WORLD_OF_TEXEL = 100.0
 
 FEWEST_WORLD_SAMPLES, MOST_WORLD_SAMPLES = 16, 1024
 WORLD_ERROR = 0.01
-"""Texels of a world take more samples until their relative error is this: a sun has an edge."""
+"""Relative error at which a world's texel needs no more samples: a sun has an edge."""
 
 
 def studio_environments() -> dict[str, Path]:
@@ -73,7 +73,7 @@ def light_with(scene: bpy.types.Scene, environment: Environment) -> None:
 
 
 def sample_world(world: bpy.types.World, height: int, clamp: float | None = None) -> Environment:
-    """See a world as an environment, whatever its nodes.
+    """Render a world with any nodes as an environment.
 
     Parameters
     ----------

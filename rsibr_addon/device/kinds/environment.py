@@ -1,4 +1,4 @@
-"""An environment on the GPU, to be mirrored."""
+"""An environment on the GPU, for mirrors."""
 
 from functools import cached_property
 
@@ -35,7 +35,7 @@ def environment_shader() -> gpu.types.GPUShader:
 
 
 class EnvironmentOnDevice:
-    """An environment, uploaded; its sums when the first antialiased look is drawn.
+    """An uploaded environment; its sums follow when the first antialiased look is drawn.
 
     Parameters
     ----------

@@ -1,8 +1,8 @@
-"""Light that changes while one looks, filtered on the GPU: [Kautz2004] section 5.
+"""Light that changes with the scene, filtered on the GPU: [Kautz2004] section 5.
 
-Six renders lie side by side in a strip. From it come the mips, in the atlas that `mip_chain` shades from,
-and nine harmonics; nothing of it has to be read back. A pass cannot read the texture that it writes, so each
-mip is halved from the atlas into another strip, and goes from there into its borders in the atlas.
+Six renders lie side by side in a strip. From it the GPU makes the mips, in the atlas that `mip_chain` shades
+from, and nine harmonics; nothing is read back. A pass cannot read the texture that it writes, so each mip is
+halved from the atlas into another strip, and copied from there into the atlas with its borders.
 """
 
 from collections.abc import Iterator
@@ -32,12 +32,12 @@ _SCREEN_TRIANGLE = np.array([[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]])
 
 
 class LiveEnvironmentOnDevice:
-    """Six faces, black at first, and what is filtered from them.
+    """Six faces, black at first, with their mips and harmonics.
 
     Parameters
     ----------
     size : int
-        Of a face in texels, a power of 2.
+        Width of a face in texels, a power of 2.
     across_borders : bool
         Whether mips are filtered across the faces' borders
         (`core.kinds.mip_chain.texture_space.tent_halved`), or within each face (`box_halved`), as the
@@ -71,14 +71,14 @@ class LiveEnvironmentOnDevice:
         self.filter()
 
     def set_face(self, face: int, seen: gpu.types.GPUTexture) -> None:
-        """Take a render for a face; `filter` has to be called before it shows.
+        """Set a face from a render; `filter` has to be called before it shows.
 
         Parameters
         ----------
         face : int
             0 to 5, in the order of `core.maps.cube_map`.
         seen : GPUTexture
-            Radiance, as wide and high as a face; see `core.kinds.live_environment.face_view`.
+            Radiance, of a face's size; see `core.kinds.live_environment.face_view`.
         """
         shader = face_shader()
         with _plain_state():
@@ -97,7 +97,7 @@ class LiveEnvironmentOnDevice:
             self._sum_harmonics()
 
     def finish(self) -> None:
-        """Wait until the GPU has done all that it was asked for."""
+        """Wait until the GPU has finished."""
         self._harmonics.framebuffer.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
 
     def draw(self, mesh: MeshOnDevice, draw: Draw, look: MipLook) -> None:
@@ -106,7 +106,7 @@ class LiveEnvironmentOnDevice:
         Raises
         ------
         RangeError
-            The look has a roughness: filters in texture space know none.
+            The look has a roughness, which filters in texture space do not have.
         """
         if look.roughness is not None:
             raise RangeError("Live light knows no roughness: choose a bias instead.")
@@ -176,7 +176,7 @@ def _as_texels(values: np.ndarray) -> np.ndarray:
 
 @contextmanager
 def _plain_state() -> Iterator[None]:
-    """Within, what is drawn replaces what was there, whatever Blender was drawing."""
+    """Within, drawing replaces the target's content, whatever state Blender had set."""
     depth_test, blend = gpu.state.depth_test_get(), gpu.state.blend_get()
     gpu.state.depth_test_set("NONE")
     gpu.state.blend_set("NONE")

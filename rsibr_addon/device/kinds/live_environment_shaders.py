@@ -1,4 +1,4 @@
-"""The GPU programs of changing light: their interfaces; their sources stand in `gpu_shaders`."""
+"""Interfaces of the GPU programs of changing light; their sources are in `gpu_shaders`."""
 
 import gpu
 
@@ -10,7 +10,7 @@ _LOOK_BLOCK = f"struct LiveLook {{ {LOOK_FIELDS} }};"
 
 @kept_until_exit
 def face_shader() -> gpu.types.GPUShader:
-    """Takes a render into the strip of faces.
+    """Copies a render into the strip of faces.
 
     Raises
     ------
@@ -22,7 +22,7 @@ def face_shader() -> gpu.types.GPUShader:
 
 @kept_until_exit
 def bordered_shader() -> gpu.types.GPUShader:
-    """Brings a mip from a strip to the atlas."""
+    """Copies a mip from a strip to the atlas."""
     return _build_pass("live_bordered", ("strip",), ("first_size", "mip"))
 
 
@@ -52,7 +52,7 @@ def harmonics_shader() -> gpu.types.GPUShader:
 
 @kept_until_exit
 def live_mip_chain_shader() -> gpu.types.GPUShader:
-    """Draws a mesh from a mip chain and nine coefficients that are both on the GPU."""
+    """Draws a mesh from a mip chain and nine coefficients, both on the GPU."""
     info = mesh_interface(_LOOK_BLOCK)
     info.define("LIVE")
     info.uniform_buf(1, "LiveLook", "look")
@@ -64,7 +64,7 @@ def live_mip_chain_shader() -> gpu.types.GPUShader:
 def _build_pass(
     name: str, samplers: tuple[str, ...], whole_numbers: tuple[str, ...], *defines: str
 ) -> gpu.types.GPUShader:
-    """A program that draws the screen's triangle: from maps to a map."""
+    """A program that draws the triangle of the whole target: from maps to a map."""
     info = gpu.types.GPUShaderCreateInfo()
     for define in defines:
         info.define(define)

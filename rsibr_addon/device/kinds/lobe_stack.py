@@ -13,7 +13,7 @@ from ..drawing import Draw, MeshOnDevice
 from .lobe_stack_shaders import lobe_stack_shader
 
 DEEPEST = 2048
-"""Slices of a 3D texture that every driver allows."""
+"""Greatest number of slices of a 3D texture in every driver."""
 
 
 class LobeStackOnDevice:
@@ -56,7 +56,7 @@ class LobeStackOnDevice:
         mesh.draw(shader, draw)
 
     def _elevations_of(self, look: StackLook) -> gpu.types.GPUTexture:
-        """Kept for each choice of lobes: a frame may show two, and a steady one uploads nothing."""
+        """The elevations' texture, one per choice of lobes: a frame may show two; steady ones upload none."""
         shown = look.shown(self._stack)
         if shown not in self._elevations:
             self._elevations[shown] = buffers.texture(elevation_texels(self._stack, shown))
@@ -86,13 +86,13 @@ def map_texels(stack: LobeStack) -> Array:
 
 
 def elevation_texels(stack: LobeStack, shown: tuple[int, ...]) -> Array:
-    """What depends on the view's elevation, as gpu_shaders/lib/lobe_stack_lib.glsl reads it.
+    """All values that depend on the view's elevation, for gpu_shaders/lib/lobe_stack_lib.glsl.
 
     Parameters
     ----------
     stack : LobeStack
     shown : tuple of int
-        Lobes that count, see `StackLook.shown`.
+        Lobes that are shown: see `StackLook.shown`.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""The GPU program of lobe stacks: its interface; its sources stand in `gpu_shaders`."""
+"""Interface of the GPU program of lobe stacks; its sources are in `gpu_shaders`."""
 
 import gpu
 

@@ -1,7 +1,7 @@
 """A mip chain on the GPU: one upload of its mips in an atlas, one pass over a mesh.
 
-Blender's `gpu` module makes cube maps, but does not let them be looked up between mips. So the mips
-lie in one picture, each face within a border of its neighbours' texels.
+Blender's `gpu` module makes cube maps, but cannot look up between their mips. So the mips lie in one picture,
+each face within a border of its neighbours' texels.
 """
 
 import numpy as np

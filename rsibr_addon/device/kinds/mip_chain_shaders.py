@@ -1,4 +1,4 @@
-"""The GPU program of mip chains: its interface; its sources stand in `gpu_shaders`."""
+"""Interface of the GPU program of mip chains; its sources are in `gpu_shaders`."""
 
 import gpu
 import numpy as np
@@ -8,7 +8,7 @@ from ...core.kinds.mip_chain.shading import Borders, MipLook
 from ..shaders import build, kept_until_exit, mesh_interface
 
 LOOK_FIELDS = "vec4 f_lambda; vec4 k_d; float level; float last_level; float clamped; float antialiased;"
-"""The fields of a block that `look_fields` fills, also where the harmonics lie on the GPU."""
+"""Fields of a block that `look_fields` fills, also for harmonics on the GPU."""
 
 _LOOK_BLOCK = (
     f"struct MipLook {{ mat4 irradiance_red; mat4 irradiance_green; mat4 irradiance_blue; {LOOK_FIELDS} }};"
@@ -22,14 +22,14 @@ def look_fields(look: MipLook, level: float, mip_count: int) -> tuple[Array, ...
     ----------
     look : MipLook
     level : float
-        Of detail, in [0, mip_count - 1].
+        Level of detail, in [0, mip_count - 1].
     mip_count : int
-        Of the chain.
+        Number of the chain's mips.
 
     Returns
     -------
     tuple of ndarray
-        What `LOOK_FIELDS` names.
+        Values of `LOOK_FIELDS`.
     """
     clamped = look.borders is Borders.CLAMPED
     numbers = np.array([level, mip_count - 1.0, float(clamped), float(look.antialiased)])

@@ -64,7 +64,7 @@ class ReflectionTablesOnDevice:
 
     @cached_property
     def _sums(self) -> dict[Role, Sums]:
-        """Made when an antialiased look first asks for them: they take three times the tables' memory."""
+        """The tables' sums, made for the first antialiased look: they take three times the tables' memory."""
         there = [role for role in MIRRORED if role in self._tables.maps]
         return {role: map_sums(self._tables.maps[role]) for role in there}
 

@@ -5,8 +5,10 @@ from pathlib import Path
 import bpy
 
 from ..rsibr_addon.core.progress import drain
+from ..rsibr_addon.files.textures import Up
 from ..rsibr_addon.host.map_sets import planned_path, written_path
-from ..rsibr_addon.tasks.export import Up, export
+from ..rsibr_addon.tasks.export.export import export
+from ..rsibr_addon.tasks.export.ktx2 import Ktx2Settings
 from .reporting import reporting
 
 
@@ -42,7 +44,8 @@ class RSIBR_OT_export_ktx2(bpy.types.Operator):
         """Export; who has chosen a file in Blender's dialog has agreed to replace it."""
         with reporting(self):
             map_set, output = written_path(context.object.rsibr), Path(bpy.path.abspath(self.filepath))
-            for texture in drain(export(map_set, output, Up(self.up), force=self.options.is_invoke)):
+            settings = Ktx2Settings(Up(self.up))
+            for texture in drain(export(map_set, output, settings, force=self.options.is_invoke)):
                 self.report({"INFO"}, f"Wrote {texture}")
             return {"FINISHED"}
         return {"CANCELLED"}

@@ -30,11 +30,14 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     Raises
     ------
     RsibrError
-        See `tasks.export`.
+        See `tasks.export.export`.
     """
-    from ..tasks.export import Up, export
+    from ..files.textures import Up
+    from ..tasks.export.export import export
+    from ..tasks.export.ktx2 import Ktx2Settings
 
-    textures = report.steps(export(arguments.map_set, arguments.output, Up(arguments.up), arguments.force))
+    settings = Ktx2Settings(Up(arguments.up))
+    textures = report.steps(export(arguments.map_set, arguments.output, settings, arguments.force))
     for texture in textures:
         report.say(f"{texture}")
     return {"textures": [str(texture) for texture in textures]}

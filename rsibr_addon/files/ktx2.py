@@ -6,14 +6,13 @@ in the order of v, so that a lookup at our (u, v) finds the texel in every inter
 
 import struct
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from ..core.conventions import Array
-from ..core.half_floats import half_holds
 from .atomic import written_aside
+from .textures import Texture
 
 IDENTIFIER = b"\xabKTX 20\xbb\r\n\x1a\n"
 
@@ -22,27 +21,6 @@ HALF, FLOAT = 97, 109
 
 _HEADER = struct.Struct("<12s9I4I2Q")
 _LEVEL = struct.Struct("<3Q")
-
-
-@dataclass(frozen=True)
-class Texture:
-    """The content of a file.
-
-    Attributes
-    ----------
-    levels : tuple of ndarray, shape (layers, height, width, 3)
-        Mips from the largest, each half as wide and high as the one before. Row 0 is that of v = 0.
-    is_cube : bool
-        Whether the six layers are the faces of a cube, as in `core.maps.cube_map`.
-    """
-
-    levels: tuple[Array, ...]
-    is_cube: bool = False
-
-    @property
-    def is_half(self) -> bool:
-        """Whether 16-bit floats can hold every value: see `half_holds`."""
-        return half_holds(self.levels)
 
 
 def write_ktx2(path: str | Path, texture: Texture, notes: Mapping[str, str], force: bool = False) -> None:

@@ -7,7 +7,8 @@ from typing import Any
 from ..core.errors import MapSetError, SchemaError
 from ..core.schema import decode
 from .kinds.registry import STORED
-from .map_set_header import ENVIRONMENT, FORMAT, Header, StoredKind
+from .map_set_data import ENVIRONMENT
+from .map_set_header import FORMAT, Header, StoredKind
 
 
 def check_header(header: Any, name: str) -> None:

@@ -6,6 +6,9 @@ from typing import Any
 
 from ..core.conventions import Array
 
+ENVIRONMENT = "environment"
+"""The role of the part that holds the environment, and its name."""
+
 
 @dataclass(frozen=True)
 class MapSet:

@@ -16,12 +16,11 @@ from ..core.conventions import WORLD_AXES
 from ..core.environment import Environment
 from ..core.lobes.fit import Fit
 from ..core.schema import Rule, between, length
+from .map_set_data import ENVIRONMENT, MapSet
+from .textures import Texture, Up
 
 FORMAT = 1
 """The version of the format that this code writes, and the only one that it reads."""
-
-ENVIRONMENT = "environment"
-"""The role of the part that holds the environment, and its name."""
 
 MOST_PARTS, MOST_KERNELS = 8192, 64
 """Limits above those of anything that is baked, and within any memory."""
@@ -126,6 +125,9 @@ class StoredKind:
         A description to what is to be told beyond what all kinds share, in words: what -> which.
     part_title : callable
         One of its parts to what that map is, for people.
+    textures : callable or None
+        A file's path, for messages, what it holds, and which axis is to be up, to textures that hold it; None
+        where `textures.arrays` makes them.
     lobes : callable
         A file's path, for messages, and its description to the lobes that it was made of; None where it
         does not tell them.
@@ -137,6 +139,7 @@ class StoredKind:
     problems: Callable[[dict[str, Any]], Iterator[str]] = _no_problems
     facts: Callable[[dict[str, Any]], dict[str, str]] = _no_facts
     part_title: Callable[[dict[str, Any]], str] = role_in_words
+    textures: Callable[[Path, MapSet, Up], list[Texture]] | None = None
     lobes: Callable[[Path, dict[str, Any]], Fit | None] = _no_lobes
 
 

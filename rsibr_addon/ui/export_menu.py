@@ -1,21 +1,24 @@
-"""An entry in Blender's menu File > Export."""
+"""Entries in Blender's menu File > Export."""
 
 from contextlib import ExitStack
 
 import bpy
 
+from ..tasks.export.formats import FORMATS
+
 
 def start(undo: ExitStack) -> None:
-    """Add the entry.
+    """Add an entry for each format.
 
     Parameters
     ----------
     undo : ExitStack
-        Takes what removes it.
+        Takes what removes them.
     """
     bpy.types.TOPBAR_MT_file_export.append(_draw)
     undo.callback(bpy.types.TOPBAR_MT_file_export.remove, _draw)
 
 
 def _draw(menu: bpy.types.Menu, context: bpy.types.Context) -> None:
-    menu.layout.operator("rsibr.export_ktx2", text="Reflection Maps (.ktx2)")
+    for name, each in FORMATS.items():
+        menu.layout.operator(f"rsibr.export_{name}", text=f"{each.label} ({each.suffix})")

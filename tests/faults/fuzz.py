@@ -31,7 +31,7 @@ from rsibr.rsibr_addon.files.fits import read_fit
 from rsibr.rsibr_addon.files.map_set import ATTRIBUTE, read_map_set, read_map_set_header, write_map_set
 from rsibr.rsibr_addon.files.work_folder import work_folder
 from rsibr.rsibr_addon.tasks.compare.measured_error import measured_facts
-from rsibr.rsibr_addon.tasks.export import export
+from rsibr.rsibr_addon.tasks.export.export import export
 from rsibr.rsibr_addon.tasks.methods.kinds import open_map_set
 from rsibr.rsibr_addon.tasks.queue.background import Bake
 from rsibr.rsibr_addon.tasks.reflectance.brdfs import check_told_brdf

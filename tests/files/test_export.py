@@ -17,9 +17,11 @@ from rsibr.rsibr_addon.core.maps.representation import representation
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.core.resample import lookup
 from rsibr.rsibr_addon.files.kinds import mip_chain, reflection_tables
-from rsibr.rsibr_addon.files.ktx2 import Texture, write_ktx2
+from rsibr.rsibr_addon.files.ktx2 import write_ktx2
 from rsibr.rsibr_addon.files.map_set import write_map_set
-from rsibr.rsibr_addon.tasks.export import Up, export
+from rsibr.rsibr_addon.files.textures import Texture, Up
+from rsibr.rsibr_addon.tasks.export.export import export
+from rsibr.rsibr_addon.tasks.export.ktx2 import Ktx2Settings
 
 RNG = np.random.default_rng(5)
 SKY = Environment(RNG.random((8, 16, 3)).astype(np.float32), "sky.exr")
@@ -102,7 +104,7 @@ def test_a_chain_is_a_cube_with_its_mips(tmp_path: Path) -> None:
 
 
 def test_with_y_up_directions_show_what_they_showed(tmp_path: Path) -> None:
-    (path,) = drain(export(chain_file(tmp_path), tmp_path / "sky.ktx2", Up.Y))
+    (path,) = drain(export(chain_file(tmp_path), tmp_path / "sky.ktx2", Ktx2Settings(Up.Y)))
     texture = read(path)
     here = RNG.standard_normal((500, 3))
     here /= np.linalg.norm(here, axis=-1, keepdims=True)
@@ -131,8 +133,8 @@ def test_tables_of_several_sizes_are_several_textures(tmp_path: Path) -> None:
         assert [layer["role"] for layer in texture.note["layers"]] == [role]
         np.testing.assert_allclose(texture.levels[0][0, ..., :3], values, rtol=2.0**-11, atol=2.0**-25)
         assert texture.note["numbers"]["weights"]["rows"] == np.ones((len(Role), 3, 3)).tolist()
-    with pytest.raises(RangeError, match=r"no mip chain: export it with Z up"):
-        drain(export(source, tmp_path / "turned.ktx2", Up.Y))
+    with pytest.raises(RangeError, match=r"cannot be turned: export it with Z up"):
+        drain(export(source, tmp_path / "turned.ktx2", Ktx2Settings(Up.Y)))
 
 
 def test_light_too_bright_for_half_floats_is_kept(tmp_path: Path) -> None:

@@ -7,8 +7,7 @@ from ...core.environment import Environment
 from ...core.errors import InputFileError, MapSetError
 from ..environments import read_environment
 from ..map_set import is_map_set
-from ..map_set_data import MapSet
-from ..map_set_header import ENVIRONMENT
+from ..map_set_data import ENVIRONMENT, MapSet
 from ..pictures import split_layer
 from ..radiance_pictures import holds_radiance
 

@@ -11,8 +11,8 @@ from ...core.kinds.kernel_bank.filtered_bank import FilteredBank
 from ...core.kinds.lobe_stack.stack import stack_representation
 from ...core.lobes.bake import BakedBank
 from ...core.lobes.bank import KernelBank
-from ..map_set_data import MapSet
-from ..map_set_header import ENVIRONMENT, Colour, StoredKind, make_header, role_in_words
+from ..map_set_data import ENVIRONMENT, MapSet
+from ..map_set_header import Colour, StoredKind, make_header, role_in_words
 from .sheets import sheets_from_strip, strip_from_sheets
 
 KIND = "kernel_bank"

@@ -18,8 +18,8 @@ from ...core.lobes.bake import BakedStack
 from ...core.lobes.bank import KernelBank
 from ...core.lobes.fit import Fit
 from ...core.schema import array, between, decode, length
-from ..map_set_data import MapSet, MapsInTurn
-from ..map_set_header import ENVIRONMENT, MOST_KERNELS, Colour, Model, StoredKind, make_header, role_in_words
+from ..map_set_data import ENVIRONMENT, MapSet, MapsInTurn
+from ..map_set_header import MOST_KERNELS, Colour, Model, StoredKind, make_header, role_in_words
 from .sheets import sheets_from_strip, strip_from_sheets
 
 KIND = "lobe_stack"

@@ -5,17 +5,23 @@ from typing import Annotated, Any, TypedDict
 
 import numpy as np
 
-from ...core.conventions import Array
+from ...core.conventions import WORLD_AXES, Array
 from ...core.environment import Environment
 from ...core.errors import MapSetError, RangeError, ShapeError
 from ...core.kinds.mip_chain.chain import MipChain
 from ...core.schema import between
-from ..map_set_data import MapSet
-from ..map_set_header import ENVIRONMENT, StoredKind, make_header, role_in_words
+from ..map_set_data import ENVIRONMENT, MapSet
+from ..map_set_header import StoredKind, make_header, role_in_words
+from ..textures import Texture, Up
 
 KIND = "mip_chain"
 HARMONICS = "harmonics"
 """The role of the part that holds the nine coefficients, and its name."""
+
+Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
+"""Directions with Y up, as glTF has them, from Blender's."""
+
+Y_UP_AXES = "right-handed, Y up: (x, y, z) here is (x, -z, y) of Blender's world"
 
 
 class _Mip(TypedDict):
@@ -133,4 +139,22 @@ def _part_title(part: dict[str, Any]) -> str:
     return f"Mip {part['mip']}{sharpness}"
 
 
-STORED = StoredKind(roles={"prefiltered": _Mip}, numbers=(HARMONICS,), facts=_facts, part_title=_part_title)
+def _textures(path: Path, map_set: MapSet, up: Up) -> list[Texture]:
+    """A cube, whose texels a turn of axes leaves as they are."""
+    chain = from_map_set(path, map_set)
+    turned = chain.turned(Y_UP) if up is Up.Y else chain
+    note = {
+        "axes": Y_UP_AXES if up is Up.Y else WORLD_AXES,
+        "roughness": chain.roughness,
+        "numbers": {HARMONICS: {"rows": [turned.harmonics.tolist()]}},
+    }
+    return [Texture(turned.mips, is_cube=True, note=note)]
+
+
+STORED = StoredKind(
+    roles={"prefiltered": _Mip},
+    numbers=(HARMONICS,),
+    facts=_facts,
+    part_title=_part_title,
+    textures=_textures,
+)

@@ -8,8 +8,8 @@ import numpy as np
 from ...core.environment import Environment
 from ...core.errors import MapSetError, RangeError, ShapeError
 from ...core.kinds.reflection_tables.tables import ReflectionTables, Role
-from ..map_set_data import MapSet
-from ..map_set_header import ENVIRONMENT, StoredKind, make_header
+from ..map_set_data import ENVIRONMENT, MapSet
+from ..map_set_header import StoredKind, make_header
 
 KIND = "reflection_tables"
 WEIGHTS = "weights"

@@ -18,8 +18,8 @@ from ...core.progress import Progress, Steps
 from ...files.atomic import check_target, written_aside
 from ...files.exr import Part, read_attributes, read_parts, write_parts
 from ...files.map_set import read_map_set_header, write_map_set
-from ...files.map_set_data import MapsInTurn
-from ...files.map_set_header import ENVIRONMENT, make_header
+from ...files.map_set_data import ENVIRONMENT, MapsInTurn
+from ...files.map_set_header import make_header
 from ...files.memory import check_memory
 from ...files.work_folder import clear_work_folder, work_folder, work_folder_beside
 from ...host.cameras import add_camera

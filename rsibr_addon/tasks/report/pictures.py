@@ -10,7 +10,7 @@ from ...core.light.transfer_curve import srgb_from_linear
 from ...core.pictures.thumbnail import miniature
 from ...files.kinds.registry import STORED
 from ...files.map_set import read_map_set
-from ...files.map_set_header import ENVIRONMENT
+from ...files.map_set_data import ENVIRONMENT
 
 SIZE = 128
 """Largest width and height in pixels: what Blender shows of a picture in a panel."""

@@ -1,0 +1,90 @@
+"""Map sets as textures, as graphics interfaces take them, whatever the format of their file."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+
+from ..core.conventions import WORLD_AXES, Array
+from ..core.half_floats import half_holds
+from ..core.maps.representation import representation
+from .kinds.sheets import sheets_from_strip
+from .map_set_data import ENVIRONMENT, MapSet
+
+
+class Up(StrEnum):
+    """Which axis of textures points up."""
+
+    Z = "z"
+    Y = "y"
+
+
+@dataclass(frozen=True)
+class Texture:
+    """A cube or an array of layers, with its mips.
+
+    Attributes
+    ----------
+    levels : tuple of ndarray, shape (layers, height, width, 3)
+        Mips from the largest, each half as wide and high as the one before. Row 0 is that of v = 0.
+    is_cube : bool
+        Whether the six layers are the faces of a cube, as in `core.maps.cube_map`.
+    name : str
+        What distinguishes it from others of its map set.
+    note : mapping
+        What its shaders have to know, as JSON values.
+    """
+
+    levels: tuple[Array, ...]
+    is_cube: bool = False
+    name: str = ""
+    note: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def is_half(self) -> bool:
+        """Whether 16-bit floats can hold every value: see `half_holds`."""
+        return half_holds(self.levels)
+
+
+def arrays(map_set: MapSet, numbers: Sequence[str]) -> list[Texture]:
+    """A texture for each size of maps, a layer for each of their sheets.
+
+    Parameters
+    ----------
+    map_set : MapSet
+    numbers : sequence of str
+        Roles of parts that are tables of a few numbers: notes hold them, row by row from v = 0.
+
+    Returns
+    -------
+    list of Texture
+        With Z up; without the environment.
+    """
+    header = map_set.header
+    parts = [part for part in header["parts"] if part["role"] not in (ENVIRONMENT, *numbers)]
+    sheets = {part["name"]: _sheets(map_set.maps[part["name"]], header["layout"]) for part in parts}
+    tables = {
+        part["role"]: {**part, "rows": map_set.maps[part["name"]].tolist()}
+        for part in header["parts"]
+        if part["role"] in numbers
+    }
+    textures = []
+    for size in dict.fromkeys(each.shape for each in sheets.values()):
+        alike = [part for part in parts if sheets[part["name"]].shape == size]
+        layers = [{**part, "sheet": sheet} for part in alike for sheet in range(size[0])]
+        textures.append(
+            Texture(
+                (np.concatenate([sheets[part["name"]] for part in alike]),),
+                name="-".join(dict.fromkeys(part["role"] for part in alike)),
+                note={"axes": WORLD_AXES, "layers": layers, "numbers": tables},
+            )
+        )
+    return textures
+
+
+def _sheets(strip: Array, layout: str) -> Array:
+    count = len(representation(layout).sheets)
+    height, width = strip.shape[:2]
+    return sheets_from_strip(strip, (count, height // count, width))

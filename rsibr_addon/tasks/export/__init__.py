@@ -1,0 +1,1 @@
+"""Map sets for other programs."""

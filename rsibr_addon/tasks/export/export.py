@@ -1,0 +1,69 @@
+"""Map sets as files for other programs."""
+
+from pathlib import Path
+from typing import Any
+
+from ...core.errors import OutputFileError
+from ...core.progress import Progress, Steps
+from ...files.map_set import read_map_set
+from ...files.outputs import together
+from .format import Format
+from .formats import FORMATS
+
+
+def format_of(output: Path) -> Format:
+    """The format that a name asks for.
+
+    Raises
+    ------
+    OutputFileError
+        Its suffix is that of none.
+    """
+    for each in FORMATS.values():
+        if output.suffix.lower() == each.suffix:
+            return each
+    known = " or ".join(each.suffix for each in FORMATS.values())
+    raise OutputFileError(f"{output} would not be known for an export: give a name that ends in {known}.")
+
+
+def export(map_set: Path, output: Path, settings: Any = None, force: bool = False) -> Steps[list[Path]]:
+    """Write a map set's maps as other programs take them.
+
+    Parameters
+    ----------
+    map_set : Path
+    output : Path
+        Its suffix tells the format.
+    settings : object, optional
+        Of the format: see `Format.settings`; its defaults else.
+    force : bool
+        Whether existing files are replaced.
+
+    Yields
+    ------
+    Progress
+
+    Returns
+    -------
+    list of Path
+        The files that were written: all of them, or none.
+
+    Raises
+    ------
+    MapSetError
+        See `files.map_set.read_map_set`.
+    RangeError
+        The format cannot hold the map set with these settings.
+    OutputFileError
+        The name is of no format, or a file cannot be written or exists.
+
+    Notes
+    -----
+    docs/export.md says what the files hold.
+    """
+    chosen = format_of(output)
+    yield Progress(0, 2, f"reading {map_set.name}")
+    held = read_map_set(map_set)
+    yield Progress(1, 2, f"writing {output.name}")
+    with together():
+        return chosen.write(map_set, held, output, settings or chosen.settings(), force)

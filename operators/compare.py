@@ -11,7 +11,7 @@ from .reporting import reporting
 
 
 class RSIBR_OT_compare(bpy.types.Operator):
-    """Measure in the background how far the preview is from what Cycles shows, and open a page that tells"""  # noqa: D400  (a tooltip)
+    """Measure in the background how far the preview is from what Cycles shows, and open a report"""  # noqa: D400  (a tooltip)
 
     bl_idname = "rsibr.compare"
     bl_label = "Compare"

@@ -1,12 +1,12 @@
-"""Write all of a map set on one page, and open it."""
+"""Write a report of a map set, and open it."""
 
 import bpy
 
 from ..rsibr_addon.core.errors import SceneError
 from ..rsibr_addon.core.progress import drain
-from ..rsibr_addon.files.output_paths import page_beside
+from ..rsibr_addon.files.output_paths import report_beside
 from ..rsibr_addon.host.map_sets import written_path
-from ..rsibr_addon.tasks.report.page import map_set_page
+from ..rsibr_addon.tasks.report.report import map_set_report
 from .reporting import reporting
 
 
@@ -16,8 +16,8 @@ class RSIBR_OT_open_report(bpy.types.Operator):
     bl_idname = "rsibr.open_report"
     bl_label = "Report"
 
-    open_page = bpy.props.BoolProperty(
-        name="Open", description="Open the page in the browser", default=True, options={"SKIP_SAVE"}
+    open_browser = bpy.props.BoolProperty(
+        name="Open", description="Open the report in the browser", default=True, options={"SKIP_SAVE"}
     )
 
     @classmethod
@@ -31,9 +31,9 @@ class RSIBR_OT_open_report(bpy.types.Operator):
             path = written_path(context.object.rsibr)
             if not path.is_file():
                 raise SceneError(f"There is no map set {path}: bake it again, or choose another.")
-            page = drain(map_set_page(path, page_beside(path), force=True))
-            self.report({"INFO"}, f"Wrote {page}")
-            if self.open_page:
-                bpy.ops.wm.url_open(url=page.resolve().as_uri())
+            written = drain(map_set_report(path, report_beside(path), force=True))
+            self.report({"INFO"}, f"Wrote {written}")
+            if self.open_browser:
+                bpy.ops.wm.url_open(url=written.resolve().as_uri())
             return {"FINISHED"}
         return {"CANCELLED"}

@@ -71,7 +71,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the model that was baked, where it is in a file, as rsibr bake takes it (default: what the map "
         "set names)",
     )
-    options.add_output(parser, "FOLDER", "for the page, its pictures and comparison.json")
+    options.add_output(parser, "FOLDER", "for the report, its pictures and comparison.json")
 
 
 def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
@@ -80,7 +80,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     Returns
     -------
     dict
-        "page", the path of the HTML page; "comparison", what comparison.json holds.
+        "page", the path of the report, an HTML file; "comparison", what comparison.json holds.
 
     Raises
     ------

@@ -37,12 +37,12 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     Raises
     ------
     RsibrError
-        See `tasks.report.page`.
+        See `tasks.report.report`.
     """
-    from ..files.output_paths import page_beside
-    from ..tasks.report.page import map_set_page
+    from ..files.output_paths import report_beside
+    from ..tasks.report.report import map_set_report
 
-    output = arguments.output or page_beside(arguments.map_set)
-    page = report.steps(map_set_page(arguments.map_set, output, arguments.force, arguments.brdf))
+    output = arguments.output or report_beside(arguments.map_set)
+    page = report.steps(map_set_report(arguments.map_set, output, arguments.force, arguments.brdf))
     report.say(f"{page}")
     return {"page": str(page)}

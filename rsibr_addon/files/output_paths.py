@@ -3,8 +3,8 @@
 from pathlib import Path
 
 
-def page_beside(map_set: Path) -> Path:
-    """The default path of a map set's page: NAME.html beside NAME.rsibr.exr."""
+def report_beside(map_set: Path) -> Path:
+    """The default path of a map set's report: NAME.html beside NAME.rsibr.exr."""
     return map_set.with_name(f"{_name(map_set)}.html")
 
 

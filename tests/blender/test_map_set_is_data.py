@@ -26,7 +26,7 @@ from rsibr.rsibr_addon.tasks.compare.lobe_stack import StackComparison
 from rsibr.rsibr_addon.tasks.compare.radiance_views import ViewsComparison
 from rsibr.rsibr_addon.tasks.queue.bake_request import comparison_of
 from rsibr.rsibr_addon.tasks.reflectance.brdfs import check_told_brdf, told_brdf
-from rsibr.rsibr_addon.tasks.report.page import map_set_page
+from rsibr.rsibr_addon.tasks.report.report import map_set_report
 from rsibr.tests.flat_capture import write_flat_capture
 from rsibr.tests.lobe_stacks import random_fit, random_stack
 
@@ -86,7 +86,7 @@ def test_a_material_of_the_open_file_is_no_other_file(tmp_path: Path) -> None:
 @pytest.mark.parametrize("spec", [*ELSEWHERE[1:3], "hologram:kd=1", "(" * 4000])
 def test_the_report_lacks_one_line(tmp_path: Path, spec: str) -> None:
     path = write_stack(tmp_path / "a.rsibr.exr", spec)
-    page = drain(map_set_page(path, tmp_path / "a.html")).read_text()
+    page = drain(map_set_report(path, tmp_path / "a.html")).read_text()
     assert "The BRDF is not shown. " in page
     assert page.count("data:image/svg+xml;base64,") == 3
 
@@ -95,10 +95,10 @@ def test_the_report_lacks_one_line(tmp_path: Path, spec: str) -> None:
 @pytest.mark.slow
 def test_the_report_plots_the_model_that_is_named(tmp_path: Path) -> None:
     path = write_stack(tmp_path / "a.rsibr.exr", ELSEWHERE[0])
-    named = drain(map_set_page(path, tmp_path / "a.html", brdf="lambert:kd=0.5")).read_text()
+    named = drain(map_set_report(path, tmp_path / "a.html", brdf="lambert:kd=0.5")).read_text()
     assert "The BRDF is not shown." not in named
     with pytest.raises(AssertionError, match="/etc/passwd is opened"):
-        drain(map_set_page(path, tmp_path / "b.html", brdf=ELSEWHERE[0]))
+        drain(map_set_report(path, tmp_path / "b.html", brdf=ELSEWHERE[0]))
 
 
 @needs_gl

@@ -36,7 +36,7 @@ from rsibr.rsibr_addon.tasks.methods.kinds import open_map_set
 from rsibr.rsibr_addon.tasks.queue.background import Bake
 from rsibr.rsibr_addon.tasks.reflectance.brdfs import check_told_brdf
 from rsibr.rsibr_addon.tasks.reflectance.fit_plots import lobe_picture
-from rsibr.rsibr_addon.tasks.report import page as map_set_page
+from rsibr.rsibr_addon.tasks.report import report as map_set_report
 from rsibr.rsibr_addon.tasks.report.facts import map_set_content, map_set_facts, map_set_fit
 from rsibr.rsibr_addon.tasks.report.pictures import map_set_pictures
 from rsibr.tests.faults.mutations import damaged_bytes, damaged_json
@@ -63,7 +63,7 @@ def _facts(path: Path) -> None:
 
 
 def _page(path: Path) -> None:
-    drain(map_set_page.map_set_page(path, path.with_suffix(".html"), force=True))
+    drain(map_set_report.map_set_report(path, path.with_suffix(".html"), force=True))
 
 
 def _compare(path: Path) -> None:
@@ -200,7 +200,7 @@ def _without_device() -> Iterator[None]:
     def refuse(*_: Any) -> None:
         raise DeviceError("There is no driver: this is a test.")
 
-    with patch.object(map_set_page, "_looks", refuse):
+    with patch.object(map_set_report, "_looks", refuse):
         yield
 
 

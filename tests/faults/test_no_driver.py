@@ -34,7 +34,7 @@ def test_a_report_comes_without_meshes(tmp_path: Path) -> None:
     write_mirror_capture(tmp_path / "in.rsibr.exr")
     ended = run(tmp_path, "report", "../in.rsibr.exr", "-o", "out.html", variables=NO_DRIVER["none"])
     assert ended.code == 0
-    assert ended.err.startswith(f"rsibr: warning: The page shows no mesh: {SENTENCE}")
+    assert ended.err.startswith(f"rsibr: warning: The report shows no mesh: {SENTENCE}")
     page = (tmp_path / "work" / "out.html").read_text()
     assert 'alt="a sphere"' not in page
     assert "<figure>" in page

@@ -1,4 +1,4 @@
-"""Hold pictures drawn from a map set against the truth, as numbers and as a page for people."""
+"""Hold pictures drawn from a map set against the truth, as numbers and as a report for people."""
 
 import json
 from pathlib import Path
@@ -11,8 +11,8 @@ from ...files.map_set_header import content_hash
 from ..methods.kinds import KINDS, open_map_set
 from ..report.facts import map_set_header
 from .comparison import RESULT, Comparison, SceneSettings
-from .page import comparison_page
 from .pictures import save_sheets
+from .report import comparison_report
 from .truth import Truth
 
 
@@ -96,7 +96,7 @@ def compare(map_set: Path, settings: SceneSettings, output: Path, force: bool = 
     )
     with folder_written_aside(output, RESULT, force) as folder:
         sheets = save_sheets(folder / "images", seen.references, seen.drawn)
-        page = comparison_page(comparison, truth, sheets)
-        (folder / "index.html").write_text(page, encoding="utf-8", errors="replace")
+        text = comparison_report(comparison, truth, sheets)
+        (folder / "index.html").write_text(text, encoding="utf-8", errors="replace")
         (folder / RESULT).write_text(json.dumps(comparison.to_json(), indent=1), encoding="utf-8")
     return comparison

@@ -72,7 +72,7 @@ class Way(Protocol):
     Attributes
     ----------
     slug : str
-        A name for files and pages: 12-fragment-split.
+        A name for files and reports: 12-fragment-split.
     name : str
         A name for people.
     """

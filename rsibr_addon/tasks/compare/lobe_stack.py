@@ -75,7 +75,7 @@ class StackWay:
 
     @property
     def slug(self) -> str:
-        """A name for files and pages: 3-lobes."""
+        """A name for files and reports: 3-lobes."""
         return f"{self.lobes}-lobes"
 
     @property

@@ -77,7 +77,7 @@ class ViewsWay:
 
     @property
     def slug(self) -> str:
-        """A name for files and pages: 12-fragment-split."""
+        """A name for files and reports: 12-fragment-split."""
         return f"{self.captured_views}-{self.mode}-{self.warping}"
 
     @property

@@ -224,7 +224,7 @@ def comparison_of(item: Any, map_set: Path) -> ObjectBake:
     Returns
     -------
     ObjectBake
-        Whose output is a page in the folder NAME-compared beside NAME.rsibr.exr.
+        Whose output is a report in the folder NAME-compared beside NAME.rsibr.exr.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""A map set as one HTML page that needs nothing beside it."""
+"""A map set as one HTML file that needs nothing beside it."""
 
 import base64
 import warnings
@@ -47,7 +47,7 @@ LOOKS = {"sphere": Camera((0.3, -1.0, 0.3)), "monkey": Camera((0.3, -1.0, 0.3))}
 """Mesh -> from where it is shown."""
 
 
-def map_set_page(map_set: Path, output: Path, force: bool = False, brdf: str | None = None) -> Steps[Path]:
+def map_set_report(map_set: Path, output: Path, force: bool = False, brdf: str | None = None) -> Steps[Path]:
     """Show all that a map set holds.
 
     Parameters
@@ -74,7 +74,7 @@ def map_set_page(map_set: Path, output: Path, force: bool = False, brdf: str | N
     ------
     MapSetError, OutputFileError
     RsibrError
-        See `load_brdf`, of `brdf` alone: where the map set's own model is none, the page says so.
+        See `load_brdf`, of `brdf` alone: where the map set's own model is none, the report says so.
 
     Warns
     -----
@@ -92,7 +92,7 @@ def map_set_page(map_set: Path, output: Path, force: bool = False, brdf: str | N
     yield Progress(2, 3, "drawing its maps")
     header = map_set_header(map_set)
     facts = told_facts(header)
-    page = Template(TEMPLATE.read_text(encoding="utf-8")).substitute(
+    text = Template(TEMPLATE.read_text(encoding="utf-8")).substitute(
         title=escape(" in ".join(facts[what] for what in ("Material", "Light") if what in facts)),
         kind=escape(facts["Kind"]),
         file=escape(map_set.name),
@@ -104,7 +104,7 @@ def map_set_page(map_set: Path, output: Path, force: bool = False, brdf: str | N
         roles="\n".join(_roles(held)),
     )
     with written_aside(output, force) as aside:
-        aside.write_text(page, encoding="utf-8", errors="replace")  # of names that are no UTF-8
+        aside.write_text(text, encoding="utf-8", errors="replace")  # of names that are no UTF-8
     return output
 
 
@@ -114,7 +114,7 @@ def _looks(map_set: Path) -> dict[str, Array]:
     try:
         renderer, look = PreviewRenderer(opened.upload()), KINDS[opened.kind].look()
     except DeviceError as error:
-        warnings.warn(f"The page shows no mesh: {error}", RsibrWarning, stacklevel=2)
+        warnings.warn(f"The report shows no mesh: {error}", RsibrWarning, stacklevel=2)
         return {}
     pictures = {}
     for name, camera in LOOKS.items():

@@ -1,4 +1,4 @@
-"""The page of a map set: whole in itself, with everything that the set holds."""
+"""The report of a map set: whole in itself, with everything that the set holds."""
 
 import os
 import re
@@ -12,7 +12,7 @@ from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.map_set import read_map_set_header
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.tasks.methods.mip_chain import MipSettings, bake_mips
-from rsibr.rsibr_addon.tasks.report.page import map_set_page
+from rsibr.rsibr_addon.tasks.report.report import map_set_report
 
 pytestmark = pytest.mark.needs("gl")
 
@@ -25,7 +25,7 @@ def map_set(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_all_of_a_map_set_is_on_its_page(map_set: Path, tmp_path: Path) -> None:
-    text = drain(map_set_page(map_set, tmp_path / "page.html")).read_text()
+    text = drain(map_set_report(map_set, tmp_path / "report.html")).read_text()
     header = read_map_set_header(map_set)
     assert "&lt;mips&gt;.rsibr.exr" in text
     for part in header["parts"]:
@@ -43,22 +43,22 @@ def test_names_that_are_no_utf8_are_shown_as_far_as_they_can_be(tmp_path: Path) 
     (tmp_path / "light.exr").rename(light)
     drain(bake_mips(str(light), MipSettings("box", 16), tmp_path / "a.rsibr.exr"))
     (tmp_path / "a.rsibr.exr").rename(path)
-    text = drain(map_set_page(path, tmp_path / "page.html")).read_text()
+    text = drain(map_set_report(path, tmp_path / "report.html")).read_text()
     assert "caf?.rsibr.exr" in text
     assert "caf\ufffd.exr, 32 x 16" in text
 
 
 def test_files_are_not_replaced_unasked(map_set: Path, tmp_path: Path) -> None:
-    page = tmp_path / "page.html"
-    page.write_text("mine")
+    report = tmp_path / "report.html"
+    report.write_text("mine")
     with pytest.raises(OutputFileError, match="exists"):
-        drain(map_set_page(map_set, page))
-    assert page.read_text() == "mine"
-    assert drain(map_set_page(map_set, page, force=True)).read_text().startswith("<!doctype html>")
+        drain(map_set_report(map_set, report))
+    assert report.read_text() == "mine"
+    assert drain(map_set_report(map_set, report, force=True)).read_text().startswith("<!doctype html>")
 
 
 def test_bad_names_are_told(map_set: Path, tmp_path: Path) -> None:
-    with pytest.raises(OutputFileError, match=r"page.txt would not open in a browser"):
-        drain(map_set_page(map_set, tmp_path / "page.txt"))
+    with pytest.raises(OutputFileError, match=r"report.txt would not open in a browser"):
+        drain(map_set_report(map_set, tmp_path / "report.txt"))
     with pytest.raises(MapSetError, match="does not exist"):
-        drain(map_set_page(tmp_path / "none.rsibr.exr", tmp_path / "page.html"))
+        drain(map_set_report(tmp_path / "none.rsibr.exr", tmp_path / "report.html"))

@@ -1,4 +1,4 @@
-"""A comparison as one HTML page that needs nothing beside it."""
+"""A comparison as one HTML file that needs nothing beside it."""
 
 import base64
 import math
@@ -13,7 +13,7 @@ from .truth import Truth
 TEMPLATE = Path(__file__).with_suffix(".html")
 
 
-def comparison_page(comparison: Comparison, truth: Truth, sheets: Sheets) -> str:
+def comparison_report(comparison: Comparison, truth: Truth, sheets: Sheets) -> str:
     """Show numbers and pictures of a comparison.
 
     Parameters
@@ -22,7 +22,7 @@ def comparison_page(comparison: Comparison, truth: Truth, sheets: Sheets) -> str
     truth : Truth
         What it was held against.
     sheets : Sheets
-        Its pictures, which the page takes in.
+        Its pictures, which the report takes in.
 
     Returns
     -------

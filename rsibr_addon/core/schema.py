@@ -194,7 +194,7 @@ def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     if len(found) < len(pairs):
         names = [name for name, _ in pairs]
         twice = next(name for name in names if names.count(name) > 1)
-        raise SchemaError(f"{_shortened(twice)!r} is there twice")
+        raise SchemaError(f"{_shortened(twice)!r} appears twice")
     return found
 
 

@@ -141,7 +141,7 @@ class Deposit:
             block = slice(first, first + BLOCK // 4)
 
             centres, on_sheet = _four(uv[block]) + quarter, _four(sheet[block])
-            # Of a texel that the rim of a disk cuts, only the parts within the disk have a share.
+            # A texel that the rim of a disk cuts contributes only with its parts within the disk.
             counts = np.linalg.norm(2.0 * centres - 1.0, axis=-1) < source.disk
             counts |= ~counts.any(axis=(1, 2), keepdims=True)
             share = _four(solid_angle[block]) * counts / counts.sum(axis=(1, 2), keepdims=True)

@@ -75,7 +75,7 @@ class MeshOnDevice:
 
 
 class OnDevice(Protocol):
-    """What a map set holds, uploaded."""
+    """The uploaded content of a map set."""
 
     def draw(self, mesh: MeshOnDevice, draw: Draw, look: Any) -> None:
         """Draw a mesh into the active frame buffer, with the current depth test.

@@ -71,7 +71,7 @@ def check_name(path: Path) -> None:
         is_folder = True  # perhaps: it cannot be written to in any case
     except (FileNotFoundError, NotADirectoryError) as error:
         raise OutputFileError(
-            f"{folder} is not there to write {path.name} into: make that folder first."
+            f"{folder} does not exist, so {path.name} cannot be written: make that folder first."
         ) from error
     if not is_folder:
         raise OutputFileError(f"{folder} is a file, so {path.name} cannot be in it: give another folder.")

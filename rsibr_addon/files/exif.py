@@ -114,7 +114,7 @@ def _completed(paths: Sequence[Path], told: list[float | None], what: str) -> li
     if lacking and max(known) > min(known) * (1.0 + 1e-6):
         raise InputFileError(
             f"The {what} varies from {min(known):g} to {max(known):g}, but {lacking} tells none: give the "
-            f"exposure times of all photographs, made longer or shorter by it."
+            f"exposure times of all photographs, corrected for it."
         )
     if lacking:
         warnings.warn(

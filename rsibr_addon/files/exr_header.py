@@ -131,7 +131,7 @@ def _ignored(header: dict[str, Any], primaries: ArrayLike) -> Iterator[str]:
         yield f"states an Orientation of {header['Orientation']}, but is taken as it is stored."
     width, height = window_size(header["displayWindow"])
     if header.get("envmap") == CUBE and height != 6 * width:
-        yield "states that it is a cube map, but has not six faces one below the other."
+        yield "states that it is a cube map, but does not have six faces one below the other."
     neutral = header.get("adoptedNeutral")
     if (
         neutral is not None

@@ -156,7 +156,7 @@ def read_map(path: Path, layout: Layout, read_picture: Callable[[Path], Array]) 
     if missing and len(paths) > 1:
         raise InputFileError(
             f"{path} as {layout.name} is {len(paths)} files, of which {', '.join(missing)} "
-            f"{'is' if len(missing) == 1 else 'are'} not there: give NAME.exr for {paths[0].name} and so on."
+            f"{'is' if len(missing) == 1 else 'are'} missing: give NAME.exr for {paths[0].name} and so on."
         )
     pictures = [read_picture(file) for file in paths]
     sizes = [picture.shape[1::-1] for picture in pictures]

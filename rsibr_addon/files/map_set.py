@@ -110,7 +110,7 @@ def write_map_set(
     if half and whole:
         warnings.warn(
             f"{whole} of the {len(listed)} maps of {path} are too bright or too dark for 16-bit floats, and "
-            f"stored with 32 bits.",
+            f"are stored with 32 bits.",
             RsibrWarning,
             stacklevel=2,
         )
@@ -252,7 +252,7 @@ def _checked_pixels(path: str | Path, listed: dict[str, Any], part: Part) -> Arr
     """A part's pixels as float32, if they are the ones that were written."""
     types = {pixels.dtype.name for pixels in part.channels.values()}
     if part.channels.keys() != set("RGB") or types not in ({"float32"}, {"float16"}):
-        raise MapSetError(f"{path} has in part {part.name!r} not R, G and B in float or half: make it again.")
+        raise MapSetError(f"{path} has no R, G and B in float or half in part {part.name!r}: make it again.")
     stored = np.stack([part.channels[channel] for channel in "RGB"], axis=-1)
     if _derived(stored)["sha256"] != listed["sha256"]:
         raise MapSetError(f"{path} is damaged: part {part.name!r} is not as written; fetch or make it again.")

@@ -1,4 +1,4 @@
-"""What a map set is between its file and its kind."""
+"""A map set in memory, between its file and its kind."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass

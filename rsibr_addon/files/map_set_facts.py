@@ -1,4 +1,4 @@
-"""What a description says, in words: for panels, reports and `rsibr info` alike."""
+"""A description in words, for panels, reports and `rsibr info` alike."""
 
 from pathlib import Path
 from typing import Any
@@ -40,7 +40,7 @@ def told_errors(header: dict[str, Any]) -> dict[str, str]:
 
 
 def told_making(header: dict[str, Any]) -> dict[str, str]:
-    """Of what, how and by whom it was made."""
+    """The environment, material, settings and software of the bake."""
     environment, settings = header["environment"], header["settings"]
     clamped = f", clamped to {environment['clamp']:g}" if "clamp" in environment else ""
     return {

@@ -90,7 +90,7 @@ def clear_work_folder(path: Path) -> None:
 
 def _make(path: Path) -> None:
     if path.is_dir() and not (path / LOCK).exists() and any(path.iterdir()):
-        raise OutputFileError(f"{path} holds something else than our work: move it, or write elsewhere.")
+        raise OutputFileError(f"{path} holds files other than unfinished work: move it, or write elsewhere.")
     try:
         path.mkdir(exist_ok=True)
     except OSError as error:

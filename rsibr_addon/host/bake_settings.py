@@ -129,7 +129,7 @@ def check_object(item: bpy.types.Object | None) -> None:
     if item.type not in SHAPED:
         raise SceneError(f"Object {item.name} has no surface: select one that has.")
     if not item.is_editable:
-        raise SceneError(f"Object {item.name} is of another file: make it local, or an override of it.")
+        raise SceneError(f"Object {item.name} belongs to another file: make it local, or an override of it.")
 
 
 def own_material(item: bpy.types.Object) -> bpy.types.Material:

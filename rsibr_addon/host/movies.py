@@ -61,7 +61,7 @@ def save_movie(path: Path, frames: Sequence[Path], frames_per_second: int = 24) 
         except RuntimeError as error:
             raise RenderError(f"Blender cannot encode the movie {path.name}: {error}") from error
         if not _is_whole(movie.read_bytes()):  # Blender does not report this
-            raise RenderError(f"The movie {path.name} was cut short by Blender: draw it again.")
+            raise RenderError(f"Blender did not finish the movie {path.name}: draw it again.")
         shutil.move(movie, path)
 
 

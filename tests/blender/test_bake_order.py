@@ -325,5 +325,7 @@ def test_a_linked_object_is_not_baked_for(tmp_path: Path) -> None:
     with bpy.data.libraries.load(str(library), link=True) as (_, wanted):
         wanted.objects = ["Cube"]
     (cube,) = wanted.objects
-    with pytest.raises(SceneError, match="Object Cube is of another file: make it local, or an override"):
+    with pytest.raises(
+        SceneError, match="Object Cube belongs to another file: make it local, or an override"
+    ):
         order_for(bpy.context.scene, cube)

@@ -141,7 +141,7 @@ def test_a_material_that_is_too_bright_gets_a_warning(
     light: np.ndarray, capfd: pytest.CaptureFixture[str]
 ) -> None:
     bake("--diffuse", "lambert:kd=0.9", "--specular", "mirror:")
-    assert "rsibr: warning: The material reflects 1.9 times the light it gets" in capfd.readouterr().err
+    assert "rsibr: warning: The material reflects 1.9 times the light it receives" in capfd.readouterr().err
 
 
 @pytest.fixture

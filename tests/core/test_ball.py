@@ -69,7 +69,7 @@ def test_no_ball_is_found_where_there_is_none() -> None:
     ramp = np.linspace(0.0, 1.0, 128)[:, None] * np.ones((96, 128, 3))
     stripes = np.repeat(np.tile([0.0, 1.0], 16), 4)[:, None] * np.ones((96, 128, 3))
     for picture in (noise, stripes, 0.3 * ramp + 0.2):
-        with pytest.raises(RangeError, match="no ball to be found: let it fill most"):
+        with pytest.raises(RangeError, match="No ball was found: let it fill most"):
             find_circle(picture)
 
 

@@ -69,5 +69,7 @@ def test_gain_is_told_and_losses_are_not() -> None:
         warnings.simplefilter("error")
         warn_of_gain(Lambert(kd=1.0), "white")
         warn_of_gain(Phong(n=10.0, ks=0.5, kd=0.5), "half and half")
-    with pytest.warns(RsibrWarning, match=r"too much reflects 1\.9.* times the light it gets at 14 degrees"):
+    with pytest.warns(
+        RsibrWarning, match=r"too much reflects 1\.9.* times the light it receives at 14 degrees"
+    ):
         warn_of_gain(Phong(n=10.0, ks=1.0, kd=1.0), "too much")

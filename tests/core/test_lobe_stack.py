@@ -203,7 +203,9 @@ def test_normals_that_point_away_are_turned_to_the_horizon() -> None:
 
 
 def test_too_narrow_lobes_are_refused_with_the_remedy() -> None:
-    with pytest.raises(RangeError, match=r"too coarse for\. Lobe 1 is .* or use a larger map"):
+    with pytest.raises(
+        RangeError, match=r"too coarse for some lobes of the fit\. Lobe 1 is .* or use a larger map"
+    ):
         baked(LIGHT, random_fit(KernelBank((5000.0,))))
 
 

@@ -82,7 +82,7 @@ def test_what_json_writes_comes_back(value: Any) -> None:
         ("-1.1e60", "the number -1.1e60 is too large"),
         (str(LARGEST_INTEGER + 1), "the number 9007199254740993 is too large"),
         ("-" + "9" * 5000, "the number -999999999999999... is too large"),
-        ('{"a": 1, "b": 2, "a": 1}', "'a' is there twice"),
+        ('{"a": 1, "b": 2, "a": 1}', "'a' appears twice"),
         (r'["\ud800"]', "is half a character"),
         (r'{"\udfff": 1}', "is half a character"),
         (" " * LARGEST_TEXT + "1", "it is longer than 8 MiB"),

@@ -251,7 +251,7 @@ def test_what_lies_under_a_coat_of_a_brdf_is_diffuse_still() -> None:
 
 def test_more_light_than_there_is_gets_a_warning() -> None:
     bright = material_from_texts({"diffuse": "lambert:kd=0.8", "specular": "phong:n=9,ks=0.9"}, no_measured)
-    with pytest.warns(RsibrWarning, match=r"reflects 1\.7 times the light it gets at \d+ degrees"):
+    with pytest.warns(RsibrWarning, match=r"reflects 1\.7 times the light it receives at \d+ degrees"):
         warn_of_table_gain(bright)
 
 
@@ -260,7 +260,7 @@ def test_more_light_than_there_is_gets_a_warning() -> None:
     [
         ({}, "needs a table at least: give it a diffuse or a specular part"),
         ({"weights": "fresnel:eta=1.5"}, "needs a table at least"),
-        ({"difuse": "lambert:kd=1"}, "difuse: a material has no such part, but diffuse, emission"),
+        ({"difuse": "lambert:kd=1"}, "difuse: a material has no such part: choose from diffuse, emission"),
         ({"diffuse": "mirror:"}, 'diffuse: there is no model "mirror" for it: choose one of lambert, lumi'),
         ({"diffuse": "lambert"}, "diffuse: lambert: kd is missing; it must be one number, or three"),
         ({"diffuse": "lambert:kd=2"}, "diffuse: lambert: kd is 2, but it must be from 0 to 1"),

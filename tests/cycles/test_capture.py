@@ -256,7 +256,7 @@ def test_an_output_that_appears_meanwhile_stays(job: CaptureJob, partial: Path) 
 def test_a_foreign_folder_in_the_way_stays(job: CaptureJob, partial: Path) -> None:
     partial.mkdir()
     (partial / "thesis.txt").write_text("precious")
-    with pytest.raises(OutputFileError, match="holds something else than our work"):
+    with pytest.raises(OutputFileError, match="holds files other than unfinished work"):
         drain(capture(job))
     assert (partial / "thesis.txt").read_text() == "precious"
 

@@ -86,10 +86,10 @@ def test_a_link_stays_and_what_it_points_to_is_replaced(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "sentence"),
     [
-        ("missing/a.exr", r"missing is not there to write a\.exr into"),
-        ("missing/deeper/a.exr", r"missing/deeper is not there to write a\.exr into"),
+        ("missing/a.exr", r"missing does not exist, so a\.exr cannot be written"),
+        ("missing/deeper/a.exr", r"missing/deeper does not exist, so a\.exr cannot be written"),
         ("file/a.exr", r"file is a file, so a\.exr cannot be in it"),
-        ("file/deeper/a.exr", r"file/deeper is not there to write a\.exr into"),
+        ("file/deeper/a.exr", r"file/deeper does not exist, so a\.exr cannot be written"),
         ("folder", r"folder is a folder"),
         ("loop", r"loop cannot be a file's name \(Too many levels of symbolic links\)"),
         ("loop/a.exr", r"loop/a\.exr cannot be a file's name \(Too many levels of symbolic links\)"),

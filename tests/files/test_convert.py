@@ -130,7 +130,7 @@ def test_a_cube_with_five_faces_is_refused(tmp_path: Path, capfd: pytest.Capture
     arguments = ["--from", "cube_faces", "--to", "equirect", "--size", 8]
     assert convert(tmp_path / "c.exr", tmp_path / "out.exr", *arguments) == 1
     error = capfd.readouterr().err
-    assert "is 6 files, of which c-ny.exr is not there" in error
+    assert "is 6 files, of which c-ny.exr is missing" in error
     assert not (tmp_path / "out.exr").exists()
 
 

@@ -153,9 +153,9 @@ def test_wavelengths_in_other_units_are_told_and_read(tmp_path: Path, scale: flo
 
 
 def test_wavelengths_that_no_eye_sees_are_told(tmp_path: Path) -> None:
-    with pytest.warns(RsibrWarning, match="1 of the wavelengths of .*, 400 to 900 nm, are beyond"):
+    with pytest.warns(RsibrWarning, match="1 of the wavelengths of .*, 400 to 900 nm, are not visible"):
         read_cornell(write(tmp_path / "a.brdf", rows([0.25] * 4), wls="400 500 600 900"))
     with pytest.warns(RsibrWarning, match="The wavelengths of .*, 500 to 620 nm, leave out up to"):
         read_cornell(write(tmp_path / "a.brdf", rows([0.25] * 4), wls="500 550 600 620"))
-    with pytest.raises(InputFileError, match="wavelengths, 1000 to 1600 nm, are none that an eye sees"):
+    with pytest.raises(InputFileError, match="wavelengths, 1000 to 1600 nm, are not visible"):
         read_cornell(write(tmp_path / "a.brdf", rows([0.25] * 4), wls="1000 1200 1400 1600"))

@@ -68,5 +68,5 @@ def test_impossible_names_are_refused(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     with pytest.raises(OutputFileError, match="is a file: give the name of a folder"):
         check_folder_target(tmp_path / "file", MARKER)
-    with pytest.raises(OutputFileError, match="is not there to write out into"):
+    with pytest.raises(OutputFileError, match="does not exist, so out cannot be written"):
         check_folder_target(tmp_path / "absent" / "out", MARKER)

@@ -103,7 +103,7 @@ def test_bad_input_is_told_and_nothing_written(tmp_path: Path, capfd: pytest.Cap
 
     write_radiance(tmp_path / "noise.exr", np.random.default_rng(0).random((80, 100, 3)))
     nothing = told(tmp_path / "noise.exr")
-    assert "noise.exr: There is no ball to be found: let it fill most of the photograph" in nothing
+    assert "noise.exr: No ball was found: let it fill most of the photograph" in nothing
     assert "ball.exr is stored as 200x180, but the circle 500,88,80 is not in it" in told(
         ball, "--circle", "500,88,80"
     )

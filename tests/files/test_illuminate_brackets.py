@@ -76,7 +76,7 @@ def test_all_white_or_all_black_is_told(
         write_radiance(tmp_path / f"{name}.exr", np.full((20, 30, 3), value))
     arguments = [tmp_path / "a.exr", tmp_path / "b.exr", "--times", "1,2", "-o", tmp_path / "out.exr"]
     assert illuminate(*arguments) == 1
-    assert "The photographs are nothing but black and white" in capfd.readouterr().err
+    assert "All pixels of the photographs are black or white" in capfd.readouterr().err
 
 
 def test_wrong_times_are_wrong_usage(tmp_path: Path) -> None:

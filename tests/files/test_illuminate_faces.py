@@ -67,7 +67,7 @@ def test_bad_input_is_told_and_nothing_written(tmp_path: Path, capfd: pytest.Cap
     write_radiance(tmp_path / "a-nz.exr", np.ones((4, 4, 3)), force=True)
     assert "a-nz.exr is 4x4, but a-px.exr is 8x8: the pictures of a map must be of one size" in told()
     (tmp_path / "a-nz.exr").unlink()
-    assert "a.exr as cube_faces is 6 files, of which a-nz.exr is not there" in told()
+    assert "a.exr as cube_faces is 6 files, of which a-nz.exr is missing" in told()
     write_radiance(tmp_path / "a-nz.exr", np.zeros((8, 8, 3)))
     assert "a.exr as six photographs: The faces cannot be balanced" in told("--balance")
 

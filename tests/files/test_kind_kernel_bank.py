@@ -45,7 +45,7 @@ def test_a_bank_comes_back_bit_by_bit(tmp_path: Path, layout: str) -> None:
         (lambda header, parts: header.update(layout="equirect"), "cannot be laid out as equirect"),
         (lambda header, parts: parts["kernel01"].update(concentration=0.5), "Kernels need concentrations"),
         (lambda header, parts: parts["kernel01"].update(concentration=-1.0), "Kernels need concentrations"),
-        (lambda header, parts: header.update(size=[4, 8]), "has not 2 sheets"),
+        (lambda header, parts: header.update(size=[4, 8]), "does not have 2 sheets"),
         (
             lambda header, parts: [part.update(role="other") for part in parts.values()],
             "Kernels need concentrations",

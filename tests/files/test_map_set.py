@@ -366,7 +366,7 @@ def test_channels_other_than_colour_are_refused(path: Path) -> None:
         parts[2][1]["XYZ"] = parts[2][1].pop("RGB")
 
     rewrite(path, recolour)
-    assert "has in part 'view000.glossy' not R, G and B" in refusal(path)
+    assert "has no R, G and B in float or half in part 'view000.glossy'" in refusal(path)
 
 
 def test_changed_pixels_are_refused(path: Path) -> None:

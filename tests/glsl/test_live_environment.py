@@ -113,7 +113,7 @@ def test_black_at_first_and_bad_requests() -> None:
     picture = PreviewRenderer(live).draw(*SPHERE, camera, SIZE, MipLook())
     assert picture[..., 3].max() == 1.0
     assert picture[..., :3].max() == 0.0
-    with pytest.raises(RangeError, match=r"^Live light knows no roughness: choose a bias instead\.$"):
+    with pytest.raises(RangeError, match=r"^Live light has no roughness: choose a bias instead\.$"):
         PreviewRenderer(live).draw(*SPHERE, camera, SIZE, MipLook(roughness=0.3))
     with pytest.raises(RangeError, match=r"^A mip chain cannot be 24 texels wide: choose a power of 2"):
         LiveEnvironmentOnDevice(24)

@@ -18,7 +18,7 @@ MOST = 4
 
 
 def sample_counts(across: ArrayLike, up: ArrayLike, texel_angle: ArrayLike) -> Indices:
-    """How many lookups a pixel takes along its sides.
+    """Numbers of lookups of a pixel along its sides.
 
     Parameters
     ----------

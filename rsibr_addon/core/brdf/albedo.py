@@ -122,8 +122,8 @@ def warn_of_gain(brdf: BrdfFunction, name: str) -> None:
     angle = np.degrees(np.arccos(CHECKED_ELEVATIONS[worst]))
     if albedo[worst] > 1.0 + TOLERATED_GAIN:
         warnings.warn(
-            f"{name} reflects {albedo[worst]:.3g} times the light it gets at {angle:.0f} degrees from the "
-            f"normal; pictures of it will be too bright.",
+            f"{name} reflects {albedo[worst]:.3g} times the light it receives at {angle:.0f} degrees from "
+            f"the normal; pictures of it will be too bright.",
             RsibrWarning,
             stacklevel=2,
         )

@@ -119,7 +119,7 @@ def spec_from_brdf(brdf: Brdf) -> str:
     for name, owner in MODELS.items():
         if type(brdf) is owner:
             return f"{name}:{','.join(_assignments(brdf))}"
-    raise RangeError(f"No text describes a {type(brdf).__name__}: describe what it is made of.")
+    raise RangeError(f"A {type(brdf).__name__} cannot be written as text: describe its parts.")
 
 
 def with_alpha(spec: str, alpha: float) -> str:
@@ -176,7 +176,7 @@ def arguments_from_text(owner: type, text: str, read_measured: ReadMeasured) -> 
     fields = dataclasses.fields(owner)
     keys = [key for field in fields for key in _keys(field.name, hints[field.name])]
     if unknown := [key for key in values if key not in keys]:
-        raise RangeError(f"it has no parameter {unknown[0]}, but {', '.join(keys)}.")
+        raise RangeError(f"it has no parameter {unknown[0]}: choose from {', '.join(keys)}.")
     arguments: dict[str, Any] = {}
     for field in fields:
         kind, value = hints[field.name], values.get(field.name)
@@ -253,9 +253,9 @@ def _values(text: str) -> dict[str, str]:
     for part in _split(text, ",") if text else ():
         key, _, value = (piece.strip() for piece in part.partition("="))
         if not key or not value:
-            raise RangeError(f'"{part.strip()}" is no key=value.')
+            raise RangeError(f'"{part.strip()}" is not of the form key=value.')
         if key in values:
-            raise RangeError(f"{key} is there twice; give it once.")
+            raise RangeError(f"{key} appears twice; give it once.")
         values[key] = value
     return values
 
@@ -266,7 +266,7 @@ def _split(text: str, separator: str) -> list[str]:
     for character in text:
         depth += (character == "(") - (character == ")")
         if depth > DEEPEST:
-            raise RangeError(f"models are within each other more than {DEEPEST} times; name fewer layers.")
+            raise RangeError(f"models are nested more than {DEEPEST} deep: name fewer layers.")
         if depth < 0:
             break
         if character == separator and depth == 0:

@@ -96,11 +96,11 @@ def told_wavelengths(wavelength: ArrayLike, name: str) -> Array:
             break
     seen = (wavelength >= VISIBLE[0]) & (wavelength <= VISIBLE[1])
     if not seen.any():
-        raise RangeError(f"its wavelengths, {_span(wavelength)} nm, are none that an eye sees.")
+        raise RangeError(f"its wavelengths, {_span(wavelength)} nm, are not visible.")
     if not seen.all():
         _warn(
-            f"{np.count_nonzero(~seen)} of the wavelengths of {name}, {_span(wavelength)} nm, are beyond "
-            f"what an eye sees: they do not count."
+            f"{np.count_nonzero(~seen)} of the wavelengths of {name}, {_span(wavelength)} nm, are "
+            f"not visible: they do not count."
         )
     visible = np.arange(*VISIBLE, STEP)
     white = color_matching(visible)
@@ -108,7 +108,7 @@ def told_wavelengths(wavelength: ArrayLike, name: str) -> Array:
     if (unseen := float(np.max(1.0 - told.sum(axis=0) / white.sum(axis=0)))) > UNSEEN:
         _warn(
             f"The wavelengths of {name}, {_span(wavelength)} nm, leave out up to {100.0 * unseen:.2g} % of "
-            f"what an eye sees of a colour: the rest counts alone."
+            f"a colour: only the rest counts."
         )
     return wavelength
 

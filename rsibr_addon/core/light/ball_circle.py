@@ -107,7 +107,7 @@ def find_circle(photograph: Array) -> tuple[Circle, float]:
     score = float(_scores(edges, circle[None])[0])
     if score < CLEAR:
         raise RangeError(
-            "There is no ball to be found: let it fill most of the photograph, in focus, or give its circle."
+            "No ball was found: let it fill most of the photograph, in focus, or give its circle."
         )
     return Circle(*(float(number) for number in shrunk * circle)), score
 

@@ -43,7 +43,7 @@ class BallSide:
 
     @property
     def representation(self) -> Representation:
-        """How `picture` is laid out in the world.
+        """The layout of `picture` in the world.
 
         Raises
         ------
@@ -162,7 +162,7 @@ def _gain(first: Array, other: Array, weight: Array) -> float:
     if not np.any(usable):
         raise RangeError(
             "The photographs of the ball share nothing but black: expose them longer, or take them from "
-            "sides that are nearer."
+            "nearer sides."
         )
     ratio, weight = brightness[usable] / other_brightness[usable], weight[usable]
     order = np.argsort(ratio, kind="stable")

@@ -90,7 +90,7 @@ def _logarithms(face: Indices, other: Indices, difference: Array) -> Array:
     logarithms, _, rank, _ = np.linalg.lstsq(np.array(rows), np.array(wanted), rcond=None)
     if rank < 6 or np.abs(logarithms).max() > np.log(MOST_GAIN):
         raise RangeError(
-            "The faces cannot be balanced, as too little along their edges is neither black nor white: "
-            "photograph them with one exposure, and leave the balance out."
+            "The faces cannot be balanced, because too few texels on their edges are neither black nor "
+            "white: photograph them with one exposure, and leave the balance out."
         )
     return logarithms

@@ -197,7 +197,7 @@ def bake_stack(
     try:
         filtered = _filtered(harmonics, bank, series, layout, size)
     except RangeError as error:
-        raise RangeError(f"The fit has lobes that this environment is too coarse for. {error}") from error
+        raise RangeError(f"This environment is too coarse for some lobes of the fit. {error}") from error
     return BakedStack(filtered, fit, _interpolation(curvature, layout, size))
 
 

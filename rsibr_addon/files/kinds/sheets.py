@@ -40,5 +40,5 @@ def sheets_from_strip(strip: Array, shape: tuple[int, int, int]) -> Array:
     """
     count, height, width = shape
     if strip.shape[:2] != (count * height, width):
-        raise ShapeError(f"A map of {width}x{strip.shape[0]} has not {count} sheets: bake it again.")
+        raise ShapeError(f"A map of {width}x{strip.shape[0]} does not have {count} sheets: bake it again.")
     return strip.reshape(*shape, -1)[::-1]

@@ -41,7 +41,9 @@ class BankLook:
             raise RangeError(f"{self.lobe_count} lobes are out of range: choose 1 to {MOST_LOBES}.")
         if self.roughness is not None:
             if not 0.0 < self.roughness <= 1.0:
-                raise RangeError(f"A roughness of {self.roughness:g} is none: choose one above 0, up to 1.")
+                raise RangeError(
+                    f"A roughness of {self.roughness:g} is out of range: choose one above 0, up to 1."
+                )
             with_alpha(self.brdf, self.roughness**2)
 
     @property

@@ -95,7 +95,7 @@ class MipChain:
             The mips were not filtered with GGX lobes.
         """
         if self.roughness is None:
-            raise RangeError("A box-filtered mip chain knows no roughness: choose a bias instead.")
+            raise RangeError("A box-filtered mip chain has no roughness: choose a bias instead.")
         return float(np.interp(roughness, self.roughness, np.arange(len(self.roughness))))
 
 

@@ -182,7 +182,7 @@ def material_from_texts(texts: Mapping[str, str], read_measured: ReadMeasured) -
 
 def _part(part: str, text: str, read_measured: ReadMeasured) -> Any:
     if part not in PARTS:
-        raise RangeError(f"a material has no such part, but {', '.join(PARTS)}.")
+        raise RangeError(f"a material has no such part: choose from {', '.join(PARTS)}.")
     if part == "emission":
         return Emission(**arguments_from_text(Emission, f"radiance={text}", read_measured))
     name, _, rest = (piece.strip() for piece in text.partition(":"))

@@ -99,8 +99,8 @@ def warn_of_table_gain(material: TableMaterial) -> None:
     if total[worst] > 1.0 + TOLERATED_GAIN:
         angle = np.degrees(np.arccos(weight_cosines()[worst]))
         warnings.warn(
-            f"The material reflects {total[worst]:.3g} times the light it gets at {angle:.0f} degrees from "
-            f"the normal; pictures of it will be too bright.",
+            f"The material reflects {total[worst]:.3g} times the light it receives at {angle:.0f} degrees "
+            f"from the normal; pictures of it will be too bright.",
             RsibrWarning,
             stacklevel=2,
         )

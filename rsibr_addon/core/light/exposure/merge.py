@@ -98,7 +98,7 @@ def merge_bracket(
     photographs : sequence of ndarray, shape (height, width, 3)
         Encoded, in [0, 1], of one size.
     times : sequence of float
-        Their exposures, in seconds or any other unit, positive, the shortest first.
+        The photographs' exposures, in seconds or any other unit, positive, the shortest first.
     response : Response, optional
         The camera's curve; recovered from the photographs where it is not given.
     align : bool
@@ -126,7 +126,7 @@ def merge_bracket(
     weights = [certainty(photograph) for photograph in photographs]
     if not any(np.any(weight) for weight in weights):
         raise RangeError(
-            "The photographs are nothing but black and white: take exposures neither too long nor too short."
+            "All pixels of the photographs are black or white: take exposures neither too long nor too short."
         )
     motions = _motions(photographs, weights) if align else [Motion()] * len(photographs)
     curve = response or _recovered(photographs, weights, times, motions)

@@ -72,7 +72,7 @@ def recover_response(samples: Array, weights: Array, times: Sequence[float]) -> 
     weights : ndarray, shape of `samples`
         Confidence in each sample's exposure, in [0, 1]: `merge.certainty`.
     times : sequence of float, one for each photograph
-        Their exposures, in seconds or any other unit.
+        The photographs' exposures, in seconds or any other unit.
 
     Returns
     -------

@@ -25,7 +25,7 @@ vec3 cube_place(vec3 direction)
   return vec3(0.5 * st / abs(major) + 0.5, (major < 0.0) ? face + 1.0 : face);
 }
 
-// How far texels are apart around a unit direction, in radians.
+// Distance between texels around a unit direction, in radians.
 float cube_texel_angle(vec3 direction, float size)
 {
   vec3 part = abs(direction);

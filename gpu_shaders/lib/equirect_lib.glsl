@@ -1,5 +1,5 @@
 // Twin of rsibr_addon/core/maps/equirect.py. A map comes as a texture with a border of one texel that repeats
-// what lies across the seam and the poles (see device/kinds/reflection_tables.py), so that hardware
+// the texels across the seam and the poles (see device/kinds/reflection_tables.py), so that hardware
 // interpolates there.
 
 vec2 equirect_uv(vec3 direction)

@@ -78,7 +78,7 @@ vec3 map_radiance(sampler3D maps, int layout_number, int slices, int lobe, vec3 
   return textureLod(maps, texel / texture_size, 0.0).rgb;
 }
 
-// How far texels are apart around a unit direction, in radians.
+// Distance between texels around a unit direction, in radians.
 float stack_texel_angle(int layout_number, float size, vec3 direction)
 {
   vec3 part = abs(direction);

@@ -1,6 +1,6 @@
-// Twin of rsibr_addon/core/kinds/mip_chain/shading.py: [Kautz2004] section 4.2.
-// The atlas (see device/kinds/mip_chain.py) holds a row of six faces for each mip, the first at the bottom,
-// and around every face a border of one texel: what lies there on the cube.
+// Twin of rsibr_addon/core/kinds/mip_chain/shading.py: [Kautz2004] section 4.2. The atlas (see
+// device/kinds/mip_chain.py) holds a row of six faces for each mip, the first at the bottom, and around every
+// face a border of one texel: the neighbouring texels on the cube.
 #include "lib/cube_map_lib.glsl"
 #include "lib/footprint_lib.glsl"
 

@@ -31,7 +31,7 @@ vec2 uv_from_direction(vec3 direction)
   return uv_from_normal((len > 1e-6) ? half_dir / len : vec3(1.0, 0.0, 0.0));
 }
 
-// How far texels are apart in what a mirrored sphere shows, in radians: everywhere the same.
+// Distance between texels in a mirrored sphere's directions, in radians: the same everywhere.
 float sphere_map_texel_angle(float size)
 {
   return 4.0 / size;

@@ -59,8 +59,8 @@ vec3 digit_at(sampler2DArray table, int column, int row, int digit)
          texelFetch(table, ivec3(width, row, digit), 0).rgb;
 }
 
-// Mean radiance over a rectangle of the table; `unit` is what the sums count. The box is cut into nine where
-// it cuts texels: each block is an exact sum and has a weight that is not negative.
+// Mean radiance over a rectangle of the table; `unit` is the unit of the sums. The box is split into nine
+// where it cuts texels: each block is an exact sum and has a weight that is not negative.
 vec3 box_mean(sampler2DArray table, vec3 unit, vec4 box)
 {
   ivec2 size = textureSize(table, 0).xy - 1;
@@ -97,7 +97,7 @@ vec3 box_mean(sampler2DArray table, vec3 unit, vec4 box)
 }
 
 // Mean radiance over a footprint. Of less than a texel, the map interpolated in the footprint's middle: the
-// same but for the solid angles of the rows, in a fourth of the time.
+// same except for the solid angles of the rows, in a quarter of the time.
 vec3 footprint_mean(
     sampler2D bordered, sampler2DArray table, vec3 unit, vec3 direction, vec3 corners[4])
 {

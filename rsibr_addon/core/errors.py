@@ -26,7 +26,7 @@ class SchemaError(RsibrError):
 
 
 class InputFileError(RsibrError):
-    """A file that was to be read is missing, unreadable or does not hold what it should."""
+    """A file to be read is missing, unreadable or does not hold what it should."""
 
 
 class MapSetError(InputFileError):

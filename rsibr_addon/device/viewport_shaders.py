@@ -7,7 +7,7 @@ from .shaders import build, kept_until_exit, mesh_interface
 
 @kept_until_exit
 def occluder_shader() -> gpu.types.GPUShader:
-    """Draws a mesh that covers nothing, but hides what is behind it.
+    """Draws a mesh without coverage that hides surfaces behind it.
 
     Raises
     ------

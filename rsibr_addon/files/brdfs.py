@@ -30,7 +30,7 @@ def brdf_from_spec(spec: str) -> Brdf:
     RangeError
         The text describes no model; the message names the wrong key and the values that it takes.
     InputFileError
-        A measured file is missing or not what it should be.
+        A measured file is missing or not of its format.
 
     Warns
     -----
@@ -59,7 +59,7 @@ def read_measured(name: str, path: str) -> Brdf:
     Raises
     ------
     InputFileError
-        The file is missing or not what it should be.
+        The file is missing or not of its format.
 
     Warns
     -----

@@ -24,8 +24,8 @@ def check_header(header: Any, name: str) -> None:
     Raises
     ------
     MapSetError
-        It is of a newer version or an unknown kind; a field is missing or not what it must be; two
-        parts have one name; the environment's part is missing; or what the kind's own `problems` tell.
+        It is of a newer version or an unknown kind; a field is missing or not what it must be; two parts have
+        one name; the environment's part is missing; or the kind's own `problems` find one.
     """
     if not isinstance(header, dict) or type(header.get("format")) is not int or header["format"] < 1:
         raise MapSetError(f"{name} states no format version, so it is no map set: make it again.")

@@ -8,17 +8,17 @@ from .kinds.registry import STORED
 
 
 def told_facts(header: dict[str, Any]) -> dict[str, str]:
-    """What a map set is.
+    """The main facts about a map set.
 
     Parameters
     ----------
     header : dict
-        A whole description, as `files.map_set.read_map_set_header` reads it; so with all functions here.
+        A whole description, from `files.map_set.read_map_set_header`, as for all functions here.
 
     Returns
     -------
     dict
-        In words: what -> which.
+        In words: name -> value.
     """
     material = header["material"]
     named = material.get("name") or gallery_name(material.get("brdf", ""))

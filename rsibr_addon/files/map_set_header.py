@@ -63,7 +63,7 @@ class _Environment(TypedDict):
 
 
 class Material(TypedDict):
-    """What a description says of the material, of the kinds that say no more."""
+    """The material in descriptions of kinds without further fields."""
 
     name: NotRequired[str]
     brdf: NotRequired[Model]
@@ -77,7 +77,7 @@ class _Part(TypedDict):
 
 
 class Header(TypedDict):
-    """What all kinds of map sets say."""
+    """The description that all kinds of map sets share."""
 
     layout: Word
     size: Size
@@ -99,7 +99,7 @@ def _no_facts(header: dict[str, Any]) -> dict[str, str]:
 
 
 def role_in_words(part: dict[str, Any]) -> str:
-    """What a map is, of which nothing is to be told but its role."""
+    """The title of a map by its role alone."""
     return str(part["role"]).capitalize()
 
 
@@ -109,28 +109,28 @@ def _no_lobes(path: Path, header: dict[str, Any]) -> Fit | None:
 
 @dataclass(frozen=True)
 class StoredKind:
-    """What a kind of map set says in its description, and how that is told.
+    """The fields that a kind of map set adds to its description, and their words for people.
 
     Attributes
     ----------
     material : type
-        What it says of the material, as `core.schema` takes it.
+        Schema of its material: see `core.schema`.
     roles : mapping of str to type
-        Role -> what such a part says beyond its name, role, size and hash; parts of other roles say no more.
+        Role -> schema of a part's fields beyond name, role, size and hash; parts of other roles have none.
     numbers : tuple of str
-        Roles of parts that are tables of a few numbers, of which a picture says little.
+        Roles of parts that are small tables of numbers, which a picture would not explain.
     problems : callable
-        A description with all fields to what does not fit together.
+        From a description with all fields to the contradictions in it.
     facts : callable
-        A description to what is to be told beyond what all kinds share, in words: what -> which.
+        From a description to the facts of this kind alone, in words: name -> value.
     part_title : callable
-        One of its parts to what that map is, for people.
+        From one of its parts to the title of its map.
     textures : callable or None
         A file's path, for messages, what it holds, and which axis is to be up, to textures that hold it; None
         where `textures.arrays` makes them.
     lobes : callable
-        A file's path, for messages, and its description to the lobes that it was made of; None where it
-        does not tell them.
+        From a file's path, for messages, and its description to the lobes of its maps; None where it does not
+        state them.
     """
 
     material: Any = Material

@@ -15,7 +15,7 @@ from .map_set_data import ENVIRONMENT, MapSet
 
 
 class Up(StrEnum):
-    """Which axis of textures points up."""
+    """The axis of textures that points up."""
 
     Z = "z"
     Y = "y"

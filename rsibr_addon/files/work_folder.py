@@ -123,7 +123,7 @@ def _prepare(path: Path, work: dict[str, Any]) -> None:
 
 
 def _empty(path: Path) -> None:
-    """Remove all but the lock, the description first: without it what is left counts as other work."""
+    """Remove all but the lock, the description first: without it the rest counts as other work."""
     (path / WORK).unlink(missing_ok=True)
     for part in _parts(path):
         part.unlink()

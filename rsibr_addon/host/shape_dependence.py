@@ -30,7 +30,7 @@ SHAPE_NODES = {
     "ShaderNodeVolumeInfo": "it depends on a volume",
     "ShaderNodeWireframe": "it depends on the mesh",
 }
-"""Type of node -> what is wrong with all of its outputs."""
+"""Type of node -> the fault of all of its outputs."""
 
 LETS_THROUGH = {
     "ShaderNodeBsdfGlass",
@@ -55,7 +55,7 @@ INERT_VALUES = {
     "Subsurface Weight": (0.0, PASSED_THROUGH),
     "Transmission Weight": (0.0, PASSED_THROUGH),
 }
-"""Input of a BSDF node -> the value at which it does nothing, and what is wrong with any other."""
+"""Input of a BSDF node -> the value at which it does nothing, and the fault of any other value."""
 
 
 def shape_dependence(material: bpy.types.Material) -> list[str]:

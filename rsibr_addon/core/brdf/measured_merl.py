@@ -33,7 +33,7 @@ def merl_brdf(samples: Array, spec: str) -> Tabulated:
     Returns
     -------
     Tabulated
-        Scaled to 1/sr; linear between the centres of cells, of which [Matusik2003] takes the nearest.
+        Scaled to 1/sr; linear between the centres of cells, where [Matusik2003] takes the nearest cell.
 
     Raises
     ------

@@ -167,10 +167,9 @@ def camera_frame(view_dir: ArrayLike) -> Array:
 
     Notes
     -----
-    The stance of Blender's ``to_track_quat('Z', 'Y')``, in double precision. Straight above and
-    below, where "upright" means nothing, x is -X, as there. GLSL twin:
-    gpu_shaders/lib/directions_lib.glsl `camera_frame`, 1e-6, but for directions within 1e-7 of
-    straight above and below, which are taken for it.
+    The stance of Blender's ``to_track_quat('Z', 'Y')``, in double precision. Straight above and below, where
+    "upright" means nothing, x is -X, as there. GLSL twin: gpu_shaders/lib/directions_lib.glsl `camera_frame`,
+    1e-6, except for directions within 1e-7 of straight above and below, which count as these.
     """
     z = np.asarray(view_dir, dtype=np.float64)
     x = np.stack([-z[..., 1], z[..., 0], np.zeros_like(z[..., 0])], axis=-1)

@@ -47,7 +47,7 @@ class LitSphere:
         Parameters
         ----------
         normal : array_like, shape (..., 3)
-            Unit vectors in world coordinates; those that point away from the camera are taken for the rim.
+            Unit vectors in world coordinates; vectors that point away from the camera show the rim.
 
         Returns
         -------

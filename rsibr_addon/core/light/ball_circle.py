@@ -127,7 +127,7 @@ def _radial_edges(picture: Array) -> ComplexArray:
 
 
 def _scores(edges: ComplexArray, circles: Array) -> Array:
-    """Score of each circle (x, y, radius), shape (n, 3); what lies beyond the picture counts 0."""
+    """Score of each circle (x, y, radius), shape (n, 3); parts beyond the picture count 0."""
     height, width = edges.shape
     angle = 2.0 * np.pi * np.arange(POINTS) / POINTS
     direction = np.exp(1j * angle)

@@ -26,7 +26,7 @@ def nonnegative_inverse(system: Array, right: Array) -> Array:
     Notes
     -----
     [Lawson1974] chapter 23, on the normal equations as in [Bro1997]: unknowns become positive one by one, the
-    steepest first, and those that a step would make negative leave again.
+    steepest first, and become 0 again where a step would make them negative.
     """
     scale = _TOLERANCE * max(float(np.max(np.abs(right))), np.finfo(np.float64).tiny)
     positive = np.zeros(len(right), dtype=bool)

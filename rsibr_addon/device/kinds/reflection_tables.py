@@ -13,7 +13,7 @@ from ..equirect import Sums, map_sums, map_texture, no_map, no_sums
 from ..shaders import build, kept_until_exit, mesh_interface
 
 # A factor for each table, in the order of `Role`; the index of refraction; factors for tables of `MIRRORED`
-# that count by their means over a pixel; and what the sums of those count.
+# that count by their means over a pixel; and the units of these tables' sums.
 _FIELDS = (*(role.value for role in Role), "eta", *(f"{role}_mean" for role in MIRRORED))
 _UNITS = " ".join(f"vec4 {role}_unit;" for role in MIRRORED)
 _TABLES_BLOCK = f"struct Tables {{ {' '.join(f'float {field};' for field in _FIELDS)} {_UNITS} }};"

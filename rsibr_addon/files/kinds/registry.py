@@ -10,4 +10,4 @@ STORED: dict[str, StoredKind] = {
     mip_chain.KIND: mip_chain.STORED,
     kernel_bank.KIND: kernel_bank.STORED,
 }
-"""Kind, as descriptions name it -> what it says in them."""
+"""Kind, as descriptions name it -> the fields and words of its descriptions."""

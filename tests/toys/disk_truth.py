@@ -1,0 +1,66 @@
+"""What the toy kind is compared with: the colours that it was made of, or a brighter one's."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rsibr.rsibr_addon.core.environment import Environment
+from rsibr.rsibr_addon.core.metrics import relative_rmse, unpremultiplied
+from rsibr.rsibr_addon.core.progress import Progress, Steps
+from rsibr.rsibr_addon.device.preview import PreviewRenderer
+from rsibr.rsibr_addon.host.meshes import load_mesh
+from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, SceneSettings, way_error
+from rsibr.rsibr_addon.tasks.compare.truth import Drawn, Truth
+from rsibr.tests.toys.disk_core import Disk, DiskLook
+from rsibr.tests.toys.disk_device import DiskOnDevice
+
+
+@dataclass(frozen=True)
+class DiskComparison(SceneSettings):
+    """How much brighter the truth is."""
+
+    brighter: float = 1.25
+
+
+@dataclass(frozen=True)
+class DiskWay:
+    """The only way to draw it."""
+
+    slug: str = "disk"
+    name: str = "as it is"
+
+
+def draw(
+    map_set: Path, disk: Disk, environment: Environment, material: dict[str, Any], settings: DiskComparison
+) -> Steps[Drawn]:
+    yield Progress(1, 2, "drawing")
+    mesh, renderer = load_mesh(settings.mesh), PreviewRenderer(DiskOnDevice(disk))
+    surface = mesh.positions, mesh.normals, mesh.triangles
+    drawn, true = (
+        [renderer.draw(*surface, camera, settings.size, DiskLook(gain)) for camera in settings.cameras]
+        for gain in (1.0, settings.brighter)
+    )
+    stacked = np.stack(true)
+    way = DiskWay()
+    error = way_error(
+        way, relative_rmse, unpremultiplied(np.stack(drawn)), unpremultiplied(stacked), stacked[..., 3]
+    )
+    return Drawn("paper", 2, settings, true, {way: drawn}, (error,))
+
+
+def table(comparisons: Sequence[Comparison]) -> str:
+    return "".join(f"| {each.material} | {each.errors[0].pooled:.3f} |\n" for each in comparisons)
+
+
+TRUTH = Truth(
+    settings=DiskComparison,
+    way=DiskWay,
+    draw=draw,
+    name="a brighter disk",
+    made="drawn brighter",
+    notes=lambda comparison: "",
+    quality=lambda settings: f"{settings.brighter} times",
+    table=table,
+)

@@ -61,7 +61,7 @@ class OpenExr:
     Parameters
     ----------
     path : str or Path
-        Of the file, for messages.
+        The file's path, for messages.
     stream : BinaryIO
         Its bytes, at any place.
 
@@ -231,7 +231,7 @@ def in_display_window(path: str | Path, part: Part) -> Part:
     Parameters
     ----------
     path : str or Path
-        Of the file, for messages.
+        The file's path, for messages.
     part : Part
         As read.
 

@@ -101,7 +101,7 @@ def choose(path: str | Path, layers: Sequence[Layer], wanted: str | None) -> tup
     Parameters
     ----------
     path : str or Path
-        Of the file, for messages.
+        The file's path, for messages.
     layers : sequence of Layer
         At least one.
     wanted : str or None

@@ -70,7 +70,7 @@ class View:
     layer : Layer
         The view layer that is shown.
     depsgraph : bpy.types.Depsgraph
-        Of that layer, evaluated.
+        The layer's dependency graph, evaluated.
     space : bpy.types.SpaceView3D
     """
 

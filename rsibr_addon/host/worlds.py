@@ -79,7 +79,7 @@ def sample_world(world: bpy.types.World, height: int, clamp: float | None = None
     ----------
     world : bpy.types.World
     height : int
-        Of the environment in texels; it is twice as wide.
+        Height of the environment in texels; it is twice as wide.
     clamp : float, optional
         See `core.environment.usable_radiance`.
 

@@ -63,7 +63,7 @@ def from_map_set(path: Path, map_set: MapSet) -> Environment:
     path : Path
         The map set's file, for messages.
     map_set : MapSet
-        Of any kind.
+        A map set of any kind.
 
     Returns
     -------

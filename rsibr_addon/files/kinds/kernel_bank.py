@@ -79,7 +79,7 @@ def from_map_set(path: Path, map_set: MapSet) -> FilteredBank:
     path : Path
         The map set's file, for messages.
     map_set : MapSet
-        Of this kind.
+        A map set of this kind.
 
     Returns
     -------

@@ -209,7 +209,7 @@ def from_map_set(path: Path, map_set: MapSet) -> LobeStack:
     path : Path
         The map set's file, for messages.
     map_set : MapSet
-        Of this kind.
+        A map set of this kind.
 
     Returns
     -------

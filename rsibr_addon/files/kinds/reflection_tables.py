@@ -38,7 +38,7 @@ def to_map_set(
     ----------
     tables : ReflectionTables
     environment : Environment
-        Their environment; embedded.
+        The environment of the tables; embedded.
     material, error_bound, settings, software
         See docs/map-set-format.md.
 
@@ -77,7 +77,7 @@ def from_map_set(path: Path, map_set: MapSet) -> ReflectionTables:
     path : Path
         The map set's file, for messages.
     map_set : MapSet
-        Of this kind.
+        A map set of this kind.
 
     Returns
     -------

@@ -1,8 +1,12 @@
-"""A fault in any one call of Blender or of its graphics costs the preview, is told once, and passes."""
+"""A fault in any call of Blender, or any read of its data, costs the preview, is told once, and passes."""
 
+import dis
+import itertools
+import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -12,14 +16,20 @@ import numpy as np
 import pytest
 import rsibr
 from mathutils import Matrix
+from rsibr.rsibr_addon import host
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.shaders import release_programs
-from rsibr.rsibr_addon.files.map_set import write_map_set
+from rsibr.rsibr_addon.files.map_set import MapSet, write_map_set
 from rsibr.rsibr_addon.host.map_sets import use_map_set
 from rsibr.rsibr_addon.host.viewport import View
+from rsibr.rsibr_addon.tasks import viewport
+from rsibr.rsibr_addon.tasks.viewport import live_light
 from rsibr.rsibr_addon.tasks.viewport.previews import Previews
 from rsibr.rsibr_addon.ui import viewport as ui
 from rsibr.tests.faults.small_map_sets import map_sets
+
+STRIDE = 1 if "RSIBR_MOMENTS" in os.environ else 5
+"""Of so many faults one is tried, unless all are asked for."""
 
 SIZE = 32
 PROJECTION = Matrix(((0.5, 0, 0, 0), (0, 0.5, 0, 0), (0, 0, -0.02, 0), (0, 0, 0, 1)))
@@ -31,29 +41,58 @@ class InjectedError(Exception):
     """What a call is made to raise."""
 
 
-type Call = tuple[str, Any, int]
-"""What is called, and from where: a name, code, and an offset in it."""
+type Place = tuple[Any, int]
+"""Code, and an offset in it."""
+
+
+CALLS, READS = sys.monitoring.events.CALL, sys.monitoring.events.INSTRUCTION
+"""Where faults are: in calls of Blender, or in reads of attributes, most of which are its properties."""
 
 
 @contextmanager
-def fault_in(number: int | None) -> Iterator[list[Call]]:
-    """Within, the call of Blender of that number raises an error; tells the calls."""
-    calls: list[Call] = []
+def fault_at(place: Place | None, where: int = CALLS) -> Iterator[dict[Place, str]]:
+    """Within, a call of Blender, or a read, raises an error the first time; tells all of them, with names."""
+    found: dict[Place, str] = {}
+
+    def reach(name: str, code: Any, offset: int) -> None:
+        known = (code, offset) in found
+        found.setdefault((code, offset), name)
+        if not known and (code, offset) == place:
+            raise InjectedError(name)
 
     def called(code: Any, offset: int, function: Any, first: Any) -> None:
-        if is_blenders(function):
-            calls.append((getattr(function, "__name__", type(function).__name__), code, offset))
-            if len(calls) - 1 == number:
-                raise InjectedError(calls[-1][0])
+        if is_blenders(function) and code.co_filename != __file__:
+            reach(getattr(function, "__name__", type(function).__name__), code, offset)
+
+    def reached(code: Any, offset: int) -> Any:
+        name = reads(code).get(offset)
+        if name is None:
+            return sys.monitoring.DISABLE
+        reach(name, code, offset)
+        return None
 
     sys.monitoring.use_tool_id(TOOL, "faults")
-    sys.monitoring.register_callback(TOOL, sys.monitoring.events.CALL, called)
-    sys.monitoring.set_events(TOOL, sys.monitoring.events.CALL)
+    sys.monitoring.register_callback(TOOL, where, called if where == CALLS else reached)
+    sys.monitoring.restart_events()
+    sys.monitoring.set_events(TOOL, where)
     try:
-        yield calls
+        yield found
     finally:
         sys.monitoring.set_events(TOOL, 0)
         sys.monitoring.free_tool_id(TOOL)
+
+
+@cache
+def reads(code: Any) -> dict[int, str]:
+    """Offset -> attribute, of reads of Blender's data and the like; `bare` cannot but end its state."""
+    folder = Path(code.co_filename).parent
+    if folder not in (Path(host.__file__).parent, Path(viewport.__file__).parent) or code.co_name == "bare":
+        return {}
+    return {
+        each.offset: each.argval
+        for before, each in itertools.pairwise(dis.get_instructions(code))
+        if each.opname == "LOAD_ATTR" and before.argval != "self"
+    }
 
 
 def is_blenders(function: Any) -> bool:
@@ -83,56 +122,88 @@ def view() -> Iterator[View]:
 
 
 @pytest.fixture
-def frame(view: View) -> Callable[[Previews, int | None], tuple[np.ndarray, list[Call], Any]]:
-    """Draw as Blender does: a frame, then what the display lacks, then another frame."""
+def frame(view: View) -> Callable[..., tuple[np.ndarray, dict[Place, str], Any]]:
+    """Draw as Blender does: a frame, then what the display and the light lack, then another frame."""
     target = gpu.types.GPUOffScreen(SIZE, SIZE)
+    (window,) = bpy.context.window_manager.windows
+    (area,) = (area for area in window.screen.areas if area.type == "VIEW_3D")
+    (region,) = (region for region in area.regions if region.type == "WINDOW")
 
-    def draw(previews: Previews, number: int | None) -> tuple[np.ndarray, list[Call], Any]:
+    def shown(previews: Previews) -> None:
         with target.bind(), gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
-            framebuffer = gpu.state.active_framebuffer_get()
-            framebuffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
+            gpu.state.active_framebuffer_get().clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
             gpu.matrix.load_matrix(Matrix.Identity(4))
             gpu.matrix.load_projection_matrix(PROJECTION)
             gpu.state.depth_test_set("NONE")
-            with fault_in(number) as calls:
-                if not previews.draw(view):
-                    previews.add_display(view.scene)
-                    previews.draw(view)
-            state = gpu.state.depth_test_get(), gpu.state.depth_mask_get(), gpu.state.blend_get()
+            if not previews.draw(view):
+                previews.add_display(view.scene)
+                previews.draw(view)
+
+    def draw(
+        previews: Previews, place: Place | None, where: int = CALLS
+    ) -> tuple[np.ndarray, dict[Place, str], Any]:
+        ours = bpy.context.temp_override(window=window, area=area, region=region)
+        with ours, fault_at(place, where) as found:
+            shown(previews)
+            while previews.render_surroundings(view):
+                shown(previews)
+        state = gpu.state.depth_test_get(), gpu.state.depth_mask_get(), gpu.state.blend_get()
+        with target.bind():
+            framebuffer = gpu.state.active_framebuffer_get()
             picture = np.array(framebuffer.read_color(0, 0, SIZE, SIZE, 4, 0, "FLOAT").to_list())
-        return picture, calls, state
+        return picture, found, state
 
     return draw
 
 
+@pytest.fixture
+def shade(
+    tmp_path: Path, frame: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> Callable[[MapSet | None], bpy.types.Object]:
+    """Have the cube shaded from a map set, or in live light."""
+
+    def choose(map_set: MapSet | None) -> bpy.types.Object:
+        item = bpy.context.object
+        item.rsibr.show = True
+        if map_set is None:
+            # All faces at once, however long they take
+            monkeypatch.setattr(live_light, "faces_within", lambda budget, seconds: 6)
+            item.rsibr.live.on, item.rsibr.live.size = True, "32"
+        else:
+            path = tmp_path / f"{map_set.kind}.rsibr.exr"
+            write_map_set(path, map_set)
+            use_map_set(item.rsibr, str(path))
+        return item
+
+    return choose
+
+
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:Maps of 4 texels blur")
-def test_a_fault_in_any_call_is_told_once_and_passes(
-    tmp_path: Path, frame: Callable[..., Any], capsys: pytest.CaptureFixture[str]
+@pytest.mark.parametrize("where", [CALLS, READS])
+def test_a_fault_in_any_call_or_read_is_told_once_and_passes(
+    where: int, shade: Callable[..., Any], frame: Callable[..., Any], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    item, done = bpy.context.object, set[tuple[Any, int]]()
-    item.rsibr.show = True
-    for map_set in map_sets():
-        path = tmp_path / f"{map_set.kind}.rsibr.exr"
-        write_map_set(path, map_set)
-        use_map_set(item.rsibr, str(path))
+    done = set[Place]()
+    for map_set in (*map_sets(), None):
+        item = shade(map_set)
         release_programs()
-        expected, calls, state = frame(Previews(), None)
+        expected, names, state = frame(Previews(), None, where)
         assert expected[..., 3].max() == 1.0
-        for number, (name, *place) in enumerate(calls):
-            if tuple(place) in done:
-                continue
-            done.add(tuple(place))
+        new = [place for place in names if place not in done]
+        done.update(new)
+        for place in new[::STRIDE]:
+            name = names[place]
             previews = Previews()
             release_programs()
-            _, reached, state_after = frame(previews, number)
-            assert reached[number] == calls[number]
+            _, reached, state_after = frame(previews, place, where)
+            assert place in reached
             told = previews.trouble or previews.fault(item)
             assert told is not None, name
             assert name.endswith("_set") or state_after == state, name
             _, later, _ = frame(previews, None)
             assert (previews.trouble or previews.fault(item)) == told
-            assert previews.trouble is None or later == []
+            assert previews.trouble is None or not later
             assert capsys.readouterr().err.count("Traceback") <= 1
             previews.reload()
             # What the fault has left goes during the first of two frames

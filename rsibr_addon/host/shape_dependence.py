@@ -1,4 +1,4 @@
-"""Reasons why a material's look depends on more than normal and view, so that no radiance map can hold it."""
+"""Reasons why a material depends on more than normal and view, so that no radiance map can hold it."""
 
 from collections.abc import Iterator
 
@@ -61,8 +61,8 @@ INERT_VALUES = {
 def shape_dependence(material: bpy.types.Material) -> list[str]:
     """Reasons why a radiance map can show a material only as it looks on a sphere.
 
-    A radiance map holds one radiance for each normal and view, so it cannot hold a look that depends on the
-    place on a surface, on its tangent, or on things behind it.
+    A radiance map holds one radiance for each normal and view, so it cannot hold a material that depends on
+    the place on a surface, on its tangent, or on things behind it.
 
     Parameters
     ----------

@@ -200,7 +200,7 @@ def _without_device() -> Iterator[None]:
     def refuse(*_: Any) -> None:
         raise DeviceError("There is no driver: this is a test.")
 
-    with patch.object(map_set_report, "_looks", refuse):
+    with patch.object(map_set_report, "_drawn_meshes", refuse):
         yield
 
 

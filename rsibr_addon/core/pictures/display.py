@@ -1,4 +1,4 @@
-"""A display's look as a table, from radiance to the colour on screen.
+"""A display's view transform as a table, from radiance to the colour on screen.
 
 Only Blender can compute its view transforms. It is asked once for the colours at the table's nodes; between
 nodes the table is interpolated.

@@ -32,7 +32,7 @@ from .facts import map_set_fit, map_set_header
 
 TEMPLATE = Path(__file__).with_suffix(".html")
 
-LOOK_SIZE = 288
+MESH_SIZE = 288
 """Of the pictures of a sphere and of Suzanne, in pixels."""
 
 MAP_SIZE = 160
@@ -43,7 +43,7 @@ LOBES = (
     "left. The dashed line is the sum of the lobes.</p>"
 )
 
-LOOKS = {"sphere": Camera((0.3, -1.0, 0.3)), "monkey": Camera((0.3, -1.0, 0.3))}
+MESHES = {"sphere": Camera((0.3, -1.0, 0.3)), "monkey": Camera((0.3, -1.0, 0.3))}
 """Mesh -> from where it is shown."""
 
 
@@ -87,7 +87,7 @@ def map_set_report(map_set: Path, output: Path, force: bool = False, brdf: str |
     yield Progress(0, 3, f"reading {map_set.name}")
     held = read_map_set(map_set)
     yield Progress(1, 3, "drawing with it")
-    looks = _looks(map_set)
+    meshes = _drawn_meshes(map_set)
     truth = None if brdf is None else (yield from load_brdf(brdf))
     yield Progress(2, 3, "drawing its maps")
     header = map_set_header(map_set)
@@ -96,7 +96,7 @@ def map_set_report(map_set: Path, output: Path, force: bool = False, brdf: str |
         title=escape(" in ".join(facts[what] for what in ("Material", "Light") if what in facts)),
         kind=escape(facts["Kind"]),
         file=escape(map_set.name),
-        looks="\n".join(_image(picture, f"a {mesh}") for mesh, picture in looks.items()),
+        meshes="\n".join(_image(picture, f"a {mesh}") for mesh, picture in meshes.items()),
         bound=_definitions(told_errors(header) or {"Nothing": "its maker stated no error"}),
         measured=_definitions(measured_facts(map_set) or {"Nothing": "it has not been compared yet"}),
         lobes="\n".join(_lobes(map_set, truth)),
@@ -108,7 +108,7 @@ def map_set_report(map_set: Path, output: Path, force: bool = False, brdf: str |
     return output
 
 
-def _looks(map_set: Path) -> dict[str, Array]:
+def _drawn_meshes(map_set: Path) -> dict[str, Array]:
     """Meshes shaded from the map set; none where nothing can draw them, which a warning tells."""
     opened = open_map_set(map_set)
     try:
@@ -117,9 +117,9 @@ def _looks(map_set: Path) -> dict[str, Array]:
         warnings.warn(f"The report shows no mesh: {error}", RsibrWarning, stacklevel=2)
         return {}
     pictures = {}
-    for name, camera in LOOKS.items():
+    for name, camera in MESHES.items():
         mesh = load_mesh(name)
-        pictures[name] = renderer.draw(mesh.positions, mesh.normals, mesh.triangles, camera, LOOK_SIZE, look)
+        pictures[name] = renderer.draw(mesh.positions, mesh.normals, mesh.triangles, camera, MESH_SIZE, look)
     return pictures
 
 

@@ -53,5 +53,5 @@ def test_saturated_edges_count_nothing() -> None:
 def test_a_face_that_tells_nothing_is_refused(value: float) -> None:
     cube = np.full((6, 8, 8, 3), 0.5)
     cube[4] = value
-    with pytest.raises(RangeError, match="too little along their edges is neither black nor white"):
+    with pytest.raises(RangeError, match="too few texels on their edges are neither black nor white"):
         balancing_gains(cube, 0.96)

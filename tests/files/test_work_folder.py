@@ -96,7 +96,7 @@ def test_what_is_not_ours_stays(tmp_path: Path) -> None:
     (folder / "job.json").touch()
     with pytest.raises(OutputFileError, match="cannot be made"), work_folder(file, {}):
         pass
-    with pytest.raises(OutputFileError, match="holds something else"), work_folder(folder, {}):
+    with pytest.raises(OutputFileError, match="holds files other than"), work_folder(folder, {}):
         pass
     assert file.read_text() == (folder / "thesis.txt").read_text() == "precious"
 

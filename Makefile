@@ -36,7 +36,7 @@ test-gui: $(READY)
 	RSIBR_REQUIRE=gui $(PYTHON) -m pytest tests/gui
 
 test-faults: $(READY)
-	RSIBR_MOMENTS=300 RSIBR_FAULT_CASES=35000 RSIBR_REQUIRE=gl,bpy,cycles $(PYTHON) -m pytest tests/faults tests/glsl/test_faulty_draws.py
+	RSIBR_MOMENTS=300 RSIBR_FAULT_CASES=35000 RSIBR_REQUIRE=gl,bpy,cycles $(PYTHON) -m pytest tests/faults tests/glsl/test_faulty_draws.py tests/glsl/test_load.py
 
 lint: $(READY)
 	$(PYTHON) -m ruff check

@@ -45,6 +45,8 @@ class Running:
         The command's arguments.
     variables : dict of str to str
         Of its environment, beside our own.
+    addresses : int, optional
+        Bytes that it may have.
     """
 
     def __init__(
@@ -54,12 +56,13 @@ class Running:
         variables: dict[str, str] | None = None,
         stdout: int | IO[bytes] = subprocess.PIPE,
         stderr: int | IO[bytes] = subprocess.PIPE,
+        addresses: int | None = None,
     ) -> None:
         self.work, self.temporary = folder / "work", folder / "temporary"
         for path in (self.work, self.temporary):
             path.mkdir(parents=True, exist_ok=True)
         self.process = subprocess.Popen(
-            [RSIBR, *argv],
+            [*(() if addresses is None else ("prlimit", f"--as={addresses}")), RSIBR, *argv],
             cwd=self.work,
             env={**os.environ, "TMPDIR": str(self.temporary), **(variables or {})},
             stdout=stdout,

@@ -7,12 +7,12 @@ cd "$folder"
 
 measure() { # ENVIRONMENT MATERIAL CAPTURE-OPTIONS
     name=$1-$2
-    rsibr capture --environment "$1" --material "$2" --views 42 "${@:3}" -o "$name.rsibr.exr" --force
+    rsibr bake radiance-views --environment "$1" --material "$2" --views 42 "${@:3}" -o "$name.rsibr.exr" --force
     rsibr compare "$name.rsibr.exr" --views 30 --captured-views 12 --captured-views 42 --size 96 --samples 32 -o "$name" --force
 }
 
 for environment in forest city; do
-    measure $environment mirror --size 256 --samples 16
+    measure $environment mirror --size 256 --samples 16 --no-denoise
     measure $environment copper --size 128 --samples 32 --denoise
     measure $environment plastic --size 128 --samples 32 --denoise
     measure $environment car-paint --size 256 --samples 32 --denoise

@@ -33,7 +33,7 @@ compare() {
 # Cabral, Olano & Nemec 1999: what Cycles sees of a material, turned and held against Cycles
 for material in copper plastic; do
     step "Capturing $material" \
-        ours capture --environment forest --material "$material" --views 12 --size 256 --samples 16 --denoise \
+        ours bake radiance-views --environment forest --material "$material" --views 12 --size 256 --samples 16 --denoise \
         -o "$material.rsibr.exr" --force
     step "Reading what $material.rsibr.exr holds" ours info "$material.rsibr.exr"
     step "Turning Suzanne in $material" \
@@ -44,20 +44,20 @@ done
 
 # Kautz & McCool 2000: a BRDF as three lobes, held against the BRDF itself
 step "Baking copper as three lobes" \
-    ours bake --environment forest --brdf ggx:alpha=0.3,metal=copper --lobes 3 -o lobes.rsibr.exr --force
+    ours bake lobe-stack --environment forest --brdf ggx:alpha=0.3,metal=copper --lobes 3 -o lobes.rsibr.exr --force
 step "Comparing the lobes with the BRDF" compare lobes.rsibr.exr --views 2 -o lobes-compare --force
 step "Reporting on the lobes" ours report lobes.rsibr.exr -o lobes.html --force
 
 # Miller & Hoffman 1984 and Kautz, Daubert & Seidel 2004
 step "Baking reflection tables of varnish" \
-    ours tables --environment forest --material varnished -o tables.rsibr.exr --force
+    ours bake reflection-tables --environment forest --material varnished -o tables.rsibr.exr --force
 step "Filtering the environment's mip chain" \
-    ours mips --environment forest --size 128 -o mips.rsibr.exr --force
+    ours bake mip-chain --environment forest --size 128 -o mips.rsibr.exr --force
 step "Exporting it" ours export mips.rsibr.exr -o mips.ktx2 --up y --force
 
 # Beyond them: light filtered once, for any material that is chosen afterwards
 step "Filtering the environment with a bank of kernels" \
-    ours bank --environment forest -o bank.rsibr.exr --force
+    ours bake kernel-bank --environment forest -o bank.rsibr.exr --force
 
 for mesh in monkey sphere; do
     for map_set in plastic lobes tables mips bank; do

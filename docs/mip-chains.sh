@@ -11,7 +11,7 @@ draw() { # MAP-SET PICTURE PREVIEW-OPTIONS
 }
 
 for filter in box bordered ggx; do
-    rsibr mips --environment courtyard --filter $filter -o $filter.rsibr.exr
+    rsibr bake mip-chain --environment courtyard --filter $filter -o $filter.rsibr.exr
 done
 for bias in 4.5 9.4; do
     ball=(--f-lambda 1 --bias $bias --view 1,-1,0.8 --size 144)

@@ -1,18 +1,14 @@
 """Operators, one per file; thin: properties to settings, then a task."""
 
+from . import bake_kinds
 from .accept import RSIBR_OT_accept
 from .apply_quality import RSIBR_OT_apply_quality
 from .assemble_faces import RSIBR_OT_assemble_faces
 from .assign import RSIBR_OT_assign
 from .bake_again import RSIBR_OT_bake_again
-from .bake_bank import RSIBR_OT_bake_bank
 from .bake_in_background import RSIBR_OT_bake
-from .bake_mips import RSIBR_OT_bake_mips
-from .bake_stack import RSIBR_OT_bake_stack
-from .bake_tables import RSIBR_OT_bake_tables
 from .cancel_bake import RSIBR_OT_cancel_bake
 from .capture_environment import RSIBR_OT_capture_environment
-from .capture_views import RSIBR_OT_capture_views
 from .compare import RSIBR_OT_compare
 from .drag_split import RSIBR_OT_drag_split
 from .export_ktx2 import RSIBR_OT_export_ktx2
@@ -26,16 +22,12 @@ from .unpack import RSIBR_OT_unpack
 from .unwrap_ball import RSIBR_OT_unwrap_ball
 
 CLASSES: tuple[type, ...] = (
-    RSIBR_OT_capture_views,
     RSIBR_OT_capture_environment,
     RSIBR_OT_merge_brackets,
     RSIBR_OT_unwrap_ball,
     RSIBR_OT_assemble_faces,
     RSIBR_OT_lift_painting,
-    RSIBR_OT_bake_mips,
-    RSIBR_OT_bake_tables,
-    RSIBR_OT_bake_stack,
-    RSIBR_OT_bake_bank,
+    *bake_kinds.CLASSES,
     RSIBR_OT_fit_lobes,
     RSIBR_OT_apply_quality,
     RSIBR_OT_bake,

@@ -2,7 +2,9 @@
 
 import bpy
 
-from ..rsibr_addon.tasks.methods.methods import QUALITIES
+from ..rsibr_addon.core.options import declared_options, quality_values
+from ..rsibr_addon.host.option_properties import show_option
+from ..rsibr_addon.settings.registry import METHOD_SETTINGS
 
 
 class RSIBR_OT_apply_quality(bpy.types.Operator):
@@ -25,6 +27,8 @@ class RSIBR_OT_apply_quality(bpy.types.Operator):
         """Set them."""
         kind = context.scene.rsibr_bake.kind
         chosen = getattr(context.scene.rsibr_bake, kind)
-        for name, value in QUALITIES[self.quality][kind].items():
-            setattr(chosen, name, value)
+        values = quality_values(METHOD_SETTINGS[kind], self.quality.lower())
+        for declared in declared_options(METHOD_SETTINGS[kind]):
+            if declared.name in values:
+                show_option(declared, chosen, values[declared.name])
         return {"FINISHED"}

@@ -4,7 +4,7 @@ import bpy
 
 from ..rsibr_addon.core.errors import RsibrError
 from ..rsibr_addon.host.bake_settings import assign
-from ..rsibr_addon.tasks.queue.bake_request import bake_of, is_baked, order_for, output_for
+from ..rsibr_addon.tasks.queue.bake_request import bake_of, is_baked, output_for, request_for
 from ..rsibr_addon.tasks.report.facts import map_set_content
 from . import background
 from .reporting import reporting
@@ -21,7 +21,7 @@ class RSIBR_OT_bake(bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         """Whether nothing is missing; the button's tooltip says what is."""
         try:
-            order_for(context.scene, context.object)
+            request_for(context.scene, context.object)
         except RsibrError as error:
             cls.poll_message_set(str(error))
             return False
@@ -52,16 +52,16 @@ def queue_bake(context: bpy.types.Context, content: str = "") -> str:
     Raises
     ------
     RsibrError
-        See `order_for`, `output_for` and `bake_of`.
+        See `request_for`, `output_for` and `bake_of`.
     """
     item = context.object
-    order = order_for(context.scene, item)
-    output = output_for(order, context.scene, item)
+    request = request_for(context.scene, item)
+    output = output_for(request, context.scene, item)
     if (unfinished := background.queue.unfinished(output)) is not None:
         unfinished.items.append(item.session_uid)
         return f"Being baked already: {output.name}"
     if is_baked(output) and content in ("", map_set_content(output)):
-        assign(item.session_uid, output, order.settings)
+        assign(item.session_uid, output, request.shown)
         return f"Baked before: {output.name}"
-    background.submit(bake_of(order, item, output))
+    background.submit(bake_of(request, item, output))
     return f"Baking {output.name}"

@@ -7,7 +7,9 @@ import bpy
 
 from ..rsibr_addon.core.errors import SceneError
 from ..rsibr_addon.core.progress import Steps
-from ..rsibr_addon.tasks.reflectance.fit_lobes import FitSettings, fit_lobes
+from ..rsibr_addon.host.option_properties import options_of, properties_of
+from ..rsibr_addon.settings.fit import FitSettings
+from ..rsibr_addon.tasks.reflectance.fit_lobes import fit_lobes
 from .stepwise import Stepwise
 
 
@@ -25,43 +27,23 @@ class RSIBR_OT_fit_lobes(Stepwise, bpy.types.Operator):
         subtype="FILE_PATH",
         options={"SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
     )
-    brdf = bpy.props.StringProperty(
-        name="Reflectance",
-        description="Model such as ward:alpha=0.04,ks=0.8; empty to measure the active object's material",
-    )
-    method = bpy.props.EnumProperty(
-        name="Method",
-        items=[
-            ("joint", "Joint", "All profiles, colours and axes at once"),
-            ("greedy", "Greedy", "Lobe after lobe, each a minimum profile, as Kautz & McCool"),
-            ("single", "Single", "One lobe, a mean profile"),
-            ("single-2d", "Single 2D", "One lobe that all elevations share"),
-        ],
-    )
-    lobes = bpy.props.IntProperty(
-        name="Lobes", description="For each layer of the material, at most", default=3, min=1, max=12
-    )
-    slices = bpy.props.IntProperty(name="Slices", description="View elevations", default=16, min=1, max=256)
-    taps = bpy.props.IntProperty(
-        name="Taps",
-        description="Directions in which each lobe's map is looked up; 0 for as many as pay",
-        default=0,
-        min=0,
-        max=9,
-    )
     force = bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
 
     def work(self, context: bpy.types.Context) -> Steps[Any]:
         """See `Stepwise`."""
         item = context.active_object
         material = item and item.active_material
-        if not self.brdf and not material:
+        if not getattr(self, "brdf", None) and not material:
             raise SceneError("There is no material to fit: select an object that has one, or name a model.")
-        settings = FitSettings(self.method, self.lobes, self.slices, self.taps or None)
+        settings = options_of(FitSettings, self, material.name if material else "")
         output = Path(bpy.path.abspath(self.filepath))
-        return fit_lobes(self.brdf or f"blend::{material.name}", settings, output, self.force)
+        return fit_lobes(settings, output, self.force)
 
     def finish(self, result: Any) -> None:
         """See `Stepwise`."""
         figures = result.report()
         self.report({"INFO"}, f"Fitted {figures['lobes']} lobes, E {figures['E']:.3g}")
+
+
+for _name, _property in properties_of(FitSettings, by_text=True).items():
+    setattr(RSIBR_OT_fit_lobes, _name, _property)

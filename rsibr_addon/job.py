@@ -1,88 +1,64 @@
 """What is to be made: one description for panels, the command line and farms."""
 
 import json
-from dataclasses import dataclass
-from typing import Literal
+from dataclasses import dataclass, field
+from typing import Any, Literal
 
 from .core.errors import InputFileError, RangeError, SchemaError
-from .core.geometry.geodesic import VERTEX_COUNTS
+from .core.options import to_plain
 from .core.schema import decode, loads
+from .settings.light import Light
+from .settings.method import MethodSettings
+from .settings.registry import METHOD_SETTINGS
 
-FORMAT = 1
-"""Of a job's JSON."""
+FORMAT, ARGUMENTS_FORMAT = 2, 1
+"""Formats of a job's JSON: a bake, and the arguments of any command."""
 
 COMMANDS = ("capture", "bake", "tables", "mips", "bank", "illuminate", "compare")
-"""What a job may be of."""
+"""What a job of arguments may be of."""
 
 
 @dataclass(frozen=True)
-class CaptureJob:
-    """A capture of radiance views.
+class BakeJob[Settings: MethodSettings]:
+    """A bake: what a method makes of which light, and where it goes.
 
     Attributes
     ----------
-    environment : str or None
-        Latitude-longitude picture, or the bare name of one that comes with Blender, as "forest";
-        None for the world of the open file.
-    material : str
-        A preset; or ``FILE.blend:NAME``; or ``:NAME``, a material of the open file.
+    settings : MethodSettings
+        Of one of `METHOD_SETTINGS`.
     output : str
         The map set to write, by custom NAME.rsibr.exr.
-    views : int
-        12, 42 or 162 view directions.
-    size : int
-        Width and height of a view in texels.
-    samples : int
-        Cycles' samples a texel.
-    denoise : bool
-        Whether each view is denoised.
-    seed : int
-        Of Cycles' noise.
+    light : Light
     force : bool
         Whether `output` is replaced if it exists.
-    clamp : float or None
-        See `core.environment.usable_radiance`.
-
-    Raises
-    ------
-    RangeError
-        `views` is another number. The other ranges are those of `host.cycles.RenderSettings`.
     """
 
-    environment: str | None
-    material: str
+    settings: Settings
     output: str
-    views: int = 12
-    size: int = 256
-    samples: int = 64
-    denoise: bool = False
-    seed: int = 0
+    light: Light = field(default_factory=Light)
     force: bool = False
-    clamp: float | None = None
 
-    def __post_init__(self) -> None:
-        if self.views not in VERTEX_COUNTS:
-            counts = ", ".join(map(str, VERTEX_COUNTS))
-            raise RangeError(f"A capture cannot have {self.views} views: choose one of {counts}.")
+    def to_json(self) -> str:
+        """The job as a JSON object, which `read_job` takes back."""
+        plain = {
+            "format": FORMAT,
+            "kind": self.settings.KIND,
+            "settings": to_plain(self.settings),
+            "light": to_plain(self.light),
+            "output": self.output,
+            "force": self.force,
+        }
+        return json.dumps(plain, indent=1)
 
 
 @dataclass(frozen=True)
-class _File:
-    format: Literal[1]
-    arguments: tuple[str, ...]
-
-
-@dataclass(frozen=True)
-class BakeJob:
-    """One piece of work: what `rsibr` is to do, whoever has it done.
-
-    A panel writes it for a background Blender, a farm for its nodes, a person by hand; and
-    `rsibr bake JOB.json` does it.
+class CommandJob:
+    """The arguments of a command.
 
     Attributes
     ----------
     arguments : tuple of str
-        Of the command line, the command first: ("capture", "--material", "copper", ...).
+        Of the command line, the command first: ("compare", "copper.rsibr.exr", ...).
 
     Raises
     ------
@@ -98,40 +74,65 @@ class BakeJob:
         raise RangeError(f"A job begins with what is to be made: one of {', '.join(COMMANDS)}.")
 
     def to_json(self) -> str:
-        """The job as a JSON object, which `from_json` takes back."""
-        return json.dumps({"format": FORMAT, "arguments": self.arguments}, indent=1)
+        """The job as a JSON object, which `read_job` takes back."""
+        return json.dumps({"format": ARGUMENTS_FORMAT, "arguments": self.arguments}, indent=1)
 
-    @classmethod
-    def from_json(cls, text: str, name: str) -> "BakeJob":
-        """Read a job.
 
-        Parameters
-        ----------
-        text : str
-            A JSON object with the fields "format", 1, and "arguments", a list of text.
-        name : str
-            Where the text is from, for messages.
+@dataclass(frozen=True)
+class _ArgumentsFile:
+    format: Literal[1]
+    arguments: tuple[str, ...]
 
-        Returns
-        -------
-        BakeJob
 
-        Raises
-        ------
-        InputFileError
-            The text is no such object, or of a newer format.
-        """
-        try:
-            given = loads(text)
-            if isinstance(given, dict) and given.get("format", FORMAT) != FORMAT:
-                raise InputFileError(
-                    f"{name} is a job of format {given['format']!r:.40}, not {FORMAT}: update RSIBR, or "
-                    f"write it anew."
-                )
-            return cls(decode(_File, given).arguments)
-        except SchemaError as error:
+@dataclass(frozen=True)
+class _BakeFile:
+    format: Literal[2]
+    kind: str
+    settings: dict[str, Any]
+    output: str
+    light: dict[str, Any] = field(default_factory=dict)
+    force: bool = False
+
+
+def read_job(text: str, name: str) -> BakeJob[Any] | CommandJob:
+    """Read a job.
+
+    Parameters
+    ----------
+    text : str
+        What `to_json` of a job wrote.
+    name : str
+        Where the text is from, for messages.
+
+    Returns
+    -------
+    BakeJob or CommandJob
+
+    Raises
+    ------
+    InputFileError
+        The text is no such object, or of a newer format.
+    """
+    try:
+        given = loads(text)
+        stated = given.get("format", FORMAT) if isinstance(given, dict) else FORMAT
+        if stated == ARGUMENTS_FORMAT:
+            return CommandJob(decode(_ArgumentsFile, given).arguments)
+        if stated != FORMAT:
             raise InputFileError(
-                f"{name} is no job ({error}): give an object with the fields format and arguments."
-            ) from error
-        except RangeError as error:
-            raise InputFileError(f"{name} cannot be done. {error}") from error
+                f"{name} is a job of format {stated!r:.40}, not {FORMAT}: update RSIBR, or write it anew."
+            )
+        return _bake_job(decode(_BakeFile, given))
+    except SchemaError as error:
+        raise InputFileError(
+            f"{name} is no job ({error}): give an object with the fields format, kind, settings and output."
+        ) from error
+    except RangeError as error:
+        raise InputFileError(f"{name} cannot be done. {error}") from error
+
+
+def _bake_job(found: _BakeFile) -> BakeJob[Any]:
+    if found.kind not in METHOD_SETTINGS:
+        raise SchemaError(f"kind is not one of {', '.join(METHOD_SETTINGS)}")
+    settings = decode(METHOD_SETTINGS[found.kind], found.settings, "settings")
+    return BakeJob(settings, found.output, decode(Light, found.light, "light"), found.force)

@@ -3,13 +3,10 @@
 import argparse
 import os
 from collections.abc import Sequence
-from types import ModuleType
 from typing import Any
 
 from . import (
     bake,
-    bank,
-    capture,
     compare,
     convert,
     export,
@@ -17,29 +14,31 @@ from . import (
     illuminate,
     info,
     job,
-    mips,
     page,
     preview,
-    tables,
 )
 
 COMMANDS = {
-    "capture": capture,
+    "bake": bake,
     "preview": preview,
     "compare": compare,
     "info": info,
     "convert": convert,
     "illuminate": illuminate,
-    "mips": mips,
-    "tables": tables,
     "fit": fit,
-    "bake": bake,
-    "bank": bank,
     "report": page,
     "export": export,
     "job": job,
 }
-"""Name -> the module with its arguments and its run; or with `KINDS`, such modules in turn."""
+"""Name -> what has its arguments and its run; or with `KINDS`, such commands in turn."""
+
+OLD_NAMES = {
+    "capture": "radiance-views",
+    "tables": "reflection-tables",
+    "mips": "mip-chain",
+    "bank": "kernel-bank",
+}
+"""Commands of version 0.1 -> the kind that `bake` makes for them; they go with version 0.3."""
 
 
 def parsed(argv: Sequence[str]) -> argparse.Namespace:
@@ -60,13 +59,18 @@ def parsed(argv: Sequence[str]) -> argparse.Namespace:
     SystemExit
         The usage is wrong, or help was asked for; that is printed.
     """
-    return parser().parse_args(_with_joined_directions(_with_jobs_command(argv)))
+    return parser().parse_args(_with_joined_directions(_with_todays_names(argv)))
 
 
-def _with_jobs_command(argv: Sequence[str]) -> Sequence[str]:
-    """`bake JOB.json` under the name of what does it: else `bake` takes options alone."""
-    if argv[:1] and argv[0] == "bake" and argv[1:] and argv[1].endswith(".json"):
-        return ["job", *argv[1:]]
+def _with_todays_names(argv: Sequence[str]) -> Sequence[str]:
+    """`bake JOB.json` under the name of what does it, and what was called otherwise in version 0.1."""
+    name, rest = (argv[0], argv[1:]) if argv else ("", argv)
+    if name in OLD_NAMES:
+        return ["bake", OLD_NAMES[name], *rest]
+    if name == "bake" and rest and rest[0].endswith(".json"):
+        return ["job", *rest]
+    if name == "bake" and rest and rest[0].startswith("--") and rest[0] != "--help":
+        return ["bake", "lobe-stack", *rest]
     return argv
 
 
@@ -101,7 +105,7 @@ def parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _add_command(commands: Any, name: str, module: ModuleType, common: argparse.ArgumentParser) -> None:
+def _add_command(commands: Any, name: str, module: Any, common: argparse.ArgumentParser) -> None:
     summary = _summary(module)
     command = commands.add_parser(
         name, help=summary, description=summary, parents=[common], allow_abbrev=False
@@ -110,8 +114,8 @@ def _add_command(commands: Any, name: str, module: ModuleType, common: argparse.
     command.set_defaults(run=module.run)
 
 
-def _summary(module: ModuleType) -> str:
-    return (module.__doc__ or "").splitlines()[0]
+def _summary(command: Any) -> str:
+    return getattr(command, "summary", None) or (command.__doc__ or "").splitlines()[0]
 
 
 def _with_joined_directions(argv: Sequence[str]) -> list[str]:

@@ -4,7 +4,8 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from .options import add_clamp, positive
+from ..settings.light import Clamp
+from .options import add_options, given, positive
 from .report import Report
 
 LAYOUTS = (
@@ -60,7 +61,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=float,
         help="of the camera from a mirror_ball's centre in radii of the ball (default: infinite)",
     )
-    add_clamp(parser)
+    add_options(parser, Clamp)
     parser.add_argument("--force", action="store_true", help="replace what exists")
 
 
@@ -85,7 +86,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
         size=arguments.size,
         overscan=arguments.overscan,
         distance=arguments.distance,
-        clamp=arguments.clamp,
+        clamp=given(arguments, Clamp).clamp,
     )
     pictures = report.steps(convert(arguments.source, settings, arguments.output, arguments.force))
     for picture in pictures:

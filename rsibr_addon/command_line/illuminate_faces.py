@@ -4,8 +4,9 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from ..settings.light import Clamp
 from .illuminate_options import add_environment_output
-from .options import add_clamp
+from .options import add_options, given
 from .report import Report
 
 
@@ -24,7 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="scale each photograph so that they agree along the edges: for a camera that chose its "
         "exposures itself",
     )
-    add_clamp(parser)
+    add_options(parser, Clamp)
     add_environment_output(parser)
 
 
@@ -43,7 +44,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     """
     from ..tasks.light.faces import illuminate_from_faces
 
-    target = arguments.output, arguments.balance, arguments.force, arguments.clamp
+    target = arguments.output, arguments.balance, arguments.force, given(arguments, Clamp).clamp
     gains = report.steps(illuminate_from_faces(arguments.source, arguments.size, *target))
     report.say(f"{arguments.output}")
     return {"environment": str(arguments.output), "gains": gains.tolist()}

@@ -4,8 +4,9 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from ..settings.light import Clamp
 from .illuminate_options import add_environment_output
-from .options import add_clamp
+from .options import add_options, given
 from .report import Report
 
 
@@ -13,7 +14,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what `run` reads."""
     parser.add_argument("source", metavar="FILE.blend", type=Path, help="the file that holds the scene")
     parser.add_argument("--scene", metavar="NAME", help="which scene (default: the one it was saved with)")
-    add_clamp(parser)
+    add_options(parser, Clamp)
     add_environment_output(parser)
 
 
@@ -34,7 +35,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     from ..tasks.light.world import illuminate_from_world
 
     open_blend(arguments.source)
-    target = arguments.output, arguments.force, arguments.clamp
+    target = arguments.output, arguments.force, given(arguments, Clamp).clamp
     path = report.steps(illuminate_from_world(arguments.scene, arguments.size, *target))
     report.say(f"{path}")
     return {"environment": str(path)}

@@ -8,6 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from ..core.errors import InputFileError
+from ..job import BakeJob, read_job
+from .bake import run_job
 from .report import Report
 
 REASON_LETTERS = 500
@@ -16,7 +18,7 @@ REASON_LETTERS = 500
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what `run` reads."""
-    parser.add_argument("job", metavar="JOB.json", type=Path, help="a command and its options, as JSON")
+    parser.add_argument("job", metavar="JOB.json", type=Path, help="what is to be made, as JSON")
 
 
 def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
@@ -34,9 +36,9 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     RsibrError
         See the job's command.
     """
-    from ..job import BakeJob
-
-    job = BakeJob.from_json(_text(arguments.job), str(arguments.job))
+    job = read_job(_text(arguments.job), str(arguments.job))
+    if isinstance(job, BakeJob):
+        return run_job(job, report)
     asked = _parsed(job.arguments, arguments.job)
     result: dict[str, Any] = asked.run(asked, report)
     return result

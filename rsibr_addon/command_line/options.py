@@ -1,8 +1,101 @@
-"""What several commands ask for, and what the text of an argument means."""
+"""Arguments of the command line, made of options; and what the text of other arguments means."""
 
 import argparse
 import math
+from dataclasses import MISSING
+from functools import partial
 from pathlib import Path
+from typing import Any
+
+from ..core.options import Declared, Options, declared_options, value_from_text
+
+
+def add_options(parser: Any, options: type[Options]) -> None:
+    """Declare the arguments of a dataclass of options.
+
+    Parameters
+    ----------
+    parser : argparse.ArgumentParser or a group of one
+    options : type
+        Derived from `Options`. What is not given is not in the namespace.
+    """
+    for declared in declared_options(options):
+        add_option(parser, declared, help_of(declared))
+
+
+def add_option(parser: Any, declared: Declared, description: str) -> None:
+    """Declare the argument of one option, with a text for the help."""
+    told = declared.option
+    common: dict[str, Any] = {
+        "dest": declared.name,
+        "help": description.replace("%", "%%"),
+        "default": argparse.SUPPRESS,
+    }
+    if declared.wanted is bool:
+        parser.add_argument(declared.flag, action=argparse.BooleanOptionalAction, **common)
+        return
+    if told.choices and declared.wanted is not tuple:
+        common["choices"] = list(told.choices)
+        common["metavar"] = None
+    else:
+        common["metavar"] = told.metavar or _METAVARS[declared.wanted]
+    required = declared.default is MISSING
+    parser.add_argument(declared.flag, type=partial(_value, declared), required=required, **common)
+
+
+def given[Given: Options](arguments: argparse.Namespace, options: type[Given]) -> Given:
+    """The options that a command line gives, and the defaults of the others.
+
+    Raises
+    ------
+    RangeError
+        A value is out of its range.
+    """
+    names = {declared.name for declared in declared_options(options)}
+    return options(**{name: value for name, value in vars(arguments).items() if name in names})
+
+
+def help_of(declared: Declared) -> str:
+    """What an option does, its choices, unit, range and default."""
+    told = declared.option
+    text = told.help if told.help[1:2].isupper() else told.help[:1].lower() + told.help[1:]
+    if any(choice.help for choice in told.choices.values()):
+        text += ": " + "; ".join(f"{_shown(value)}, {choice.help}" for value, choice in told.choices.items())
+    return f"{text} ({'; '.join(filter(None, (told.unit, _range(declared), _default(declared))))})"
+
+
+def _range(declared: Declared) -> str:
+    least, most = declared.option.least, declared.option.most
+    if least == -math.inf:
+        return ""
+    return f"from {least:g}" if most == math.inf else f"{least:g} to {most:g}"
+
+
+def _default(declared: Declared) -> str:
+    if declared.default is MISSING:
+        return "required"
+    if declared.default is None:
+        return f"default: {declared.option.none}"
+    return f"default: {_shown(declared.default)}"
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, tuple):
+        same = len(set(value)) == 1
+        return ",".join(map(_shown, value[:1] if same else value)) or "all"
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _value(declared: Declared, text: str) -> Any:
+    try:
+        return value_from_text(declared, text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
+
+
+_METAVARS: dict[type, str] = {int: "N", float: "X", str: "TEXT", tuple: "X,X,..."}
 
 
 def positive(text: str) -> int:
@@ -31,11 +124,6 @@ def position(text: str) -> tuple[float, float, float]:
     return x, y, z
 
 
-def whole_numbers(text: str) -> tuple[int, ...]:
-    """Whole numbers from 0, between commas."""
-    return tuple(whole(number) for number in text.split(","))
-
-
 def direction(text: str) -> tuple[float, float, float]:
     """Three numbers, X,Y,Z, not all 0."""
     vector = position(text)
@@ -54,17 +142,6 @@ def colour(text: str) -> tuple[float, float, float]:
     return red, green, blue
 
 
-def radiance(text: str) -> float:
-    """A radiance that 32-bit floats hold, above 0."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0.0
-    if not 1e-30 <= value <= 1e30:
-        raise argparse.ArgumentTypeError(f"'{text}' is not a radiance, a number from 1e-30 to 1e30")
-    return value
-
-
 def degrees(text: str) -> float:
     """An angle in degrees, above 0 and below 180."""
     try:
@@ -74,28 +151,6 @@ def degrees(text: str) -> float:
     if not 0.0 < value < 180.0:
         raise argparse.ArgumentTypeError(f"'{text}' is not an angle between 0 and 180 degrees")
     return value
-
-
-def add_environment(parser: argparse.ArgumentParser) -> None:
-    """Declare `environment`, None for the world of the open file, and `clamp`."""
-    parser.add_argument(
-        "--environment",
-        metavar="FILE",
-        help="latitude-longitude picture (EXR or HDR), or the bare name of one of Blender's own, as forest "
-        "(default: the world of the open file)",
-    )
-    add_clamp(parser)
-
-
-def add_clamp(parser: argparse.ArgumentParser) -> None:
-    """Declare `clamp`, the greatest radiance that is kept of what is read; None for all."""
-    parser.add_argument(
-        "--clamp",
-        metavar="VALUE",
-        type=radiance,
-        help="take radiance above VALUE, and what is infinite, as VALUE, and say how many values that are "
-        "(default: take what is infinite as the greatest value that is not)",
-    )
 
 
 def add_map_set(parser: argparse.ArgumentParser) -> None:

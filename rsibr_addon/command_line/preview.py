@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from ..settings.light import Clamp
 from . import looks, options
 from .report import Report
 
@@ -30,7 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=options.positive,
         help="N frames around the object: a contact sheet in OUT and a movie beside it, OUT.mp4",
     )
-    options.add_clamp(parser)
+    options.add_options(parser, Clamp)
     looks.add_arguments(parser)
     options.add_output(parser, "OUT.exr|OUT.png", "EXR holds linear radiance, and coverage in alpha")
 
@@ -57,7 +58,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
         mesh=arguments.mesh,
         size=arguments.size,
         look=looks.look(arguments, kind_of(arguments.map_set)),
-        clamp=arguments.clamp,
+        clamp=options.given(arguments, Clamp).clamp,
     )
     target = arguments.output, arguments.force
     if arguments.turntable is None:

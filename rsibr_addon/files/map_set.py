@@ -201,7 +201,7 @@ def read_map_set_header(path: str | Path) -> dict[str, Any]:
 def _checked_header(path: str | Path, file: OpenExr) -> dict[str, Any]:
     text = _description(file)
     if text is None:
-        raise MapSetError(f"{path} is a picture, not a map set: make one with `rsibr capture`.")
+        raise MapSetError(f"{path} is a picture, not a map set: make one with `rsibr bake radiance-views`.")
     try:
         header: dict[str, Any] = loads(text)
     except SchemaError as error:

@@ -11,9 +11,10 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ..core.brdf.cycles_presets import PRESETS
 from ..core.errors import InputFileError, SceneError
 from .blend_files import check_there, unreadable
-from .presets import PRESETS, build_preset
+from .presets import build_preset
 
 ORIGINAL = "RSIBR_ORIGINAL"
 """Environment variable: the file of which the open one is a copy, if it is one; empty if that has no name."""

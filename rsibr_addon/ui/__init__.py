@@ -5,7 +5,7 @@ from .bake_panel import RSIBR_PT_bake
 from .environment_panel import RSIBR_MT_pictures, RSIBR_PT_environment
 from .live_panel import RSIBR_PT_live
 from .material_panel import RSIBR_MT_live_models, RSIBR_MT_models, RSIBR_PT_material
-from .method_panel import RSIBR_PT_method
+from .method_panel import RSIBR_PT_method, RSIBR_PT_method_advanced
 from .panel import RSIBR_PT_preview
 from .preferences import RSIBR_AP_preferences
 from .result_panel import RSIBR_PT_result, RSIBR_PT_result_lobes, RSIBR_PT_result_maps
@@ -20,6 +20,7 @@ CLASSES: tuple[type, ...] = (
     RSIBR_PT_environment,
     RSIBR_PT_material,
     RSIBR_PT_method,
+    RSIBR_PT_method_advanced,
     RSIBR_PT_bake,
     RSIBR_PT_preview,
     RSIBR_PT_live,

@@ -5,7 +5,7 @@ import bpy
 from ...operators.background import queue
 from ..core.errors import RsibrError
 from ..tasks.queue.background import Bake, State
-from ..tasks.queue.bake_request import order_for
+from ..tasks.queue.bake_request import request_for
 from .sentences import amount, capital, duration, tell
 
 
@@ -21,7 +21,7 @@ class RSIBR_PT_bake(bpy.types.Panel):
         """Show what a bake would cost or what it lacks, the button, and every bake."""
         layout, width = self.layout, context.region.width
         try:
-            cost = order_for(context.scene, context.object).method.cost()
+            cost = request_for(context.scene, context.object).cost
         except RsibrError as error:
             tell(layout, str(error), width)
         else:

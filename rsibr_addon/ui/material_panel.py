@@ -5,6 +5,8 @@ from typing import Any
 import bpy
 
 from ..core.brdf.gallery import GALLERY, gallery_name
+from ..settings.registry import METHOD_SETTINGS
+from .sentences import tell
 
 
 class _Models:
@@ -53,20 +55,15 @@ class RSIBR_PT_material(bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Show what the method can take."""
-        chosen = getattr(context.scene.rsibr_bake, context.scene.rsibr_bake.kind)
-        layout = self.layout
-        match context.scene.rsibr_bake.kind:
-            case "mip_chain":
-                layout.label(text="Mips hold light alone:", icon="INFO")
-                layout.label(text="choose colours in Preview.", icon="BLANK1")
-            case "kernel_bank":
-                layout.label(text="A bank is for any material:", icon="INFO")
-                layout.label(text="choose a model in Preview.", icon="BLANK1")
-            case "reflection_tables":
-                layout.prop(chosen, "preset", text="")
-            case _:
-                layout.row().prop(chosen, "source", expand=True)
-                _draw_source(layout, chosen, context.object)
+        kind, layout = context.scene.rsibr_bake.kind, self.layout
+        chosen, remark = getattr(context.scene.rsibr_bake, kind), METHOD_SETTINGS[kind].REMARK
+        if remark:
+            tell(layout, remark, context.region.width, icon="INFO")
+        elif hasattr(chosen, "source"):
+            layout.row().prop(chosen, "source", expand=True)
+            _draw_source(layout, chosen, context.object)
+        else:
+            layout.prop(chosen, "preset", text="")
 
 
 def _draw_source(layout: bpy.types.UILayout, chosen: Any, item: bpy.types.Object | None) -> None:
@@ -81,3 +78,5 @@ def _draw_source(layout: bpy.types.UILayout, chosen: Any, item: bpy.types.Object
             layout.prop(chosen, "brdf", text="")
         case "FILE":
             layout.prop(chosen, "path", text="")
+        case instead:
+            layout.prop(chosen, instead.lower(), text="")

@@ -13,8 +13,9 @@ from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError, RsibrError, SceneError
 from rsibr.rsibr_addon.host.bake_settings import baked_folder
 from rsibr.rsibr_addon.tasks.methods.kinds import KINDS
-from rsibr.rsibr_addon.tasks.queue.bake_request import order_for
+from rsibr.rsibr_addon.tasks.queue.bake_request import request_for
 from rsibr.rsibr_addon.tasks.viewport.previews import _look_settings
+from rsibr.tests.bake_jobs import run_job
 
 
 @pytest.fixture(autouse=True)
@@ -40,15 +41,15 @@ def test_choices_of_a_newer_version_are_named(spoil: str, sentence: str) -> None
     exec(spoil, {"bpy": bpy})
     assert not bpy.ops.rsibr.bake.poll()
     with pytest.raises(SceneError, match=sentence):
-        order_for(bpy.context.scene, bpy.context.object)
+        request_for(bpy.context.scene, bpy.context.object)
 
 
 @pytest.mark.parametrize(
     ("kind", "name", "sentence"),
     [
-        ("radiance_views", "mode", "There is no mode '' in this version: choose from paper, texel, fragment"),
-        ("radiance_views", "warping", "There is no warp '' in this version: choose from single"),
-        ("mip_chain", "borders", "There is no borders '' in this version: choose from"),
+        ("radiance_views", "mode", "Mode cannot be '': choose one of fragment, texel, paper"),
+        ("radiance_views", "warping", "Warp cannot be '': choose one of albedo"),
+        ("mip_chain", "borders", "Borders cannot be '': choose one of"),
     ],
 )
 def test_looks_of_a_newer_version_are_told_of_where_the_preview_would_be(
@@ -67,8 +68,8 @@ def test_neither_camera_nor_lamp_is_needed(tmp_path: Path) -> None:
     chosen = bpy.context.scene.rsibr_bake
     chosen.kind, chosen.light, chosen.studio = "mip_chain", "STUDIO", "forest"
     chosen.mip_chain.size, chosen.mip_chain.filter = "64", "box"
-    job = order_for(bpy.context.scene, bpy.context.object).job(tmp_path / "light.rsibr.exr")
-    assert run([*job.arguments, "--progress", "none"]) == 0
+    job = request_for(bpy.context.scene, bpy.context.object).job(tmp_path / "light.rsibr.exr")
+    assert run_job(job, tmp_path) == 0
 
 
 def test_a_mesh_without_faces_is_no_error_of_a_preview() -> None:
@@ -120,4 +121,4 @@ def test_a_missing_library_is_named(tmp_path: Path) -> None:
     library.unlink()
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "scene.blend"))
     with pytest.raises(RsibrError, match=r"Object Cube is missing in .*library\.blend: bring that file back"):
-        order_for(bpy.context.scene, bpy.data.objects["Cube"])
+        request_for(bpy.context.scene, bpy.data.objects["Cube"])

@@ -1,7 +1,6 @@
 """What the panel's settings ask for: a job that the command line takes, a name that tells bakes apart."""
 
 import itertools
-import json
 from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
@@ -12,23 +11,25 @@ import numpy as np
 import pytest
 import rsibr
 from rsibr.rsibr_addon.command_line.commands import parsed
-from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import InputFileError, MapSetError, OutputFileError, RsibrError, SceneError
+from rsibr.rsibr_addon.core.options import declared_options, quality_values
 from rsibr.rsibr_addon.files.exr import Part, write_parts
 from rsibr.rsibr_addon.files.staging import is_staging_folder
 from rsibr.rsibr_addon.host.bake_settings import apply_settings, plain_settings
-from rsibr.rsibr_addon.job import BakeJob
+from rsibr.rsibr_addon.host.option_properties import property_name, shown_value
+from rsibr.rsibr_addon.job import CommandJob, read_job
+from rsibr.rsibr_addon.settings.registry import METHOD_SETTINGS
 from rsibr.rsibr_addon.tasks.light.light_pictures import NO_RADIANCE, light_remarks
-from rsibr.rsibr_addon.tasks.methods.methods import QUALITIES
 from rsibr.rsibr_addon.tasks.queue.bake_request import (
-    Order,
+    BakeRequest,
     bake_of,
     comparison_of,
     is_baked,
-    order_for,
     output_for,
+    request_for,
 )
 from rsibr.rsibr_addon.ui.environment_panel import RSIBR_PT_environment
+from rsibr.tests.bake_jobs import run_job
 from rsibr.tests.flat_capture import write_flat_capture
 from rsibr.tests.open_file import open_file_state
 
@@ -42,15 +43,16 @@ def _registered(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Non
     rsibr.unregister()
 
 
-def order() -> Order:
-    return order_for(bpy.context.scene, bpy.context.object)
+def order() -> BakeRequest:
+    return request_for(bpy.context.scene, bpy.context.object)
 
 
 def output() -> Path:
     return output_for(order(), bpy.context.scene, bpy.context.object)
 
 
-KINDS = sorted(QUALITIES["GOOD"])
+KINDS = sorted(METHOD_SETTINGS)
+QUALITIES = ("DRAFT", "GOOD", "FINAL")
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -60,12 +62,13 @@ def test_every_quality_is_what_the_command_takes(kind: str, quality: str) -> Non
     chosen.kind = kind
     assert bpy.ops.rsibr.apply_quality(quality=quality) == {"FINISHED"}
     settings = getattr(chosen, kind)
-    for name, value in QUALITIES[quality][kind].items():
-        assert getattr(settings, name) == value
+    values = quality_values(METHOD_SETTINGS[kind], quality.lower())
+    for declared in declared_options(METHOD_SETTINGS[kind]):
+        if declared.name in values:
+            assert getattr(settings, property_name(declared)) == shown_value(declared, values[declared.name])
     job = order().job(Path("out.rsibr.exr"))
-    asked = parsed(job.arguments)
-    assert asked.output == Path("out.rsibr.exr")
-    assert asked.environment is None
+    assert values.items() <= vars(job.settings).items()
+    assert read_job(job.to_json(), "job") == job
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -75,7 +78,7 @@ def test_better_costs_more(kind: str) -> None:
     costs = []
     for quality in QUALITIES:
         bpy.ops.rsibr.apply_quality(quality=quality)
-        costs.append(order().method.cost())
+        costs.append(order().cost)
     for less, more in itertools.pairwise(costs):
         assert less.processor_seconds < more.processor_seconds
         # More maps of a lobe stack take no more: they are made one after another
@@ -84,15 +87,15 @@ def test_better_costs_more(kind: str) -> None:
 
 
 @pytest.mark.slow
-def test_the_file_is_as_large_as_was_said() -> None:
+def test_the_file_is_as_large_as_was_said(tmp_path: Path) -> None:
     chosen = bpy.context.scene.rsibr_bake
     chosen.kind, chosen.light, chosen.studio = "mip_chain", "STUDIO", "forest"
     for size in ("64", "256"):
         chosen.mip_chain.size = size
         path = output()
-        assert run([*order().job(path).arguments, "--progress", "none"]) == 0
+        assert run_job(order().job(path), tmp_path) == 0
         # Said for any light; how well a picture is compressed depends on it
-        assert 0.4 < path.stat().st_size / order().method.cost().disk < 1.6
+        assert 0.4 < path.stat().st_size / order().cost.disk < 1.6
         assert is_baked(path)
 
 
@@ -155,7 +158,7 @@ def test_equal_bakes_have_one_file_and_others_another(tmp_path: Path) -> None:
     differs()
     chosen.clamp = 3.0
     differs()
-    assert parsed(order().job(Path("out.rsibr.exr")).arguments).clamp == 3.0
+    assert order().job(Path("out.rsibr.exr")).light.clamp == 3.0
     chosen.layer = "V.Sky"
     differs()
     assert len(names) == 10
@@ -182,12 +185,12 @@ def test_a_layer_is_named_with_its_file_or_apart(tmp_path: Path) -> None:
     chosen.light, chosen.picture = "PICTURE", str(path)
 
     def told() -> tuple[str, ...]:
-        return light_remarks(Path(order().environment or ""))
+        return light_remarks(Path(order().light.environment or ""))
 
     assert "holds several layers (Room, Sky): name one" in told()[0]
     chosen.picture = f"{path}:Sky"
     assert (chosen.layer, Path(chosen.image.filepath)) == ("Sky", path)
-    assert order().environment == chosen.picture == f"{path}:Sky"
+    assert order().light.environment == chosen.picture == f"{path}:Sky"
     assert order().title.endswith(" in light")
     assert told() == ()
     apply_settings(chosen, plain_settings(chosen))
@@ -218,7 +221,7 @@ def test_a_bake_gets_a_copy_of_the_file_as_it_is(tmp_path: Path, monkeypatch: py
     assert bake.variables["RSIBR_ORIGINAL"] == ""
     assert is_staging_folder(Path(bake.variables["TMPDIR"]))
     blend, job = Path(bake.command[3]), Path(bake.command[9])
-    assert json.loads(job.read_text())["arguments"][:3] == ["capture", "--material", ":Material"]
+    assert read_job(job.read_text(), "job") == order().job(tmp_path / "out.rsibr.exr")
     with bpy.data.libraries.load(str(blend)) as (found, _):
         assert "Material" in found.materials
     bake.tidy()
@@ -234,12 +237,12 @@ def test_without_a_blender_there_is_a_sentence(tmp_path: Path) -> None:
         bpy.ops.rsibr.bake()
 
 
-def test_what_was_baked_before_is_taken_at_once() -> None:
+def test_what_was_baked_before_is_taken_at_once(tmp_path: Path) -> None:
     chosen = bpy.context.scene.rsibr_bake
     chosen.kind, chosen.mip_chain.size, chosen.mip_chain.filter = "mip_chain", "64", "box"
     cube = bpy.context.object
     path = output()
-    assert run([*order().job(path).arguments, "--progress", "none"]) == 0
+    assert run_job(order().job(path), tmp_path) == 0
     assert bpy.ops.rsibr.bake() == {"FINISHED"}
     assert Path(cube.rsibr.map_set) == path
     cube.rsibr.map_set = ""
@@ -273,7 +276,7 @@ def test_sharper_and_layered_models_cost_more() -> None:
     costs = []
     for spec in ("ggx:alpha=0.3,metal=copper", "ggx:alpha=0.1,metal=copper", "car_paint:name=bmw_339"):
         chosen.lobe_stack.brdf = spec
-        costs.append(order().method.cost())
+        costs.append(order().cost)
     for less, more in itertools.pairwise(costs):
         assert less.processor_seconds < more.processor_seconds
         assert less.disk < more.disk
@@ -295,14 +298,15 @@ def test_a_comparison_is_a_job_with_a_page(tmp_path: Path, monkeypatch: pytest.M
     path = tmp_path / "flat.rsibr.exr"
     write_flat_capture(path, (0.5, 0.0, 0.5))
     comparison = comparison_of(bpy.context.object, path)
-    job = BakeJob.from_json(Path(comparison.command[9]).read_text(), "job")
+    job = read_job(Path(comparison.command[9]).read_text(), "job")
     comparison.tidy()
     assert comparison.output == tmp_path / "flat-compared" / "index.html"
+    assert isinstance(job, CommandJob)
     assert parsed(job.arguments).output == comparison.output.parent
     chosen = bpy.context.scene.rsibr_bake
     chosen.kind, chosen.mip_chain.size, chosen.mip_chain.filter = "mip_chain", "64", "box"
     mips = output()
-    assert run([*order().job(mips).arguments, "--progress", "none"]) == 0
+    assert run_job(order().job(mips), tmp_path) == 0
     with pytest.raises(MapSetError, match="is of a kind without a truth to compare with"):
         comparison_of(bpy.context.object, mips)
 
@@ -328,4 +332,4 @@ def test_a_linked_object_is_not_baked_for(tmp_path: Path) -> None:
     with pytest.raises(
         SceneError, match="Object Cube belongs to another file: make it local, or an override"
     ):
-        order_for(bpy.context.scene, cube)
+        request_for(bpy.context.scene, cube)

@@ -7,8 +7,9 @@ import bpy
 import pytest
 import rsibr
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.job import CaptureJob
-from rsibr.rsibr_addon.tasks.methods.radiance_views import capture
+from rsibr.rsibr_addon.job import BakeJob
+from rsibr.rsibr_addon.settings.radiance_views import RadianceViewsSettings
+from rsibr.rsibr_addon.tasks.methods.registry import bake
 from rsibr.tests.open_file import open_file_state
 
 pytestmark = pytest.mark.needs("cycles")
@@ -26,10 +27,13 @@ def _registered(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 def test_the_operator_writes_what_the_task_writes(tmp_path: Path) -> None:
     by_operator, by_task = tmp_path / "operator.exr", tmp_path / "task.exr"
     before = open_file_state()
-    result = bpy.ops.rsibr.capture_views(filepath=str(by_operator), size=8, samples=2, seed=5)
+    result = bpy.ops.rsibr.bake_radiance_views(
+        filepath=str(by_operator), size=8, samples=2, denoise=False, seed=5
+    )
     assert result == {"FINISHED"}
     assert open_file_state() == before
-    drain(capture(CaptureJob(None, ":Material", str(by_task), size=8, samples=2, seed=5)))
+    settings = RadianceViewsSettings(material=":Material", size=8, samples=2, denoise=False, seed=5)
+    drain(bake(BakeJob(settings, str(by_task))))
     assert by_operator.read_bytes() == by_task.read_bytes()
 
 
@@ -37,7 +41,7 @@ def test_the_operator_writes_what_the_task_writes(tmp_path: Path) -> None:
 def test_a_material_can_be_named(tmp_path: Path) -> None:
     bpy.data.materials["Material"].copy().name = "Paint"
     path = tmp_path / "paint.exr"
-    bpy.ops.rsibr.capture_views(filepath=str(path), material="Paint", size=8, samples=2)
+    bpy.ops.rsibr.bake_radiance_views(filepath=str(path), material=":Paint", size=8, samples=2)
     assert path.exists()
 
 
@@ -46,13 +50,13 @@ def test_errors_are_reports(tmp_path: Path) -> None:
     path.write_text("precious")
     before = open_file_state()
     with pytest.raises(RuntimeError, match=r"out\.exr exists: .*"):
-        bpy.ops.rsibr.capture_views(filepath=str(path))
+        bpy.ops.rsibr.bake_radiance_views(filepath=str(path))
     with pytest.raises(RuntimeError, match="This file holds no material Gold: choose one of"):
-        bpy.ops.rsibr.capture_views(filepath=str(tmp_path / "new.exr"), material="Gold")
+        bpy.ops.rsibr.bake_radiance_views(filepath=str(tmp_path / "new.exr"), material=":Gold")
     assert open_file_state() == before
     bpy.context.view_layer.objects.active = bpy.data.objects["Camera"]
-    with pytest.raises(RuntimeError, match="There is no material to capture: select an object"):
-        bpy.ops.rsibr.capture_views(filepath=str(tmp_path / "new.exr"))
+    with pytest.raises(RuntimeError, match="There is no material to bake: select an object"):
+        bpy.ops.rsibr.bake_radiance_views(filepath=str(tmp_path / "new.exr"))
     assert path.read_text() == "precious"
     assert list(tmp_path.iterdir()) == [path]
 
@@ -61,5 +65,5 @@ def test_errors_are_reports(tmp_path: Path) -> None:
 def test_warnings_are_reports_too(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     bsdf = bpy.data.materials["Material"].node_tree.nodes["Principled BSDF"]
     bsdf.inputs["Anisotropic"].default_value = 0.5
-    bpy.ops.rsibr.capture_views(filepath=str(tmp_path / "out.exr"), size=8, samples=2)
+    bpy.ops.rsibr.bake_radiance_views(filepath=str(tmp_path / "out.exr"), size=8, samples=2)
     assert "No radiance map can hold :Material" in "".join(capfd.readouterr())

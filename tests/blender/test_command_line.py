@@ -26,9 +26,8 @@ CAPTURE = ["capture", "--environment", "forest", "--material", "copper", "-o", "
         (["info"], "NAME.rsibr.exr"),
         (["capture", "--environment", "forest"], "--material"),
         ([*CAPTURE, "--views", "13"], "13"),
-        ([*CAPTURE, "--size", "0"], "'0' is not a whole number from 1"),
-        ([*CAPTURE, "--size", "²"], "'²' is not a whole number from 1"),
-        ([*CAPTURE, "--seed", "-1"], "--seed"),
+        ([*CAPTURE, "--size", "0.5"], "'0.5' is not a whole number"),
+        ([*CAPTURE, "--size", "²"], "'²' is not a whole number"),
         (["preview", "a.exr", "-o", "b.png", "--view", "1,2"], "'1,2' is not X,Y,Z"),
         (["preview", "a.exr", "-o", "b.png", "--view", "0,0,0"], "'0,0,0' points nowhere"),
         (["preview", "a.exr", "-o", "b.png", "--view", "nan,0,1"], "'nan,0,1' points nowhere"),
@@ -46,9 +45,9 @@ def test_wrong_usage_is_2_and_says_what(
     assert told in err.splitlines()[-1]
 
 
-@pytest.mark.parametrize("command", ["capture", "preview", "compare", "info"])
+@pytest.mark.parametrize("command", ["bake mip-chain", "preview", "compare", "info"])
 def test_every_command_explains_itself(command: str, capfd: pytest.CaptureFixture[str]) -> None:
-    assert run([command, "--help"]) == 0
+    assert run([*command.split(), "--help"]) == 0
     out, _ = capfd.readouterr()
     assert out.startswith(f"usage: rsibr {command}")
     assert "--json" in out
@@ -177,10 +176,10 @@ def test_a_bug_keeps_its_traceback(monkeypatch: pytest.MonkeyPatch) -> None:
         run(["info", "x"])
 
 
-def test_help_loads_neither_blender_nor_numpy() -> None:
+def test_help_loads_no_blender() -> None:
     script = (
         "import sys; from rsibr.rsibr_addon.command_line.main import run; run(['--help'])\n"
-        "print({'bpy', 'gpu', 'numpy', 'OpenEXR'} & set(sys.modules), file=sys.stderr)"
+        "print({'bpy', 'gpu', 'OpenEXR', 'OpenImageIO'} & set(sys.modules), file=sys.stderr)"
     )
     process = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
     assert process.stderr == "set()\n"

@@ -11,7 +11,8 @@ import rsibr
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError
 from rsibr.rsibr_addon.files.fits import read_fit
-from rsibr.rsibr_addon.tasks.reflectance.fit_lobes import FitSettings, fit_lobes
+from rsibr.rsibr_addon.settings.fit import FitSettings
+from rsibr.rsibr_addon.tasks.reflectance.fit_lobes import fit_lobes
 
 COMMAND = ["fit", "--brdf", "phong:n=40,ks=0.5", "--slices", "3", "--lobes", "2"]
 
@@ -58,12 +59,12 @@ def test_every_method_fits(tmp_path: Path, method: str) -> None:
 @pytest.mark.parametrize(
     ("more", "sentence"),
     [
-        (["--lobes", "0"], "0 lobes are out of range: choose 1 to 12, 3 for most."),
-        (["--lobes", "99"], "99 lobes are out of range"),
-        (["--slices", "0"], "0 slices are out of range: choose 1 to 256"),
-        (["--slices", "9999"], "9999 slices are out of range"),
-        (["--taps", "0"], "0 taps are out of range: choose 1 to 9."),
-        (["--error", "1.5"], "An error of 1.5 is out of range: choose one between 0 and 1."),
+        (["--lobes", "0"], "Lobes cannot be 0: choose 1 to 12."),
+        (["--lobes", "99"], "Lobes cannot be 99"),
+        (["--slices", "0"], "Elevations cannot be 0: choose 1 to 256"),
+        (["--slices", "9999"], "Elevations cannot be 9999"),
+        (["--taps", "0"], "Taps cannot be 0: choose 1 to 9."),
+        (["--error", "1.5"], "Error cannot be 1.5: choose"),
         (["--brdf", "phong:n=40,ks=2"], "phong: ks"),
         (["--brdf", "merl:path=none.binary"], "none.binary does not exist"),
         (["--brdf", "lambert:kd=0"], "The reflectance is black, NaN or infinite"),
@@ -105,7 +106,7 @@ def test_a_fit_among_its_plots_is_refused_at_once(tmp_path: Path) -> None:
     plots = tmp_path / "plots"
     plots.mkdir()
     with pytest.raises(OutputFileError, match="which holds nothing but plots: write it elsewhere"):
-        next(fit_lobes("phong:ks=0.5,n=8", FitSettings(), plots / "fit.json", plots=plots))
+        next(fit_lobes(FitSettings(brdf="phong:ks=0.5,n=8"), plots / "fit.json", plots=plots))
     assert list(plots.iterdir()) == []
 
 
@@ -122,10 +123,10 @@ def test_the_operator_writes_what_the_command_writes(tmp_path: Path) -> None:
 
 def test_methods_have_no_use_for_what_is_anothers() -> None:
     with pytest.raises(RangeError, match="are for the method joint, not single"):
-        FitSettings(method="single", taps=3)
-    with pytest.raises(RangeError, match="There is no method exact: choose one of joint"):
-        FitSettings(method="exact")
+        FitSettings(brdf="", method="single", taps=3)
+    with pytest.raises(RangeError, match="Fit cannot be 'exact': choose one of joint"):
+        FitSettings(brdf="", method="exact")
     with pytest.raises(RangeError, match="is for the method greedy, not joint"):
-        FitSettings(seek="search")
+        FitSettings(brdf="", seek="search")
     with pytest.raises(RangeError, match="choose one of peaks, places, search"):
-        FitSettings(method="greedy", seek="luck")
+        FitSettings(brdf="", method="greedy", seek="luck")

@@ -6,9 +6,9 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
+from rsibr.rsibr_addon.core.brdf.cycles_presets import PRESETS
 from rsibr.rsibr_addon.core.errors import InputFileError, SceneError
 from rsibr.rsibr_addon.host.materials import fingerprint, lasting_spec, load_material, material_name
-from rsibr.rsibr_addon.host.presets import PRESETS
 from rsibr.rsibr_addon.host.shape_dependence import shape_dependence
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.files.map_set import read_map_set
-from rsibr.rsibr_addon.job import BakeJob
+from rsibr.rsibr_addon.job import CommandJob
 
 
 @pytest.fixture(autouse=True)
@@ -18,7 +18,7 @@ def _small_world(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def write_job(*arguments: str) -> None:
-    Path("job.json").write_text(BakeJob(arguments).to_json())
+    Path("job.json").write_text(CommandJob(arguments).to_json())
 
 
 def test_a_job_does_what_its_command_does(capfd: pytest.CaptureFixture[str]) -> None:
@@ -62,15 +62,18 @@ def test_without_a_world_there_is_a_sentence(capfd: pytest.CaptureFixture[str]) 
         (None, "There is no job job.json: check the path."),
         (b"\xff\xfe\xfd", "job.json is no text"),
         ("{}", "job.json is no job"),
-        (BakeJob(("mips",)), "job.json cannot be done (the following arguments are required: -o/--output)"),
-        (BakeJob(("mips", "--help")), "job.json cannot be done (it asks for help)"),
-        (BakeJob(("bake", "job.json")), "job.json is a job whose work is another job"),
+        (
+            CommandJob(("mips",)),
+            "job.json cannot be done (the following arguments are required: -o",
+        ),
+        (CommandJob(("mips", "--help")), "job.json cannot be done (it asks for help)"),
+        (CommandJob(("bake", "job.json")), "job.json is a job whose work is another job"),
     ],
 )
 def test_bad_jobs_are_a_sentence(
-    text: str | bytes | BakeJob | None, sentence: str, capfd: pytest.CaptureFixture[str]
+    text: str | bytes | CommandJob | None, sentence: str, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    if isinstance(text, BakeJob):
+    if isinstance(text, CommandJob):
         text = text.to_json()
     if text is not None:
         Path("job.json").write_bytes(text if isinstance(text, bytes) else text.encode())

@@ -8,14 +8,14 @@ import bpy
 import pytest
 import rsibr
 from rsibr.rsibr_addon import properties
-from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import OutputFileError
 from rsibr.rsibr_addon.host.bake_settings import chosen_environment, plain_settings
 from rsibr.rsibr_addon.host.map_sets import is_packed, unpacked
 from rsibr.rsibr_addon.host.viewport import map_set_of
-from rsibr.rsibr_addon.tasks.queue.bake_request import order_for, output_for
+from rsibr.rsibr_addon.tasks.queue.bake_request import output_for, request_for
 from rsibr.rsibr_addon.tasks.report.facts import map_set_content
 from rsibr.rsibr_addon.ui import bake_properties
+from rsibr.tests.bake_jobs import run_job
 from rsibr.tests.flat_capture import write_flat_capture
 
 
@@ -225,9 +225,9 @@ def baked_with(size: str) -> Path:
     chosen = bpy.context.scene.rsibr_bake
     chosen.kind, chosen.light, chosen.studio = "mip_chain", "STUDIO", "forest"
     chosen.mip_chain.size, chosen.mip_chain.filter = size, "box"
-    order = order_for(bpy.context.scene, cube())
+    order = request_for(bpy.context.scene, cube())
     path = output_for(order, bpy.context.scene, cube())
-    assert run([*order.job(path).arguments, "--progress", "none"]) == 0
+    assert run_job(order.job(path), path.parent) == 0
     return path
 
 

@@ -20,7 +20,7 @@ from rsibr.rsibr_addon.files.kinds.lobe_stack import PROFILES, profiles, to_map_
 from rsibr.rsibr_addon.files.map_set import read_map_set, write_map_set
 from rsibr.rsibr_addon.files.map_set_data import MapSet
 from rsibr.rsibr_addon.host import materials
-from rsibr.rsibr_addon.job import BakeJob
+from rsibr.rsibr_addon.job import read_job
 from rsibr.rsibr_addon.tasks.compare.compare import compare
 from rsibr.rsibr_addon.tasks.compare.lobe_stack import StackComparison
 from rsibr.rsibr_addon.tasks.compare.radiance_views import ViewsComparison
@@ -143,7 +143,7 @@ def test_the_panel_names_the_file_that_its_artist_chose(
 
     def arguments() -> tuple[str, ...]:
         bake = comparison_of(item, path)
-        job = BakeJob.from_json(Path(bake.command[-4]).read_text(), "job")
+        job = read_job(Path(bake.command[-4]).read_text(), "job")
         bake.tidy()
         return job.arguments
 

@@ -11,7 +11,10 @@ from rsibr.rsibr_addon.core.errors import MapSetError, OutputFileError
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.map_set import read_map_set_header
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
-from rsibr.rsibr_addon.tasks.methods.mip_chain import MipSettings, bake_mips
+from rsibr.rsibr_addon.job import BakeJob
+from rsibr.rsibr_addon.settings.light import Light
+from rsibr.rsibr_addon.settings.mip_chain import MipChainSettings
+from rsibr.rsibr_addon.tasks.methods.registry import bake
 from rsibr.rsibr_addon.tasks.report.report import map_set_report
 
 pytestmark = pytest.mark.needs("gl")
@@ -20,8 +23,9 @@ pytestmark = pytest.mark.needs("gl")
 @pytest.fixture(scope="module")
 def map_set(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("mips") / "<mips>.rsibr.exr"
+    job = BakeJob(MipChainSettings(filter="box", size=16), str(path), Light(environment="forest"))
     with pytest.warns(match="negative"):
-        return drain(bake_mips("forest", MipSettings("box", 16), path))
+        return drain(bake(job)).path
 
 
 def test_all_of_a_map_set_is_on_its_page(map_set: Path, tmp_path: Path) -> None:
@@ -41,7 +45,8 @@ def test_names_that_are_no_utf8_are_shown_as_far_as_they_can_be(tmp_path: Path) 
     light, path = (tmp_path / os.fsdecode(b"caf\xe9" + kind) for kind in (b".exr", b".rsibr.exr"))
     write_radiance(tmp_path / "light.exr", np.ones((16, 32, 3)))
     (tmp_path / "light.exr").rename(light)
-    drain(bake_mips(str(light), MipSettings("box", 16), tmp_path / "a.rsibr.exr"))
+    settings, output = MipChainSettings(filter="box", size=16), str(tmp_path / "a.rsibr.exr")
+    drain(bake(BakeJob(settings, output, Light(environment=str(light)))))
     (tmp_path / "a.rsibr.exr").rename(path)
     text = drain(map_set_report(path, tmp_path / "report.html")).read_text()
     assert "caf?.rsibr.exr" in text

@@ -114,7 +114,7 @@ def test_a_preview_is_what_the_reference_says(light: np.ndarray, shown: str | No
             ["--diffuse", "lambert:kd=1", "--weights", "albedo:brdf=(phong:n=9,ks=1)"],
             "The weights' BRDF has a specular part, so the material needs a specular table.",
         ),
-        (["--material", "matte", "--rows", "9000"], "A table cannot have 9000 rows: choose 1 to 8192."),
+        (["--material", "matte", "--rows", "9000"], "Rows cannot be 9000 texels: choose 1 to 8192."),
     ],
 )
 def test_what_cannot_be_done_is_one_sentence(
@@ -132,8 +132,8 @@ def test_a_preview_of_no_such_table_is_one_sentence(
     light: np.ndarray, capfd: pytest.CaptureFixture[str], shown: str
 ) -> None:
     bake("--material", "matte")
-    assert run(["preview", "out.rsibr.exr", "--tables", shown, "-o", "ball.exr"]) == 1
-    assert "choose from diffuse, specular, coat, retro, refraction." in capfd.readouterr().err
+    assert run(["preview", "out.rsibr.exr", "--tables", shown, "-o", "ball.exr"]) == 2
+    assert "is not one of diffuse, specular, coat, retro, refraction" in capfd.readouterr().err
     assert not Path("ball.exr").exists()
 
 

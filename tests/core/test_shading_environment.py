@@ -70,5 +70,5 @@ def test_reflectance_is_schlick_s() -> None:
 
 
 def test_what_cannot_be_shaded_is_refused() -> None:
-    with pytest.raises(RangeError, match="f_lambda"):
+    with pytest.raises(RangeError, match=r"Reflectance cannot be 1\.5"):
         EnvironmentLook(f_lambda=(1.0, 1.0, 1.5))

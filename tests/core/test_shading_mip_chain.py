@@ -122,11 +122,11 @@ def test_a_ggx_chain_is_looked_up_by_roughness(random: MipChain) -> None:
 @pytest.mark.parametrize(
     ("values", "sentence"),
     [
-        ({"f_lambda": (0.1, 1.2, 0.0)}, "f_lambda .* choose numbers from 0 to 1"),
-        ({"k_d": (0.1, -0.2, 0.0)}, "k_d .* choose numbers from 0 to 1"),
-        ({"bias": -0.5}, "A bias of -0.5 .* choose a number from 0"),
-        ({"bias": np.nan}, "A bias of nan"),
-        ({"roughness": 1.5}, "A roughness of 1.5 .* choose one from 0 to 1"),
+        ({"f_lambda": (0.1, 1.2, 0.0)}, "Reflectance cannot be 1.2: choose 0 to 1"),
+        ({"k_d": (0.1, -0.2, 0.0)}, "Diffuse cannot be -0.2: choose 0 to 1"),
+        ({"bias": -0.5}, "Mip cannot be -0.5: choose 0 to"),
+        ({"bias": np.nan}, "Mip cannot be nan"),
+        ({"roughness": 1.5}, "Roughness cannot be 1.5: choose 0 to 1"),
         ({"roughness": 0.5, "bias": 1.0}, "give one of them"),
     ],
 )

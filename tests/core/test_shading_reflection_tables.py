@@ -70,7 +70,7 @@ def test_weights_of_the_look_multiply_those_of_the_tables() -> None:
     )
     look = TablesLook(**{f"w_{role}": factor for role, factor in factors.items()})
     np.testing.assert_allclose(reflect_tables(tables, NORMAL, VIEW, look), expected, rtol=1e-12)
-    with pytest.raises(RangeError, match="A weight of -1 is out of range"):
+    with pytest.raises(RangeError, match="Coat Weight cannot be -1"):
         TablesLook(w_coat=-1.0)
 
 
@@ -126,7 +126,7 @@ def test_antialiased_tables_are_means_over_the_pixel() -> None:
 
 def test_a_look_names_tables_that_there_are() -> None:
     assert TablesLook(("diffuse", Role.COAT)).shown == (Role.DIFFUSE, Role.COAT)
-    with pytest.raises(RangeError, match=r"no such table \('chrome' is not a valid Role\): choose from diff"):
+    with pytest.raises(RangeError, match="Tables cannot be chrome: choose one of diff"):
         TablesLook(("chrome",))
     with pytest.raises(RangeError, match="needs a table: choose from diffuse, specular"):
         TablesLook(())

@@ -1,11 +1,10 @@
 """Captures: the right views in the right place, whole or to be resumed, and refused in words."""
 
-import json
 import signal
 import subprocess
 import sys
 from collections.abc import Iterator
-from dataclasses import asdict, replace
+from dataclasses import replace
 from pathlib import Path
 
 import bpy
@@ -29,11 +28,13 @@ from rsibr.rsibr_addon.files.map_set import read_map_set
 from rsibr.rsibr_addon.files.pictures import write_exr
 from rsibr.rsibr_addon.host.cycles import BYTES_BESIDES, bytes_needed, render_view
 from rsibr.rsibr_addon.host.worlds import LIGHT_OF_TEXEL, light_with
-from rsibr.rsibr_addon.job import CaptureJob
+from rsibr.rsibr_addon.job import BakeJob
+from rsibr.rsibr_addon.settings.light import Light
+from rsibr.rsibr_addon.settings.radiance_views import RadianceViewsSettings
 from rsibr.rsibr_addon.tasks.light import environments
 from rsibr.rsibr_addon.tasks.methods import radiance_views as task
 from rsibr.rsibr_addon.tasks.methods.kinds import open_map_set
-from rsibr.rsibr_addon.tasks.methods.radiance_views import capture
+from rsibr.rsibr_addon.tasks.methods.registry import bake
 from rsibr.tests.open_file import open_file_state
 
 LIT = (12, 3)
@@ -49,16 +50,15 @@ def environment(tmp_path: Path) -> Environment:
 
 
 @pytest.fixture
-def job(tmp_path: Path, environment: Environment) -> CaptureJob:
+def job(tmp_path: Path, environment: Environment) -> BakeJob:
     """A capture that takes a second."""
-    return CaptureJob(
-        str(tmp_path / "light.exr"),
-        "copper",
-        str(tmp_path / "copper.rsibr.exr"),
-        size=12,
-        samples=4,
-        seed=3,
-    )
+    settings = RadianceViewsSettings(material="copper", size=12, samples=4, denoise=False, seed=3)
+    light = Light(environment=str(tmp_path / "light.exr"))
+    return BakeJob(settings, str(tmp_path / "copper.rsibr.exr"), light)
+
+
+def changed(job: BakeJob, **settings: object) -> BakeJob:
+    return replace(job, settings=replace(job.settings, **settings))
 
 
 @pytest.fixture
@@ -79,16 +79,16 @@ def rendered(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[int]]:
     return seeds
 
 
-def steps(job: CaptureJob, count: int) -> Iterator[Progress]:
+def steps(job: BakeJob, count: int) -> Iterator[Progress]:
     """A capture that has rendered `count` views, and waits."""
-    work = capture(job)
+    work = bake(job)
     for _ in range(count + 2):
         next(work)
     return work
 
 
-def test_a_capture_is_whole(job: CaptureJob, environment: Environment, partial: Path) -> None:
-    told = list(capture(job))
+def test_a_capture_is_whole(job: BakeJob, environment: Environment, partial: Path) -> None:
+    told = list(bake(job))
     assert [progress.done for progress in told] == [0, *range(12)]
     assert {progress.total for progress in told} == {12}
     assert not partial.exists()
@@ -108,9 +108,9 @@ def test_a_capture_is_whole(job: CaptureJob, environment: Environment, partial: 
     assert np.all(views.glossy[:, 0, 0].sum(axis=-1) > 0.0)
 
 
-def test_a_lit_texel_lands_in_every_view_where_the_conventions_say(job: CaptureJob) -> None:
+def test_a_lit_texel_lands_in_every_view_where_the_conventions_say(job: BakeJob) -> None:
     size = 48
-    drain(capture(replace(job, material="mirror", size=size, samples=8)))
+    drain(bake(changed(job, material="mirror", size=size, samples=8)))
     views = open_map_set(Path(job.output)).subject
     lit = equirect.direction_from_uv(texel_centres(32, 16)[LIT])
     inside = sphere_map.texel_solid_angle(size) * size**2 / 16.0 > 0.999
@@ -124,8 +124,8 @@ def test_a_lit_texel_lands_in_every_view_where_the_conventions_say(job: CaptureJ
             assert mean @ lit / np.linalg.norm(mean) > np.cos(np.radians(4.0))
 
 
-def test_an_interrupted_capture_goes_on(job: CaptureJob, partial: Path, rendered: list[int]) -> None:
-    drain(capture(job))
+def test_an_interrupted_capture_goes_on(job: BakeJob, partial: Path, rendered: list[int]) -> None:
+    drain(bake(job))
     uninterrupted = Path(job.output).read_bytes()
     Path(job.output).unlink()
     rendered.clear()
@@ -137,33 +137,33 @@ def test_an_interrupted_capture_goes_on(job: CaptureJob, partial: Path, rendered
     assert open_file_state() == before
     assert not Path(job.output).exists()
     assert len(list(partial.glob("view*.exr"))) == 4
-    drain(capture(job))
+    drain(bake(job))
     assert rendered == [3 + view for view in range(12)]  # each once
     assert Path(job.output).read_bytes() == uninterrupted
     assert not partial.exists()
 
 
-def test_a_killed_capture_goes_on_bit_for_bit(job: CaptureJob, partial: Path, rendered: list[int]) -> None:
+def test_a_killed_capture_goes_on_bit_for_bit(job: BakeJob, partial: Path, rendered: list[int]) -> None:
     job = replace(job, denoise=True)
-    drain(capture(job))
+    drain(bake(job))
     uninterrupted = Path(job.output).read_bytes()
     Path(job.output).unlink()
     rendered.clear()
 
     script = (
-        "import json, os, signal, sys\n"
-        "from rsibr.rsibr_addon.job import CaptureJob\n"
-        "from rsibr.rsibr_addon.tasks.methods.radiance_views import capture\n"
-        "for progress in capture(CaptureJob(**json.loads(sys.argv[1]))):\n"
+        "import os, signal, sys\n"
+        "from rsibr.rsibr_addon.job import read_job\n"
+        "from rsibr.rsibr_addon.tasks.methods.registry import bake\n"
+        "for progress in bake(read_job(sys.argv[1], 'job')):\n"
         "    if progress.done == 6:\n"
         "        os.kill(os.getpid(), signal.SIGKILL)\n"
     )
-    command = [sys.executable, "-c", script, json.dumps(asdict(job))]
+    command = [sys.executable, "-c", script, job.to_json()]
     process = subprocess.run(command, capture_output=True, check=False)
     assert process.returncode == -signal.SIGKILL
     assert not Path(job.output).exists()
     assert len(list(partial.glob("view*.exr"))) == 6
-    drain(capture(job))
+    drain(bake(job))
     assert len(rendered) == 6
     assert Path(job.output).read_bytes() == uninterrupted
     assert not partial.exists()
@@ -171,9 +171,9 @@ def test_a_killed_capture_goes_on_bit_for_bit(job: CaptureJob, partial: Path, re
 
 @pytest.mark.parametrize("described", [True, False])
 def test_a_capture_killed_after_it_named_its_output_needs_no_force(
-    described: bool, job: CaptureJob, partial: Path, rendered: list[int]
+    described: bool, job: BakeJob, partial: Path, rendered: list[int]
 ) -> None:
-    drain(capture(job))
+    drain(bake(job))
     whole = Path(job.output).read_bytes()
     Path(job.output).unlink()
     steps(job, 11).close()
@@ -182,87 +182,87 @@ def test_a_capture_killed_after_it_named_its_output_needs_no_force(
         (partial / "job.json").unlink()  # it goes before the views do
     rendered.clear()
     with pytest.raises(OutputFileError, match=r"exists: .*--force"):
-        drain(capture(replace(job, seed=50)))
+        drain(bake(changed(job, seed=50)))
     assert len(list(partial.glob("view*.exr"))) == 11
-    drain(capture(job))
+    drain(bake(job))
     assert not partial.exists()
     assert rendered == []
     assert Path(job.output).read_bytes() == whole
     # Now nothing tells that it was interrupted
     with pytest.raises(OutputFileError, match=r"exists: .*--force"):
-        drain(capture(job))
+        drain(bake(job))
 
 
 @pytest.mark.parametrize("denoise", [False, True])
 def test_a_size_that_memory_does_not_hold_is_refused_before_any_view(
-    denoise: bool, job: CaptureJob, partial: Path, rendered: list[int], monkeypatch: pytest.MonkeyPatch
+    denoise: bool, job: BakeJob, partial: Path, rendered: list[int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     left = BYTES_BESIDES + LIGHT_OF_TEXEL * 16 * 32 + bytes_needed(100**2, denoise)
     monkeypatch.setattr(memory, "memory_left", lambda: left)
     with pytest.raises(RangeError, match=r" at 200x200, .*: shrink it to (100x100|99x99) at most"):
-        drain(capture(replace(job, size=200, denoise=denoise)))
+        drain(bake(changed(job, size=200, denoise=denoise)))
     assert rendered == []
     assert not partial.exists()
-    drain(capture(replace(job, size=99, denoise=denoise, samples=2)))
+    drain(bake(changed(job, size=99, denoise=denoise, samples=2)))
 
 
-def test_views_of_another_job_are_not_taken(job: CaptureJob, partial: Path, rendered: list[int]) -> None:
+def test_views_of_another_job_are_not_taken(job: BakeJob, partial: Path, rendered: list[int]) -> None:
     steps(job, 2).close()
     rendered.clear()
     with pytest.warns(RsibrWarning, match=r"partial held parts of another job"):
-        drain(capture(replace(job, seed=50)))
+        drain(bake(changed(job, seed=50)))
     assert len(rendered) == 12
     assert not partial.exists()
 
 
-def test_a_damaged_view_is_rendered_again(job: CaptureJob, partial: Path, rendered: list[int]) -> None:
+def test_a_damaged_view_is_rendered_again(job: BakeJob, partial: Path, rendered: list[int]) -> None:
     steps(job, 3).close()
     damaged = partial / "view001.exr"
     damaged.write_bytes(damaged.read_bytes()[:-100])
     rendered.clear()
-    drain(capture(job))
+    drain(bake(job))
     assert rendered == [3 + view for view in (1, *range(3, 12))]
 
 
-def test_two_captures_do_not_meet(job: CaptureJob) -> None:
+def test_two_captures_do_not_meet(job: BakeJob) -> None:
     first = steps(job, 1)
-    second = capture(job)
+    second = bake(job)
     with pytest.raises(OutputFileError, match=r"Another process is working in .*partial: wait for it"):
         drain(second)
     first.close()
-    drain(capture(job))
+    drain(bake(job))
 
 
-def test_an_output_that_exists_is_refused_at_once(job: CaptureJob, rendered: list[int]) -> None:
+def test_an_output_that_exists_is_refused_at_once(job: BakeJob, rendered: list[int]) -> None:
     Path(job.output).write_text("precious")
     with pytest.raises(OutputFileError, match=r"exists: .*--force"):
-        next(capture(job))
+        next(bake(job))
     assert Path(job.output).read_text() == "precious"
-    drain(capture(replace(job, force=True)))
+    drain(bake(replace(job, force=True)))
     assert read_map_set(job.output).kind == "radiance_views"
 
 
-def test_an_output_that_appears_meanwhile_stays(job: CaptureJob, partial: Path) -> None:
+def test_an_output_that_appears_meanwhile_stays(job: BakeJob, partial: Path) -> None:
     work = steps(job, 1)
     Path(job.output).write_text("precious")
     with pytest.raises(OutputFileError, match="exists"):
         drain(work)
     assert Path(job.output).read_text() == "precious"
     Path(job.output).unlink()
-    drain(capture(job))
+    drain(bake(job))
     assert not partial.exists()
 
 
-def test_a_foreign_folder_in_the_way_stays(job: CaptureJob, partial: Path) -> None:
+def test_a_foreign_folder_in_the_way_stays(job: BakeJob, partial: Path) -> None:
     partial.mkdir()
     (partial / "thesis.txt").write_text("precious")
     with pytest.raises(OutputFileError, match="holds files other than unfinished work"):
-        drain(capture(job))
+        drain(bake(job))
     assert (partial / "thesis.txt").read_text() == "precious"
 
 
 def test_a_failing_render_leaves_nothing_behind(
-    job: CaptureJob, partial: Path, monkeypatch: pytest.MonkeyPatch
+    job: BakeJob, partial: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def fail(*_: object) -> None:
         raise RenderError("Blender cannot render.")
@@ -270,20 +270,20 @@ def test_a_failing_render_leaves_nothing_behind(
     monkeypatch.setattr(task, "render_view", fail)
     before = open_file_state()
     with pytest.raises(RenderError):
-        drain(capture(job))
+        drain(bake(job))
     assert open_file_state() == before
     assert not partial.exists()
     assert not Path(job.output).exists()
 
 
 def test_the_artists_own_world_and_material_can_be_captured(
-    job: CaptureJob, environment: Environment, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    job: BakeJob, environment: Environment, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(environments, "WORLD_HEIGHT", 16)
     light_with(bpy.context.scene, environment)
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
     before = open_file_state()
-    drain(capture(replace(job, environment=None, material=":Material")))
+    drain(bake(replace(changed(job, material=":Material"), light=Light())))
     assert open_file_state() == before
     header = read_map_set(job.output).header
     assert header["environment"]["name"] == bpy.context.scene.world.name
@@ -292,41 +292,41 @@ def test_the_artists_own_world_and_material_can_be_captured(
     assert header["material"]["spec"] == f"{tmp_path / 'scene.blend'}:Material"
 
 
-def test_a_material_that_changes_meanwhile_is_refused(job: CaptureJob) -> None:
-    work = steps(replace(job, material=":Material"), 2)
+def test_a_material_that_changes_meanwhile_is_refused(job: BakeJob) -> None:
+    work = steps(changed(job, material=":Material"), 2)
     bsdf = bpy.data.materials["Material"].node_tree.nodes["Principled BSDF"]
     bsdf.inputs["Roughness"].default_value = 0.123
     with pytest.raises(SceneError, match="Material :Material was changed while it was captured"):
         drain(work)
 
 
-def test_a_material_that_no_radiance_map_can_hold_is_captured_with_a_word(job: CaptureJob) -> None:
+def test_a_material_that_no_radiance_map_can_hold_is_captured_with_a_word(job: BakeJob) -> None:
     tree = bpy.data.materials["Material"].node_tree
     texture = tree.nodes.new("ShaderNodeTexNoise")
     tree.links.new(texture.outputs["Color"], tree.nodes["Principled BSDF"].inputs["Base Color"])
     with pytest.warns(RsibrWarning, match="No radiance map can hold :Material, .*default coordinates"):
-        drain(capture(replace(job, material=":Material")))
+        drain(bake(changed(job, material=":Material")))
     assert Path(job.output).exists()
 
 
-def test_what_cannot_be_captured_is_said_before_anything_is_written(job: CaptureJob, tmp_path: Path) -> None:
-    for change, error, words in [
-        ({"environment": str(tmp_path / "no.exr")}, InputFileError, "There is no environment .*no.exr: give"),
-        ({"environment": "forrest"}, InputFileError, "one of city, .*forest"),
-        ({"material": "coper"}, InputFileError, "There is no material coper"),
-        ({"samples": 1}, RangeError, "cannot take 1 samples"),
-        ({"seed": 2**31 - 5}, RangeError, "seed 2147483648 is out of range"),
-        ({"output": str(tmp_path / "no" / "x.exr")}, OutputFileError, "make that folder first"),
-        ({"output": str(tmp_path)}, OutputFileError, "is a folder"),
+def test_what_cannot_be_captured_is_said_before_anything_is_written(job: BakeJob, tmp_path: Path) -> None:
+    nowhere, misspelt = Light(environment=str(tmp_path / "no.exr")), Light(environment="forrest")
+    for wrong, error, words in [
+        (replace(job, light=nowhere), InputFileError, "There is no environment .*no.exr: give"),
+        (replace(job, light=misspelt), InputFileError, "one of city, .*forest"),
+        (changed(job, material="coper"), InputFileError, "There is no material coper"),
+        (changed(job, seed=2**31 - 5), RangeError, "seed 2147483648 is out of range"),
+        (replace(job, output=str(tmp_path / "no" / "x.exr")), OutputFileError, "make that folder first"),
+        (replace(job, output=str(tmp_path)), OutputFileError, "is a folder"),
     ]:
         with pytest.raises(error, match=words):
-            drain(capture(replace(job, **change)))
+            drain(bake(wrong))
     bpy.context.scene.world = None
     with pytest.raises(SceneError, match="has no world"):
-        drain(capture(replace(job, environment=None)))
+        drain(bake(replace(job, light=Light())))
     assert [path.name for path in tmp_path.iterdir()] == ["light.exr"]
 
 
-def test_blenders_environments_go_by_name(job: CaptureJob) -> None:
+def test_blenders_environments_go_by_name(job: BakeJob) -> None:
     with pytest.warns(RsibrWarning, match="negative values"):
-        steps(replace(job, environment="forest"), 1).close()
+        steps(replace(job, light=Light(environment="forest")), 1).close()

@@ -9,7 +9,7 @@ from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.files.map_set import read_map_set, read_map_set_header
 from rsibr.rsibr_addon.files.pictures import read_exr
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
-from rsibr.rsibr_addon.job import BakeJob
+from rsibr.rsibr_addon.job import CommandJob
 
 OUTPUT = "out.rsibr.exr"
 COMMANDS = {
@@ -36,7 +36,7 @@ def test_the_light_is_clamped_and_the_file_says_so(
     light: np.ndarray, command: str, capfd: pytest.CaptureFixture[str]
 ) -> None:
     options = (command, "--environment", "light.exr", *COMMANDS[command], "--clamp", "2.5", "-o", OUTPUT)
-    Path("job.json").write_text(BakeJob(options).to_json(), encoding="utf-8")
+    Path("job.json").write_text(CommandJob(options).to_json(), encoding="utf-8")
     assert run(["bake", "job.json", "--progress", "none"]) == 0
     told = capfd.readouterr().err
     assert "light.exr holds 3 values above 2.5; they are taken as 2.5." in told

@@ -15,7 +15,7 @@ from rsibr.rsibr_addon.core.lobes.bank import KernelBank
 from rsibr.rsibr_addon.files.fits import write_fit
 from rsibr.rsibr_addon.files.kinds import kernel_bank, lobe_stack, mip_chain, reflection_tables
 from rsibr.rsibr_addon.files.map_set_data import MapSet
-from rsibr.rsibr_addon.job import BakeJob
+from rsibr.rsibr_addon.job import CommandJob
 from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, SceneSettings, WayError
 from rsibr.rsibr_addon.tasks.compare.lobe_stack import StackComparison, StackWay
 from rsibr.rsibr_addon.tasks.compare.radiance_views import ViewsComparison, ViewsWay
@@ -36,7 +36,7 @@ def json_files(folder: Path) -> dict[str, str]:
     """Name -> text, of fits, jobs and comparisons."""
     write_fit(folder / "fit.json", random_fit(KernelBank((0.5, 4.0))), {"E": 0.1}, force=True)
     fit = (folder / "fit.json").read_text()
-    job = BakeJob(("bake", "--brdf", BRDF, "--size", "16", "--output", "out.rsibr.exr")).to_json()
+    job = CommandJob(("bake", "--brdf", BRDF, "--size", "16", "--output", "out.rsibr.exr")).to_json()
     views = _comparison(
         ViewsComparison(views=2), WayError(ViewsWay(12, Mode.PAPER, Warping.SPLIT), (0.1, 0.2), 0.15)
     )

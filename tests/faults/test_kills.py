@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
-from rsibr.rsibr_addon.job import BakeJob
+from rsibr.rsibr_addon.job import CommandJob
 
 pytestmark = [
     pytest.mark.skipif(sys.platform != "linux", reason="has process groups and PDEATHSIG"),
@@ -120,7 +120,7 @@ def truths(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Truth]:
     source = tmp_path_factory.mktemp("source")
     write_radiance(source / "env.exr", np.random.default_rng(1).random((128, 256, 3)))
     job = QUICK["bake"].replace("{in}", str(source)).split()
-    (source / "job.json").write_text(BakeJob((*job, "--force")).to_json())  # as the panel writes it
+    (source / "job.json").write_text(CommandJob((*job, "--force")).to_json())  # as the panel writes it
     found = {}
     for name in sorted(COMMANDS, key=lambda name: name not in SOURCES):
         argv = COMMANDS[name].replace("{in}", str(source)).split()

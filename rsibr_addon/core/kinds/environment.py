@@ -11,32 +11,28 @@ from ..conventions import Array, ArrayLike
 from ..environment import Environment
 from ..geometry.directions import dot, reflect
 from ..maps import equirect
+from ..options import Options, option
 from ..resample import bilinear
-from .checks import check_shares
 
 
 @dataclass(frozen=True)
-class EnvironmentLook:
-    """Look of a mirror in an environment.
+class EnvironmentLook(Options):
+    """How a mirror in an environment is shaded."""
 
-    Attributes
-    ----------
-    f_lambda : tuple of 3 floats
-        Reflectance at normal incidence in [0, 1], as in `MipLook`; 1 is a perfect mirror.
-    antialiased : bool
-        Whether light is averaged over what a pixel reflects; otherwise it is interpolated.
-
-    Raises
-    ------
-    RangeError
-        `f_lambda` is out of range.
-    """
-
-    f_lambda: tuple[float, float, float] = (1.0, 1.0, 1.0)
-    antialiased: bool = True
-
-    def __post_init__(self) -> None:
-        check_shares("f_lambda", self.f_lambda)
+    f_lambda: tuple[float, float, float] = option(
+        (1.0, 1.0, 1.0),
+        label="Reflectance",
+        help="Reflectance of the mirror at normal incidence; 1 is a perfect mirror",
+        least=0.0,
+        most=1.0,
+        subtype="COLOR",
+        metavar="F|R,G,B",
+    )
+    antialiased: bool = option(
+        True,
+        label="Antialiased",
+        help="Average the light over what each pixel reflects, so that small lamps do not shimmer",
+    )
 
 
 def mirrored_environment(

@@ -1,74 +1,42 @@
 """An environment to a bank of kernels, in a map set: materials are chosen while one looks."""
 
-from dataclasses import dataclass
-from pathlib import Path
+from math import log2
 
-from ...core.filtering.prefilter import BYTES_BESIDES
-from ...core.kinds.lobe_stack.stack import LAYOUTS, stack_representation
-from ...core.lobes.bake import BakedBank, bake_bank
-from ...core.progress import Progress, Steps
-from ...files.atomic import check_target
+from ...core.filtering.prefilter import BYTES_BESIDES, bytes_needed
+from ...core.lobes.bake import bake_bank
+from ...core.options import to_plain
+from ...core.progress import Steps
 from ...files.kinds.kernel_bank import to_map_set
-from ...files.map_set import write_map_set
-from ...files.memory import check_memory
 from ...host.version import software
-from ..light.environments import load_environment
+from ...job import BakeJob
+from ...settings.kernel_bank import KernelBankSettings
+from .method import (
+    BLENDER_MEMORY,
+    BLENDER_SECONDS,
+    ENVIRONMENT_TEXELS,
+    RGB,
+    STORED,
+    Baked,
+    Cost,
+    afforded_by,
+    read_light,
+    written,
+)
 
 
-@dataclass(frozen=True)
-class BankSettings:
-    """How maps are laid out.
-
-    Attributes
-    ----------
-    layout : str
-        One of `core.kinds.lobe_stack.stack.LAYOUTS`.
-    size : int
-        Width of the maps in texels.
-
-    Raises
-    ------
-    RangeError
-        There is no such layout, or the size is out of range.
-    """
-
-    layout: str = LAYOUTS[0]
-    size: int = 128
-
-    def __post_init__(self) -> None:
-        stack_representation(self.layout, self.size)
+def cost(settings: KernelBankSettings) -> Cost:
+    """See `Method`; two paraboloids for each kernel, two kernels more when maps are twice as wide."""
+    kernels, texels = int(2 * log2(settings.size)), 2 * settings.size**2
+    maps = kernels * texels * RGB
+    return Cost(
+        BLENDER_SECONDS + 0.5 + 1e-7 * maps,
+        BLENDER_MEMORY + BYTES_BESIDES + bytes_needed(kernels, texels) + maps,
+        STORED * (maps + ENVIRONMENT_TEXELS * RGB),
+    )
 
 
-def bake_environment(
-    environment: str | None,
-    settings: BankSettings,
-    output: Path,
-    force: bool = False,
-    clamp: float | None = None,
-) -> Steps[BakedBank]:
+def bake(job: BakeJob[KernelBankSettings]) -> Steps[Baked]:
     """Filter an environment with every kernel that the maps resolve.
-
-    Parameters
-    ----------
-    environment : str or None
-        A latitude-longitude file, a name of one of Blender's own, or None for the open file's world:
-        see `load_environment`.
-    settings : BankSettings
-    output : Path
-        By custom NAME.rsibr.exr.
-    force : bool
-        Whether an existing file is replaced.
-    clamp : float, optional
-        See `core.environment.usable_radiance`.
-
-    Yields
-    ------
-    Progress
-
-    Returns
-    -------
-    BakedBank
-        What was written.
 
     Raises
     ------
@@ -81,15 +49,14 @@ def bake_environment(
     RsibrWarning
         See `load_environment`.
     """
-    check_target(output, force)
-    yield Progress(0, 1, "reading the environment")
-    light = load_environment(environment, clamp)
-
-    def afford(needed: float, size: int) -> None:
-        check_memory(needed, str(output), (size, size), BYTES_BESIDES)
-
+    settings = job.settings
+    light = yield from read_light(job)
+    afford = afforded_by(job, BYTES_BESIDES)
     baked = yield from bake_bank(light.radiance, settings.layout, settings.size, afford)
-    stated = {"layout": settings.layout, "size": settings.size}
-    yield Progress(0, 1, f"writing {output.name}")
-    write_map_set(output, to_map_set(baked, light, stated, software()), force)
-    return baked
+    path = yield from written(job, to_map_set(baked, light, to_plain(settings), software()))
+    kernels, sharpest, size = len(baked.filtered.bank), baked.filtered.sharpest, settings.size
+    return Baked(
+        path,
+        f"{kernels} kernels, the sharpest of concentration {sharpest:g}, {size}x{size} texels",
+        {"kernels": kernels, "sharpest": sharpest},
+    )

@@ -1,102 +1,101 @@
 """An environment and a reflectance model, or its fit, to a lobe stack, in a map set."""
 
 import warnings
-from dataclasses import dataclass, replace
 from itertools import count
+from math import ceil, log2
 from pathlib import Path
 
-from ...core.brdf.model import Brdf
+from ...core.brdf.gallery import gallery_name
+from ...core.brdf.lambert import Lambert
+from ...core.brdf.spec import MEASURED, brdf_from_spec
 from ...core.environment import Environment
 from ...core.errors import RsibrWarning
-from ...core.filtering.prefilter import BYTES_BESIDES
-from ...core.kinds.lobe_stack.stack import LAYOUTS, stack_representation
+from ...core.filtering.prefilter import BYTES_BESIDES, bytes_needed
 from ...core.lobes.accuracy import fit_errors
-from ...core.lobes.bake import BakedStack, bake_stack, sharpest_resolved
+from ...core.lobes.bake import SIZES, bake_stack, sharpest_resolved
 from ...core.lobes.fit import Fit
 from ...core.progress import Progress, Steps
-from ...files.atomic import check_target
 from ...files.fits import read_fit
 from ...files.kinds.lobe_stack import in_turn
-from ...files.map_set import write_map_set
-from ...files.memory import check_memory
 from ...host.version import software
-from ..light.environments import load_environment
-from ..reflectance.brdfs import load_brdf
-from ..reflectance.fit_lobes import METHODS, FitSettings
+from ...job import BakeJob
+from ...settings.lobe_stack import LobeStackSettings
+from ..reflectance.brdfs import MATERIAL, load_brdf
+from ..reflectance.fit_lobes import fitted
+from .method import (
+    BLENDER_MEMORY,
+    BLENDER_SECONDS,
+    ENVIRONMENT_TEXELS,
+    RGB,
+    STORED,
+    Baked,
+    Cost,
+    afforded_by,
+    read_light,
+    written,
+)
 
 TOLD_INTERPOLATION = 0.01
 """Relative error that lookups may be expected to cost before somebody is told."""
 
+TEXELS_BY_ALPHA = 38.0
+"""Width of a map times its lobe's width alpha, as bakes choose it in Blender's `forest`."""
 
-@dataclass(frozen=True)
-class StackSettings:
-    """How maps are laid out and stored.
+KERNELS = 12
+"""Kernels that the lobes of a usual fit are sums of."""
 
-    Attributes
-    ----------
-    layout : str
-        One of `core.kinds.lobe_stack.stack.LAYOUTS`.
-    size : int or None
-        Width of the maps in texels; None for what the lobes need.
-    half : bool
-        Store 16-bit floats.
+LOBE_SIZE = 128
+"""Width of a map where nothing is known of the lobes."""
+
+
+def material(settings: LobeStackSettings) -> str:
+    """See `Method`."""
+    if settings.brdf is None:
+        return Path(settings.fit or "").stem
+    named = gallery_name(settings.brdf).removeprefix(f"{MATERIAL}::")
+    return named if "path=" not in named else Path(named).stem
+
+
+def cost(settings: LobeStackSettings) -> Cost:
+    """See `Method`; two paraboloids.
 
     Raises
     ------
     RangeError
-        There is no such layout, or the size is out of range.
+        The text describes no model.
     """
+    layers, size = _layers_and_size(settings.brdf or MATERIAL)
+    maps = layers * settings.lobes * settings.slices * 2 * (settings.size or size) ** 2 * RGB
+    measuring = 12.0 * (settings.brdf or "").startswith(MATERIAL)
+    fitting = 0.01 * layers * settings.lobes * settings.slices
+    filtering = 1.0 + 4e-8 * maps
+    stored = 0.2 if settings.half else STORED
+    return Cost(
+        BLENDER_SECONDS + measuring + fitting + filtering,
+        BLENDER_MEMORY + BYTES_BESIDES + bytes_needed(KERNELS, 2 * (settings.size or size) ** 2),
+        stored * maps + STORED * ENVIRONMENT_TEXELS * RGB,
+    )
 
-    layout: str = LAYOUTS[0]
-    size: int | None = None
-    half: bool = False
 
-    def __post_init__(self) -> None:
-        stack_representation(self.layout, 2 if self.size is None else self.size)
+def _layers_and_size(spec: str) -> tuple[int, int]:
+    """How many layers a model has, and how large its maps will be: roughly, by its sharpest lobe."""
+    if spec.startswith((MATERIAL, *MEASURED)):
+        return 1, LOBE_SIZE
+    layers = brdf_from_spec(spec, lambda name, path: Lambert(kd=0.5)).layers
+    alpha = min(getattr(layer, "alpha", 1.0) for layer in layers)
+    return len(layers), min(2 ** ceil(log2(TEXELS_BY_ALPHA / alpha)), SIZES[-1])
 
 
-def bake_brdf(
-    environment: str | None,
-    spec: str,
-    fitting: FitSettings,
-    settings: StackSettings,
-    output: Path,
-    force: bool = False,
-    clamp: float | None = None,
-) -> Steps[BakedStack]:
-    """Fit lobes to a model and filter an environment with them.
-
-    Parameters
-    ----------
-    environment : str or None
-        A latitude-longitude file, a name of one of Blender's own, or None for the open file's world:
-        see `load_environment`.
-    spec : str
-        The model: see `tasks.reflectance.brdfs.load_brdf`.
-    fitting : FitSettings
-    settings : StackSettings
-    output : Path
-        By custom NAME.rsibr.exr.
-    force : bool
-        Whether an existing file is replaced.
-    clamp : float, optional
-        See `core.environment.usable_radiance`.
-
-    Yields
-    ------
-    Progress
-
-    Returns
-    -------
-    BakedStack
-        What was written, before rounding to half floats.
+def bake(job: BakeJob[LobeStackSettings]) -> Steps[Baked]:
+    """Filter an environment with the lobes of a model, or of a fit that was made before.
 
     Raises
     ------
     InputFileError, OutputFileError, SceneError, RenderError
     RangeError
-        The text describes no model; the environment resolves no kernel at all, light is too bright for half
-        floats, or the maps are too large for this machine's memory.
+        The text describes no model; the environment resolves no kernel at all, or a fit's lobe is narrower
+        than it resolves; light is too bright for half floats, or the maps are too large for this machine's
+        memory.
 
     Warns
     -----
@@ -104,66 +103,41 @@ def bake_brdf(
         See `load_brdf` and `load_environment`; the maps are small for their lobes; or the environment is too
         coarse for the sharpest kernels, which are left out.
     """
-    check_target(output, force)
-    yield Progress(0, 1, "reading the environment")
-    light = load_environment(environment, clamp)
-    brdf = yield from load_brdf(spec)
-    fit = yield from _resolved_fit(brdf, fitting, light)
-    return (yield from _baked(light, fit, settings, output, force))
+    settings = job.settings
+    light = yield from read_light(job)
+    if settings.brdf is None:
+        fit = read_fit(Path(settings.fit or ""))
+    else:
+        fit = yield from _resolved_fit(settings.brdf, settings, light)
+    afford = afforded_by(job, BYTES_BESIDES)
+    baked = yield from bake_stack(light.radiance, fit, settings.layout, settings.size, afford)
+    size, interpolation = baked.filtered.size, baked.interpolation
+    if interpolation > TOLD_INTERPOLATION:
+        warnings.warn(
+            f"Lookups in maps of {size} texels cost about {100.0 * interpolation:.2g} %: choose "
+            f"a larger size.",
+            RsibrWarning,
+            stacklevel=2,
+        )
+    stated = {"layout": settings.layout, "size": size, "half": settings.half}
+    path = yield from written(job, in_turn(baked, light, stated, software()), settings.half)
+    lobes, maps = baked.fit.weights.shape[:2]
+    return Baked(
+        path,
+        f"lobes: {lobes}, maps of each: {maps}, {size}x{size} texels",
+        {"lobes": lobes, "elevations": len(baked.fit.mu), "size": size, "interpolation": interpolation},
+    )
 
 
-def bake_fit(
-    environment: str | None,
-    fit: Path,
-    settings: StackSettings,
-    output: Path,
-    force: bool = False,
-    clamp: float | None = None,
-) -> Steps[BakedStack]:
-    """Filter an environment with the lobes of a fit that was made before.
-
-    Parameters
-    ----------
-    environment : str or None
-        As in `bake_brdf`.
-    fit : Path
-        What `tasks.reflectance.fit_lobes` wrote.
-    settings, output, force, clamp
-        As in `bake_brdf`.
-
-    Yields
-    ------
-    Progress
-
-    Returns
-    -------
-    BakedStack
-
-    Raises
-    ------
-    InputFileError, OutputFileError, SceneError, RenderError
-    RangeError
-        A lobe is narrower than the environment resolves, light too bright for half floats, or the maps too
-        large for this machine's memory.
-
-    Warns
-    -----
-    RsibrWarning
-        See `load_environment`; or the maps are small for their lobes.
-    """
-    check_target(output, force)
-    yield Progress(0, 1, "reading the environment")
-    return (yield from _baked(load_environment(environment, clamp), read_fit(fit), settings, output, force))
-
-
-def _resolved_fit(brdf: Brdf, fitting: FitSettings, light: Environment) -> Steps[Fit]:
+def _resolved_fit(spec: str, settings: LobeStackSettings, light: Environment) -> Steps[Fit]:
     """A fit with the kernels that the environment resolves, and a warning where sharper ones would serve."""
-    fit = yield from METHODS[fitting.method](brdf, fitting)
+    brdf = yield from load_brdf(spec)
+    fit = yield from fitted(brdf, settings)
     height, width = light.radiance.shape[:2]
     resolved, sharpest = sharpest_resolved(height), fit.bank.kappa[fit.used].max(initial=0.0)
     if sharpest <= resolved:
         return fit
-    coarser = yield from METHODS[fitting.method](brdf, replace(fitting, sharpest=resolved))
+    coarser = yield from fitted(brdf, settings, resolved)
     yield Progress(0, 1, "measuring the fits")
     without, with_sharper = (fit_errors(each, brdf).error for each in (coarser, fit))
     enough = next(2**n for n in count(1) if sharpest_resolved(height * 2**n) >= sharpest)
@@ -175,24 +149,3 @@ def _resolved_fit(brdf: Brdf, fitting: FitSettings, light: Environment) -> Steps
         stacklevel=2,
     )
     return coarser
-
-
-def _baked(
-    light: Environment, fit: Fit, settings: StackSettings, output: Path, force: bool
-) -> Steps[BakedStack]:
-    def afford(needed: float, size: int) -> None:
-        check_memory(needed, str(output), (size, size), BYTES_BESIDES)
-
-    baked = yield from bake_stack(light.radiance, fit, settings.layout, settings.size, afford)
-    size = baked.filtered.size
-    if baked.interpolation > TOLD_INTERPOLATION:
-        warnings.warn(
-            f"Lookups in maps of {size} texels cost about {100.0 * baked.interpolation:.2g} %: choose "
-            f"a larger size.",
-            RsibrWarning,
-            stacklevel=2,
-        )
-    stated = {"layout": settings.layout, "size": size, "half": settings.half}
-    yield Progress(0, 1, f"writing {output.name}")
-    write_map_set(output, in_turn(baked, light, stated, software()), force, settings.half)
-    return baked

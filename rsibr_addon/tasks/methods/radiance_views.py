@@ -1,6 +1,5 @@
 """Radiance views of a material, rendered by Cycles into a map set."""
 
-import dataclasses
 import json
 import warnings
 from collections.abc import Iterator
@@ -10,10 +9,12 @@ from typing import Any
 import numpy as np
 
 from ...core.conventions import Array
+from ...core.environment import Environment
 from ...core.errors import InputFileError, MapSetError, RsibrWarning, SceneError
 from ...core.geometry.camera import Camera
 from ...core.geometry.geodesic import geodesic_sphere
 from ...core.maps.sphere_map import fill_rim
+from ...core.options import to_plain
 from ...core.progress import Progress, Steps
 from ...files.atomic import check_target, written_aside
 from ...files.exr import Part, read_attributes, read_parts, write_parts
@@ -31,8 +32,11 @@ from ...host.shape_dependence import shape_dependence
 from ...host.spheres import add_sphere
 from ...host.version import software
 from ...host.worlds import LIGHT_OF_TEXEL, light_with
-from ...job import CaptureJob
+from ...job import BakeJob
+from ...settings.light import Light
+from ...settings.radiance_views import RadianceViewsSettings
 from ..light.environments import load_environment
+from .method import BLENDER_MEMORY, BLENDER_SECONDS, ENVIRONMENT_TEXELS, RGB, STORED, Baked, Cost
 
 ALBEDO = "albedo"
 """Name and role of the part that holds the material's directional albedo."""
@@ -41,22 +45,27 @@ NOISE = "noise"
 """Attribute of a finished view: its relative standard error."""
 
 
-def capture(job: CaptureJob) -> Steps[Path]:
-    """Render the views of a material into a map set.
+def material(settings: RadianceViewsSettings) -> str:
+    """See `Method`."""
+    return settings.material.removeprefix(":")
 
-    Parameters
-    ----------
-    job : CaptureJob
 
-    Yields
-    ------
-    Progress
-        Before each view. Between two steps nothing of ours is in the open file.
+def cost(settings: RadianceViewsSettings) -> Cost:
+    """See `Method`; measured on a sphere in Blender's `forest`."""
+    texels = settings.views * settings.size**2
+    rendering = settings.views * (0.5 + 1.5 * settings.denoise) + 2.5e-6 * texels * settings.samples
+    maps = 2 * texels * RGB
+    environment = ENVIRONMENT_TEXELS * RGB
+    albedo = 4.0
+    return Cost(
+        BLENDER_SECONDS + albedo + rendering,
+        BLENDER_MEMORY + 2 * maps + 8 * environment,
+        STORED * (maps + environment),
+    )
 
-    Returns
-    -------
-    Path
-        The map set.
+
+def bake(job: BakeJob[RadianceViewsSettings]) -> Steps[Baked]:
+    """Render the views of a material. Between two steps nothing of ours is in the open file.
 
     Raises
     ------
@@ -77,56 +86,56 @@ def capture(job: CaptureJob) -> Steps[Path]:
     interrupted, even killed, goes on with them, and the result is the same, bit by bit. Never more than
     one view is in memory.
     """
+    asked = job.settings
     settings = [
-        RenderSettings(job.size, job.samples, job.denoise, job.seed + view) for view in range(job.views)
+        RenderSettings(asked.size, asked.samples, asked.denoise, asked.seed + view)
+        for view in range(asked.views)
     ]
     output = Path(job.output)
+    done = Baked(output, f"{asked.views} views of {asked.size}x{asked.size}")
     # A capture that was killed at its very end has named its output, and its views are still there
     named = not job.force and output.is_file() and work_folder_beside(output).is_dir()
     check_target(output, job.force or named)
-    yield Progress(0, job.views, "reading the environment")
-    subject = _Subject(job)
-    if named and subject.is_in(output):
+    yield Progress(0, asked.views, "reading the environment")
+    captured = _Captured(asked, load_environment(job.light.environment, job.light.clamp))
+    if named and captured.is_in(output):
         clear_work_folder(work_folder_beside(output))
-        return output
+        return done
     check_target(output, job.force)
-    subject.check_memory(output)
-    with work_folder(work_folder_beside(output), subject.identity) as folder:
-        paths = [folder / f"view{view:03d}.exr" for view in range(job.views)]
+    captured.check_memory(output)
+    with work_folder(work_folder_beside(output), captured.identity(job.light)) as folder:
+        paths = [folder / f"view{view:03d}.exr" for view in range(asked.views)]
         for view, path in enumerate(paths):
-            yield Progress(view, job.views, f"rendering view {view + 1} of {job.views}")
+            yield Progress(view, asked.views, f"rendering view {view + 1} of {asked.views}")
             if not _is_finished(path):
-                _write_view(path, subject.render(view, settings[view]))
-        write_map_set(output, _map_set(subject, paths), job.force)
-    return output
+                _write_view(path, captured.render(view, settings[view]))
+        write_map_set(output, _map_set(captured, paths), job.force)
+    return done
 
 
-class _Subject:
-    """What is captured: a material in an environment, from the vertices of a geodesic sphere."""
+class _Captured:
+    """A material in an environment, from the vertices of a geodesic sphere."""
 
-    def __init__(self, job: CaptureJob) -> None:
-        self.job = job
-        self.environment = load_environment(job.environment, job.clamp)
+    def __init__(self, settings: RadianceViewsSettings, light: Environment) -> None:
+        self.settings, self.environment = settings, light
         with temporary_scene():
-            material = load_material(job.material)
+            material = load_material(settings.material)
             self.fingerprint = fingerprint(material)
             reasons = shape_dependence(material)
         if reasons:
             warnings.warn(
-                f"No radiance map can hold {job.material}, so it is captured as it looks on a sphere: "
+                f"No radiance map can hold {settings.material}, so it is captured as it looks on a sphere: "
                 f"{'; '.join(reasons)}.",
                 RsibrWarning,
                 stacklevel=3,
             )
-        self.view_dirs = geodesic_sphere(job.views).vertices
+        self.view_dirs = geodesic_sphere(settings.views).vertices
 
-    @property
-    def identity(self) -> dict[str, Any]:
+    def identity(self, light: Light) -> dict[str, Any]:
         """All that views depend on, as JSON values."""
-        job = dataclasses.asdict(self.job)
-        del job["output"], job["force"]
         return {
-            "job": job,
+            "settings": to_plain(self.settings),
+            "light": to_plain(light),
             "environment": self.environment.sha256,
             "material": self.fingerprint,
             "software": software(),
@@ -134,9 +143,9 @@ class _Subject:
 
     def check_memory(self, output: Path) -> None:
         height, width = self.environment.radiance.shape[:2]
-        light, size = LIGHT_OF_TEXEL * height * width, self.job.size
+        light, size = LIGHT_OF_TEXEL * height * width, self.settings.size
         check_memory(light, self.environment.name, (width, height), BYTES_BESIDES)
-        view = bytes_needed(size**2, self.job.denoise)
+        view = bytes_needed(size**2, self.settings.denoise)
         check_memory(view, str(output), (size, size), BYTES_BESIDES + light)
 
     def is_in(self, path: Path) -> bool:
@@ -159,14 +168,14 @@ class _Subject:
 
     def albedo(self) -> Array:
         with temporary_scene() as scene:
-            return directional_albedo(scene, self._material(), self.job.seed)
+            return directional_albedo(scene, self._material(), self.settings.seed)
 
     def _material(self) -> Any:
         """The material as Blender has it, if it is still what it was."""
-        material = load_material(self.job.material)
+        material = load_material(self.settings.material)
         if fingerprint(material) != self.fingerprint:
             raise SceneError(
-                f"Material {self.job.material} was changed while it was captured: capture it again."
+                f"Material {self.settings.material} was changed while it was captured: capture it again."
             )
         return material
 
@@ -189,17 +198,17 @@ def _is_finished(path: Path) -> bool:
         return False
 
 
-def _map_set(subject: _Subject, paths: list[Path]) -> MapsInTurn:
-    environment, albedo = subject.environment.radiance, subject.albedo()
+def _map_set(captured: _Captured, paths: list[Path]) -> MapsInTurn:
+    environment, albedo = captured.environment.radiance, captured.albedo()
     shapes = {ENVIRONMENT: environment.shape[:2], ALBEDO: albedo.shape[:2]}
     parts: list[dict[str, Any]] = [{"name": name, "role": name} for name in shapes]
     variance = 0.0
     for view, path in enumerate(paths):
-        view_dir = subject.view_dirs[view].tolist()
+        view_dir = captured.view_dirs[view].tolist()
         for attributes in read_attributes(path):
             role = attributes["name"]
             name = f"view{view:03d}.{role}"
-            shapes[name] = (subject.job.size,) * 2
+            shapes[name] = (captured.settings.size,) * 2
             parts.append({"name": name, "role": role, "view": view, "view_dir": view_dir})
         variance += float(attributes[NOISE]) ** 2 / len(paths)
 
@@ -209,29 +218,23 @@ def _map_set(subject: _Subject, paths: list[Path]) -> MapsInTurn:
             for part in read_parts(path):
                 yield np.stack([part.channels[channel] for channel in "RGB"], axis=-1)
 
-    return MapsInTurn("radiance_views", shapes, maps(), _header(subject, parts, variance**0.5))
+    return MapsInTurn("radiance_views", shapes, maps(), _header(captured, parts, variance**0.5))
 
 
-def _header(subject: _Subject, parts: list[dict[str, Any]], noise: float) -> dict[str, Any]:
-    job = subject.job
+def _header(captured: _Captured, parts: list[dict[str, Any]], noise: float) -> dict[str, Any]:
+    settings = captured.settings
     return make_header(
         layout="sphere_map",
-        size=(job.size, job.size),
-        environment=subject.environment,
+        size=(settings.size, settings.size),
+        environment=captured.environment,
         embedded=True,
         material={
-            "spec": lasting_spec(job.material),
-            "name": material_name(job.material),
-            "fingerprint": subject.fingerprint,
+            "spec": lasting_spec(settings.material),
+            "name": material_name(settings.material),
+            "fingerprint": captured.fingerprint,
         },
         parts=parts,
         error_bound={"relative_noise": noise},
-        settings={
-            "views": job.views,
-            "size": job.size,
-            "samples": job.samples,
-            "denoise": job.denoise,
-            "seed": job.seed,
-        },
+        settings={name: value for name, value in to_plain(settings).items() if name != "material"},
         software=software(),
     )

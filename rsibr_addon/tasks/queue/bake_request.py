@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ...core.errors import MapSetError, SceneError
+from ...core.options import to_plain
 from ...files.map_set import read_map_set
 from ...files.output_paths import comparison_beside
 from ...files.pictures import split_layer
@@ -27,11 +28,17 @@ from ...host.bake_settings import (
     save_copy,
 )
 from ...host.materials import ORIGINAL, fingerprint
+from ...host.option_properties import FILE, OWN, options_of
 from ...host.version import software
 from ...host.worlds import world_of
-from ...job import BakeJob
+from ...job import BakeJob, CommandJob
+from ...settings.light import Clamp, Light
+from ...settings.lobe_stack import LobeStackSettings
+from ...settings.method import MethodSettings
+from ...settings.registry import METHOD_SETTINGS
 from ..compare.compare import truth_of
-from ..methods.methods import METHODS, Lobes, Method, measured_spec
+from ..methods.method import Cost
+from ..methods.registry import METHODS
 from .background import Bake, blender_command
 
 HASH_LETTERS = 10
@@ -45,50 +52,48 @@ COMPARED_VIEWS = 6
 
 
 @dataclass(frozen=True)
-class Order:
+class BakeRequest:
     """What is to be baked.
 
     Attributes
     ----------
-    environment : str or None
-        None for the world of the open file.
-    method : Method
+    settings : MethodSettings
+    light : Light
+        Without an environment, the world of the open file.
     own_material : str or None
         Name of the material, where it is one of the open file.
     measured : str or None
         Path of the file that holds the material, where there is one.
-    clamp : float
-        The greatest radiance of the environment that is kept; 0 for all.
-    settings : dict
+    shown : dict
         All that the scene says, to bake the same again.
     """
 
-    environment: str | None
-    method: Method
+    settings: MethodSettings
+    light: Light
     own_material: str | None
     measured: str | None
-    clamp: float
-    settings: dict[str, Any]
+    shown: dict[str, Any]
 
     @property
     def needs_file(self) -> bool:
         """Whether the world or the material are those of the open file."""
-        return self.environment is None or self.own_material is not None
+        return self.light.environment is None or self.own_material is not None
 
     @property
     def title(self) -> str:
         """What is baked, in words."""
-        light = "the world" if self.environment is None else split_layer(self.environment)[0].stem
-        return f"{self.method.subject or self.method.kind.replace('_', ' ')} in {light}"
+        environment, kind = self.light.environment, self.settings.KIND
+        light = "the world" if environment is None else split_layer(environment)[0].stem
+        return f"{METHODS[kind].material(self.settings) or kind.replace('_', ' ')} in {light}"
 
-    def job(self, output: Path) -> BakeJob:
+    @property
+    def cost(self) -> Cost:
+        """What it will take."""
+        return METHODS[self.settings.KIND].cost(self.settings)
+
+    def job(self, output: Path) -> BakeJob[Any]:
         """What makes `output`, and replaces what is there: that is damaged, or it would not be made."""
-        light = () if self.environment is None else ("--environment", self.environment)
-        return BakeJob((*self.arguments(), *light, "--output", str(output), "--force"))
-
-    def arguments(self) -> tuple[str, ...]:
-        """Of the command line, without environment and output."""
-        return *self.method.arguments(), *(("--clamp", f"{self.clamp:g}") if self.clamp else ())
+        return BakeJob(self.settings, str(output), self.light, force=True)
 
 
 @dataclass
@@ -100,7 +105,7 @@ class ObjectBake(Bake):
     items : list of int
         The objects' `session_uid`.
     settings : dict
-        Of the order; empty where what it makes shades nothing.
+        Of the request; empty where what it makes shades nothing.
     reads : ExitStack
         Removes what the bake reads.
     """
@@ -114,7 +119,7 @@ class ObjectBake(Bake):
         self.reads.close()
 
 
-def order_for(scene: Any, item: Any) -> Order:
+def request_for(scene: Any, item: Any) -> BakeRequest:
     """Read the settings for an object.
 
     Parameters
@@ -125,32 +130,33 @@ def order_for(scene: Any, item: Any) -> Order:
 
     Returns
     -------
-    Order
+    BakeRequest
 
     Raises
     ------
-    SceneError, InputFileError
-        Something is missing; says what to do.
+    SceneError, InputFileError, RangeError
+        Something is missing, or cannot be; says what to do.
     """
     check_object(item)
     check_choices(scene.rsibr_bake)
     chosen = getattr(scene.rsibr_bake, scene.rsibr_bake.kind)
     check_choices(chosen)
     source = getattr(chosen, "source", None)
-    own = own_material(item).name if source == "OWN" else None
-    measured = existing(chosen.path, "measured material", "its file") if source == "FILE" else None
-    environment = chosen_environment(scene)
-    method = METHODS[scene.rsibr_bake.kind](chosen, own or measured or "")
-    clamp = scene.rsibr_bake.clamp
-    return Order(environment, method, own, measured, clamp, plain_settings(scene.rsibr_bake))
+    own = own_material(item).name if source == OWN else None
+    measured = existing(chosen.path, "measured material", "its file") if source == FILE else None
+    settings = options_of(METHOD_SETTINGS[scene.rsibr_bake.kind], chosen, own or "")
+    light = Light(environment=chosen_environment(scene), clamp=options_of(Clamp, scene.rsibr_bake).clamp)
+    request = BakeRequest(settings, light, own, measured, plain_settings(scene.rsibr_bake))
+    _ = request.cost  # which a text that describes no model has not
+    return request
 
 
-def output_for(order: Order, scene: Any, item: Any) -> Path:
-    """The file that an order makes: the same order has the same file, a different one another.
+def output_for(request: BakeRequest, scene: Any, item: Any) -> Path:
+    """The file that a request makes: the same request has the same file, a different one another.
 
     Parameters
     ----------
-    order : Order
+    request : BakeRequest
         Of `scene` and `item`.
     scene : bpy.types.Scene
     item : bpy.types.Object
@@ -165,15 +171,18 @@ def output_for(order: Order, scene: Any, item: Any) -> Path:
     OutputFileError
         Its folder cannot be made.
     """
+    environment = request.light.environment
     content = {
-        "method": order.arguments(),
-        "light": fingerprint(world_of(scene)) if order.environment is None else _light(order.environment),
-        "material": fingerprint(own_material(item)) if order.own_material else None,
-        "measured": _digest(order.measured) if order.measured else None,
+        "kind": request.settings.KIND,
+        "settings": to_plain(request.settings),
+        "clamp": request.light.clamp,
+        "light": fingerprint(world_of(scene)) if environment is None else _light(environment),
+        "material": fingerprint(own_material(item)) if request.own_material else None,
+        "measured": _digest(request.measured) if request.measured else None,
         "software": software(),
     }
     letters = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:HASH_LETTERS]
-    words = re.sub(r"[^\w.-]+", "-", order.title.lower())[:NAME_LETTERS]
+    words = re.sub(r"[^\w.-]+", "-", request.title.lower())[:NAME_LETTERS]
     return baked_folder() / f"{words}-{letters}.rsibr.exr"
 
 
@@ -186,12 +195,12 @@ def is_baked(output: Path) -> bool:
     return True
 
 
-def bake_of(order: Order, item: Any, output: Path) -> ObjectBake:
+def bake_of(request: BakeRequest, item: Any, output: Path) -> ObjectBake:
     """Make everything ready that a background Blender needs to bake.
 
     Parameters
     ----------
-    order : Order
+    request : BakeRequest
     item : bpy.types.Object
         That is to be shaded from the map set.
     output : Path
@@ -208,8 +217,9 @@ def bake_of(order: Order, item: Any, output: Path) -> ObjectBake:
     OutputFileError
         The open file cannot be copied.
     """
-    bake = _in_background(f"{item.name}: {order.title}", order.job(output), item, output, order.needs_file)
-    bake.settings = order.settings
+    title = f"{item.name}: {request.title}"
+    bake = _in_background(title, request.job(output), item, output, request.needs_file)
+    bake.settings = request.shown
     return bake
 
 
@@ -236,25 +246,24 @@ def comparison_of(item: Any, map_set: Path) -> ObjectBake:
     truth_of(map_set)
     folder = comparison_beside(map_set)
     views = ("--views", str(COMPARED_VIEWS))
-    job = BakeJob(("compare", str(map_set), *views, *_named_model(item), "--output", str(folder), "--force"))
+    job = CommandJob(
+        ("compare", str(map_set), *views, *_named_model(item), "--output", str(folder), "--force")
+    )
     return _in_background(f"{item.name}: comparison", job, item, folder / "index.html", True)
 
 
 def _named_model(item: Any) -> tuple[str, ...]:
     """The model that the artist chose for a bake: no file is opened because a map set alone names it."""
-    if not item.is_property_set("rsibr_baked") or item.rsibr_baked.kind != Lobes.kind:
+    if not item.is_property_set("rsibr_baked") or item.rsibr_baked.kind != LobeStackSettings.KIND:
         return ()
-    chosen = getattr(item.rsibr_baked, Lobes.kind)
-    match chosen.source:
-        case "FILE":
-            return "--brdf", measured_spec(existing(chosen.path, "measured material", "its file"))
-        case "MODEL":
-            return "--brdf", chosen.brdf
-        case _:
-            return ()
+    chosen = getattr(item.rsibr_baked, LobeStackSettings.KIND)
+    model = None if chosen.source == OWN else options_of(LobeStackSettings, chosen).brdf
+    return () if model is None else ("--brdf", model)
 
 
-def _in_background(title: str, job: BakeJob, item: Any, output: Path, needs_file: bool) -> ObjectBake:
+def _in_background(
+    title: str, job: BakeJob[Any] | CommandJob, item: Any, output: Path, needs_file: bool
+) -> ObjectBake:
     program = blender_program()
     if not program:
         raise SceneError("There is no Blender to bake in: bake with the command rsibr instead.")

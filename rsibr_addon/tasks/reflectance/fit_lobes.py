@@ -2,14 +2,13 @@
 
 import time
 import warnings
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ...core.brdf.model import Brdf
 from ...core.brdf.spec import spec_from_brdf
-from ...core.errors import OutputFileError, RangeError, RsibrWarning
+from ...core.errors import OutputFileError, RsibrWarning
 from ...core.lobes.accuracy import FitErrors, fit_errors
 from ...core.lobes.bank import SHARPEST
 from ...core.lobes.fit import Fit
@@ -21,68 +20,9 @@ from ...core.progress import Progress, Steps
 from ...files.atomic import check_target
 from ...files.fits import write_fit
 from ...files.outputs import together
+from ...settings.fit import FitSettings, Fitting
 from .brdfs import load_brdf
 from .fit_plots import check_plots, write_plots
-
-MOST_LOBES, MOST_TAPS = 12, 9
-
-
-@dataclass(frozen=True)
-class FitSettings:
-    """How to fit.
-
-    Attributes
-    ----------
-    method : str
-        One of `METHODS`.
-    lobes : int
-        For each layer of the model, 1 to `MOST_LOBES`.
-    slices : int
-        View elevations, 1 to 256.
-    taps : int or None
-        Directions in which each lobe's map is looked up, 1 to `MOST_TAPS`; None for as many as pay, see
-        `core.lobes.layers.layered_fit`; of the method joint.
-    error : float or None
-        Use fewer lobes where E is at most this, above 0 and below 1; of the method joint.
-    non_negative : bool
-        Whether no kernel may have a negative weight; of the method joint.
-    seek : str
-        One of `core.lobes.seeking.SEEKING`: where the method greedy places its lobes.
-    sharpest : float
-        Concentration that no kernel exceeds, one of `core.lobes.bank.octaves`.
-
-    Raises
-    ------
-    RangeError
-        A value is out of its range, or the method has no use for it.
-    """
-
-    method: str = "joint"
-    lobes: int = 3
-    slices: int = 16
-    taps: int | None = None
-    error: float | None = None
-    non_negative: bool = False
-    seek: str = "peaks"
-    sharpest: float = SHARPEST
-
-    def __post_init__(self) -> None:
-        if self.method not in METHODS:
-            raise RangeError(f"There is no method {self.method}: choose one of {', '.join(METHODS)}.")
-        if not 1 <= self.lobes <= MOST_LOBES:
-            raise RangeError(f"{self.lobes} lobes are out of range: choose 1 to {MOST_LOBES}, 3 for most.")
-        if self.taps is not None and not 1 <= self.taps <= MOST_TAPS:
-            raise RangeError(f"{self.taps} taps are out of range: choose 1 to {MOST_TAPS}.")
-        if self.error is not None and not 0.0 < self.error < 1.0:
-            raise RangeError(f"An error of {self.error} is out of range: choose one between 0 and 1.")
-        if self.seek not in SEEKING:
-            raise RangeError(f"Lobes are not sought by {self.seek}: choose one of {', '.join(SEEKING)}.")
-        elevation_slices(self.slices)
-        joint = (self.taps or 1) > 1 or self.error is not None or self.non_negative
-        if joint and self.method != "joint":
-            raise RangeError(f"Taps, an error and signs are for the method joint, not {self.method}.")
-        if self.seek != "peaks" and self.method != "greedy":
-            raise RangeError(f"Where to seek lobes is for the method greedy, not {self.method}.")
 
 
 @dataclass(frozen=True)
@@ -117,14 +57,12 @@ class FitResult:
 
 
 def fit_lobes(
-    spec: str, settings: FitSettings, output: Path, force: bool = False, plots: Path | None = None
+    settings: FitSettings, output: Path, force: bool = False, plots: Path | None = None
 ) -> Steps[FitResult]:
     """Fit a model and write the fit.
 
     Parameters
     ----------
-    spec : str
-        The model: see `tasks.reflectance.brdfs.load_brdf`.
     settings : FitSettings
     output : Path
         By custom NAME.json.
@@ -159,9 +97,9 @@ def fit_lobes(
             raise OutputFileError(
                 f"{output} would be in {plots}, which holds nothing but plots: write it elsewhere."
             )
-    brdf = yield from load_brdf(spec)
+    brdf = yield from load_brdf(settings.brdf)
     started = time.process_time()
-    fit = yield from METHODS[settings.method](brdf, settings)
+    fit = yield from fitted(brdf, settings)
     seconds = time.process_time() - started
     yield Progress(1, 2, "measuring the fit")
     result = FitResult(fit, fit_errors(fit, brdf), seconds)
@@ -179,42 +117,39 @@ def fit_lobes(
     return result
 
 
-def _joint(brdf: Brdf, settings: FitSettings) -> Steps[Fit]:
-    return layered_fit(
-        brdf,
-        elevation_slices(settings.slices),
-        settings.lobes,
-        settings.error,
-        settings.taps,
-        settings.non_negative,
-        settings.sharpest,
-    )
+def fitted(brdf: Brdf, settings: Fitting, sharpest: float = SHARPEST) -> Steps[Fit]:
+    """Fit lobes to a model.
 
+    Parameters
+    ----------
+    brdf : Brdf
+    settings : Fitting
+    sharpest : float
+        Concentration that no kernel exceeds, one of `core.lobes.bank.octaves`.
 
-def _greedy(brdf: Brdf, settings: FitSettings) -> Steps[Fit]:
-    yield Progress(0, 1, "fitting minimum profiles")
+    Yields
+    ------
+    Progress
+
+    Returns
+    -------
+    Fit
+
+    Raises
+    ------
+    RangeError
+        The model is black at an elevation.
+    """
     mu = elevation_slices(settings.slices)
-    return greedy_fit(
-        brdf, spec_from_brdf(brdf), mu, settings.lobes, SEEKING[settings.seek], settings.sharpest
-    )
-
-
-def _single(brdf: Brdf, settings: FitSettings) -> Steps[Fit]:
-    yield Progress(0, 1, "fitting mean profiles")
-    mu = elevation_slices(settings.slices)
-    return single_fit(brdf, spec_from_brdf(brdf), mu, settings.sharpest)
-
-
-def _single_2d(brdf: Brdf, settings: FitSettings) -> Steps[Fit]:
-    yield Progress(0, 1, "fitting mean profiles")
-    mu = elevation_slices(settings.slices)
-    return single_2d_fit(brdf, spec_from_brdf(brdf), mu, settings.sharpest)
-
-
-METHODS: dict[str, Callable[[Brdf, FitSettings], Steps[Fit]]] = {
-    "joint": _joint,
-    "greedy": _greedy,
-    "single": _single,
-    "single-2d": _single_2d,
-}
-"""Name -> what fits by it."""
+    if settings.method == "joint":
+        return (
+            yield from layered_fit(
+                brdf, mu, settings.lobes, settings.error, settings.taps, settings.non_negative, sharpest
+            )
+        )
+    yield Progress(0, 1, "fitting profiles")
+    spec = spec_from_brdf(brdf)
+    if settings.method == "greedy":
+        return greedy_fit(brdf, spec, mu, settings.lobes, SEEKING[settings.seek], sharpest)
+    single = single_fit if settings.method == "single" else single_2d_fit
+    return single(brdf, spec, mu, sharpest)

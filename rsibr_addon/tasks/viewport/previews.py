@@ -15,6 +15,7 @@ from ...device.viewport import Sight, Stage, current_sight, draw_occluder
 from ...host.display import Display, display_of, displayed_colours, scale_before_display
 from ...host.live_light import is_live_name, shows_surroundings
 from ...host.map_sets import written_path
+from ...host.option_properties import options_of
 from ...host.viewport import Layer, Surface, View, is_wanted, map_set_of, shown_layers, surfaces
 from ...host.world_light import AS_IT_IS
 from ..methods.kinds import KINDS
@@ -292,7 +293,7 @@ class Previews:
         """How an object is shaded: as before, while a new look is being made; None before there is any."""
         item, map_set = preview.surface.item, self._map_sets[preview.path]
         kind = KINDS[map_set.kind]
-        look = kind.look(**_look_settings(item.rsibr.other if other else item.rsibr, map_set.kind))
+        look: Any = options_of(kind.look, getattr(item.rsibr.other if other else item.rsibr, map_set.kind))
         asked = self._looks.setdefault((item.session_uid, preview.path, other), [])
         if look in asked:
             asked.remove(look)

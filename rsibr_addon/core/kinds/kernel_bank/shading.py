@@ -3,23 +3,12 @@
 from dataclasses import dataclass
 
 from ...brdf.spec import with_alpha
-from ...errors import RangeError
-
-MOST_LOBES = 12
+from ...options import Choice, Options, option
 
 
 @dataclass(frozen=True)
-class BankLook:
-    """Look of a kernel bank.
-
-    Attributes
-    ----------
-    brdf : str
-        The reflectance model: see `core/brdf/spec.py`.
-    roughness : float or None
-        In (0, 1]; its square becomes every alpha of the model. None keeps the model's own.
-    lobe_count : int
-        Lobes for each layer of the model, 1 to `MOST_LOBES`.
+class BankLook(Options):
+    """What a kernel bank is shaded as.
 
     Raises
     ------
@@ -28,22 +17,40 @@ class BankLook:
 
     Notes
     -----
-    Radiance is that of `shading.lobe_stack.stack_radiance`, of what `lobes.filtered_bank.stack_from_bank`
-    sums.
+    Radiance is that of `core.kinds.lobe_stack.shading.stack_radiance`, of what
+    `filtered_bank.stack_from_bank` sums.
     """
 
-    brdf: str = "ggx:alpha=0.3,metal=copper"
-    roughness: float | None = None
-    lobe_count: int = 3
+    brdf: str = option(
+        "ggx:alpha=0.3,metal=copper",
+        label="Model",
+        help="Reflectance model and its parameters, as ggx:alpha=0.1,metal=gold",
+        metavar="SPEC",
+    )
+    roughness: float | None = option(
+        None,
+        label="Roughness",
+        help="Roughness of the model's layers; their alpha is its square",
+        least=1e-3,
+        most=1.0,
+        none="the model's own",
+        switch=Choice("Set Roughness", "Give every layer of the model the roughness below"),
+        start=0.5,
+        soft_least=0.1,
+        metavar="R",
+    )
+    lobe_count: int = option(
+        3,
+        label="Lobes",
+        help="Lobes for each layer of the model; more follow its reflectance more closely, and take longer",
+        least=1,
+        most=12,
+        metavar="J",
+    )
 
     def __post_init__(self) -> None:
-        if not 1 <= self.lobe_count <= MOST_LOBES:
-            raise RangeError(f"{self.lobe_count} lobes are out of range: choose 1 to {MOST_LOBES}.")
+        super().__post_init__()
         if self.roughness is not None:
-            if not 0.0 < self.roughness <= 1.0:
-                raise RangeError(
-                    f"A roughness of {self.roughness:g} is out of range: choose one above 0, up to 1."
-                )
             with_alpha(self.brdf, self.roughness**2)
 
     @property

@@ -10,27 +10,30 @@ from ...conventions import Array, ArrayLike, Indices
 from ...errors import RangeError
 from ...geometry.directions import dot, reflect
 from ...lobes.fit import lobe_axes
+from ...options import Choice, Options, option
 from ...resample import lookup
 from .stack import LobeStack
 
 
 @dataclass(frozen=True)
-class StackLook:
-    """Look of a lobe stack.
+class StackLook(Options):
+    """How a lobe stack is shaded."""
 
-    Attributes
-    ----------
-    lobes : tuple of int
-        Numbers of the lobes that are shown, from 0, or a single number; empty for all.
-    antialiased : bool
-        Whether light is averaged over what a pixel reflects.
-    """
-
-    lobes: tuple[int, ...] = ()
-    antialiased: bool = True
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "lobes", tuple(int(lobe) for lobe in np.atleast_1d(self.lobes)))
+    lobes: tuple[int, ...] = option(
+        (),
+        label="Lobe",
+        help="Numbers of the lobes that are shown, from 0",
+        least=0,
+        soft_most=7,
+        none="all",
+        switch=Choice("Single Lobe", "Show one of the lobes that the material is a sum of"),
+        metavar="NUMBERS",
+    )
+    antialiased: bool = option(
+        True,
+        label="Antialiased",
+        help="Average light over what each pixel reflects, so that small lamps do not shimmer",
+    )
 
     def shown(self, stack: LobeStack) -> tuple[int, ...]:
         """The lobes that are shown.

@@ -17,8 +17,8 @@ from ...filtering.irradiance import irradiance_matrix
 from ...geometry.directions import dot, reflect
 from ...maps import cube_map
 from ...maps.representation import representation
+from ...options import Choice, Options, option
 from ...resample import bilinear, lookup
-from ..checks import check_shares, member
 from .chain import MipChain
 
 _CUBE = representation("cube_map")
@@ -36,23 +36,8 @@ class Borders(StrEnum):
 
 
 @dataclass(frozen=True)
-class MipLook:
-    """Look of a mip chain.
-
-    Attributes
-    ----------
-    f_lambda : tuple of 3 floats
-        Reflectance at normal incidence in [0, 1], the paper's only parameter of Fresnel.
-    k_d : tuple of 3 floats
-        Albedo of the diffuse part in [0, 1].
-    bias : float
-        The paper's b, at least 0: the mip of glossy light, linear between two; beyond the last, the last.
-    roughness : float or None
-        In [0, 1]: sets the bias to the level of that roughness; for GGX chains only.
-    borders : Borders
-        Or its value, as text.
-    antialiased : bool
-        Whether glossy light is averaged over what a pixel reflects.
+class MipLook(Options):
+    """How a mip chain is shaded.
 
     Raises
     ------
@@ -60,26 +45,66 @@ class MipLook:
         A value is out of range, or bias and roughness are both given.
     """
 
-    f_lambda: tuple[float, float, float] = (0.04, 0.04, 0.04)
-    k_d: tuple[float, float, float] = (0.8, 0.8, 0.8)
-    bias: float = 0.0
-    roughness: float | None = None
-    borders: Borders = Borders.SEAMLESS
-    antialiased: bool = True
+    f_lambda: tuple[float, float, float] = option(
+        (0.04, 0.04, 0.04),
+        label="Reflectance",
+        help="Reflectance of the glossy part at normal incidence",
+        least=0.0,
+        most=1.0,
+        subtype="COLOR",
+        metavar="F|R,G,B",
+    )
+    k_d: tuple[float, float, float] = option(
+        (0.8, 0.8, 0.8),
+        label="Diffuse",
+        help="Albedo of the diffuse part",
+        least=0.0,
+        most=1.0,
+        subtype="COLOR",
+        metavar="K|R,G,B",
+    )
+    bias: float = option(
+        0.0,
+        label="Mip",
+        help="Mip that glossy light comes from, linear between two; beyond the last, that",
+        least=0.0,
+        most=1e3,
+        soft_most=10.0,
+        metavar="B",
+    )
+    roughness: float | None = option(
+        None,
+        label="Roughness",
+        help="Roughness that glossy light is filtered for, instead of a mip; of chains of the filter ggx",
+        least=0.0,
+        most=1.0,
+        none="that of the mip",
+        switch=Choice(
+            "By Roughness",
+            "Choose the mip of a roughness; the other one has to be 0. For chains of GGX lobes",
+        ),
+        start=0.3,
+        metavar="R",
+    )
+    borders: Borders = option(
+        Borders.SEAMLESS,
+        label="Borders",
+        help="What a lookup near a face's border interpolates with",
+        choices={
+            Borders.SEAMLESS: Choice("Seamless", "the neighbouring face's texels"),
+            Borders.CLAMPED: Choice("Clamped", "the face's own texels, as the hardware of 2004"),
+        },
+    )
+    antialiased: bool = option(
+        True,
+        label="Antialiased",
+        help="Average glossy light over what each pixel reflects, so that small lamps do not shimmer",
+    )
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "borders", member(Borders, self.borders, "borders"))
-        for name, values in (("f_lambda", self.f_lambda), ("k_d", self.k_d)):
-            check_shares(name, values)
-        if not 0.0 <= self.bias < np.inf:
-            raise RangeError(f"A bias of {self.bias:g} is out of range: choose a number from 0.")
-        if self.roughness is not None:
-            if not 0.0 <= self.roughness <= 1.0:
-                raise RangeError(
-                    f"A roughness of {self.roughness:g} is out of range: choose one from 0 to 1."
-                )
-            if self.bias > 0.0:
-                raise RangeError("A roughness and a bias say the same in two ways: give one of them.")
+        super().__post_init__()
+        if self.roughness is not None and self.bias > 0.0:
+            raise RangeError("A roughness and a bias say the same in two ways: give one of them.")
 
     def level(self, chain: MipChain) -> float:
         """The level of detail to look glossy light up at.

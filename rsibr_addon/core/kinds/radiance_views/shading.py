@@ -20,8 +20,8 @@ from ...geometry.disk_mesh import MARGIN, disk_mesh, interpolate
 from ...geometry.geodesic import barycentric_weights, find_triangle
 from ...geometry.reflection_warp import Warp, confidence, source_cosine, source_uv
 from ...maps import sphere_map
+from ...options import Choice, Options, option
 from ...resample import bilinear
-from ..checks import member
 from .views import RadianceViews
 
 
@@ -48,26 +48,35 @@ class Warping(StrEnum):
 
 
 @dataclass(frozen=True)
-class ViewsLook:
-    """Look of radiance views.
+class ViewsLook(Options):
+    """How radiance views are shaded."""
 
-    Attributes
-    ----------
-    mode : Mode
-        Or its value, as text.
-    warping : Warping
-        Likewise.
-    antialiased : bool
-        Whether radiance warped by the mirror direction is averaged over what a pixel reflects.
-    """
-
-    mode: Mode = Mode.FRAGMENT
-    warping: Warping = Warping.ALBEDO
-    antialiased: bool = True
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "mode", member(Mode, self.mode, "mode"))
-        object.__setattr__(self, "warping", member(Warping, self.warping, "warp"))
+    mode: Mode = option(
+        Mode.FRAGMENT,
+        label="Mode",
+        help="Where views are warped and blended",
+        choices={
+            Mode.FRAGMENT: Choice("Fragment", "for each fragment with its own view: right in perspective"),
+            Mode.TEXEL: Choice("Texel", "once a frame, for each texel of a sphere map"),
+            Mode.PAPER: Choice("Paper", "once a frame, on a tessellated disk, as in the paper of 1999"),
+        },
+    )
+    warping: Warping = option(
+        Warping.ALBEDO,
+        label="Warp",
+        help="How the views' light is warped",
+        choices={
+            Warping.ALBEDO: Choice("Albedo", "as split, over the material's directional albedo"),
+            Warping.SPLIT: Choice("Split", "diffuse light by the normal, glossy by the mirror direction"),
+            Warping.SINGLE: Choice("Single", "all light by the mirror direction, as in the paper of 1999"),
+        },
+        flag="--warp",
+    )
+    antialiased: bool = option(
+        True,
+        label="Antialiased",
+        help="Average glossy light over what each pixel reflects, so that small lamps do not shimmer",
+    )
 
 
 LEAST_ALBEDO = 1e-3

@@ -1,6 +1,7 @@
 """Shading from reflection tables [Miller1984]: a weighted sum of lookups."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from ...conventions import Array, ArrayLike
 from ...errors import RangeError
 from ...geometry.directions import dot, reflect, refract
 from ...maps import equirect, sphere_map
+from ...options import Choice, Options, option
 from ...resample import bilinear
 from .tables import ReflectionTables, Role
 
@@ -17,42 +19,55 @@ MIRRORED = (Role.SPECULAR, Role.COAT)
 """Tables that are looked up by the mirrored view direction, which turns fastest from pixel to pixel."""
 
 
-@dataclass(frozen=True)
-class TablesLook:
-    """Look of reflection tables.
+_TABLES = {
+    Role.DIFFUSE: Choice("Diffuse", "by the normal"),
+    Role.SPECULAR: Choice("Specular", "by the mirror direction"),
+    Role.COAT: Choice("Coat", "a clear varnish, by the mirror direction"),
+    Role.RETRO: Choice("Retro", "light sent back, by the view direction"),
+    Role.REFRACTION: Choice("Refraction", "light let through, by the refracted direction"),
+}
+"""Table -> what it is looked up by."""
 
-    Attributes
-    ----------
-    shown : tuple of Role
-        The tables that are shown, or their values as text; tables that a material lacks are ignored.
-    w_diffuse, w_specular, w_coat, w_retro, w_refraction : float
-        Factors, at least 0, of the weights that the tables come with; the paper's Wd and Ws.
-    antialiased : bool
-        Whether tables of `MIRRORED` are averaged over what a pixel reflects; otherwise they are interpolated.
+
+def _weight(label: str, help: str) -> Any:
+    return option(1.0, label=label, help=help, least=0.0, most=1e6, soft_most=2.0, metavar="W")
+
+
+@dataclass(frozen=True)
+class TablesLook(Options):
+    """How reflection tables are shaded.
 
     Raises
     ------
     RangeError
-        There is no table of that name, or no table is named; a weight is negative or not finite.
+        There is no table of that name, or none is named; a weight is out of range.
     """
 
-    shown: tuple[Role, ...] = tuple(Role)
-    w_diffuse: float = 1.0
-    w_specular: float = 1.0
-    w_coat: float = 1.0
-    w_retro: float = 1.0
-    w_refraction: float = 1.0
-    antialiased: bool = False
+    shown: tuple[Role, ...] = option(
+        tuple(Role),
+        label="Tables",
+        help="What is shown",
+        choices=_TABLES,
+        flag="--tables",
+        metavar="NAMES",
+    )
+    w_diffuse: float = _weight(
+        "Diffuse Weight", "Multiplies the diffuse table's weight, Wd of the paper of 1984"
+    )
+    w_specular: float = _weight(
+        "Specular Weight", "Multiplies the specular table's weight, Ws of the paper of 1984"
+    )
+    w_coat: float = _weight("Coat Weight", "Multiplies the coat's weight")
+    w_retro: float = _weight("Retro Weight", "Multiplies the weight of light that is sent back")
+    w_refraction: float = _weight("Refraction Weight", "Multiplies the weight of light that is let through")
+    antialiased: bool = option(
+        False,
+        label="Antialiased",
+        help="Average specular and coat over what each pixel reflects: small lamps do not shimmer",
+    )
 
     def __post_init__(self) -> None:
-        for role in Role:
-            weight = getattr(self, f"w_{role}")
-            if not 0.0 <= weight < np.inf:
-                raise RangeError(f"A weight of {weight:g} is out of range: choose a number from 0.")
-        try:
-            object.__setattr__(self, "shown", tuple(Role(name) for name in self.shown))
-        except ValueError as error:
-            raise RangeError(f"There is no such table ({error}): choose from {', '.join(Role)}.") from error
+        super().__post_init__()
         if not self.shown:
             raise RangeError(f"A picture needs a table: choose from {', '.join(Role)}.")
 

@@ -1,0 +1,268 @@
+"""Properties of Blender, made of options; and the options that properties say."""
+
+import math
+from collections.abc import Callable
+from dataclasses import MISSING
+from enum import Enum
+from typing import Any
+
+import bpy
+
+from ..core.options import Declared, Materials, Options, declared_options
+from ..files.measured_files import MEASURED_FORMATS, measured_spec
+from .bake_settings import existing
+
+type Update = Callable[[bpy.types.PropertyGroup, bpy.types.Context | None], None] | None
+
+OWN, PRESET, MODEL, FILE = "OWN", "PRESET", "MODEL", "FILE"
+"""Where a material is taken from."""
+
+NONE = "none"
+"""The preset that is none."""
+
+LARGEST = 2**31 - 1
+"""Blender's whole numbers end there."""
+
+
+def properties_of(options: type[Options], update: Update = None, by_text: bool = False) -> dict[str, Any]:
+    """The properties of a dataclass of options.
+
+    Parameters
+    ----------
+    options : type
+        Derived from `Options`.
+    update : callable, optional
+        What Blender calls after a change.
+    by_text : bool
+        Whether a material is given by its text, as on the command line, and not by where it is from.
+
+    Returns
+    -------
+    dict
+        Name -> property. An option that may be None and has a switch has a property `use_NAME` besides.
+    """
+    found: dict[str, Any] = {}
+    for declared in declared_options(options):
+        common = {"update": update} if update else {}
+        materials = declared.option.materials
+        if materials is not None and not (by_text and materials.own):
+            found |= _of_materials(declared, materials, common)
+            continue
+        if declared.option.switch is not None:
+            switch = declared.option.switch
+            found[f"use_{property_name(declared)}"] = bpy.props.BoolProperty(
+                name=switch.label, description=switch.help, **common
+            )
+        found[property_name(declared)] = _property(declared, common, by_text)
+    return found
+
+
+def group_of(name: str, text: str, properties: dict[str, Any]) -> type[bpy.types.PropertyGroup]:
+    """A class of properties.
+
+    Parameters
+    ----------
+    name : str
+        Of the class.
+    text : str
+        Its docstring.
+    properties : dict
+        See `properties_of`.
+    """
+    return type(name, (bpy.types.PropertyGroup,), {"__doc__": text, "__module__": __name__, **properties})
+
+
+def property_name(declared: Declared) -> str:
+    """The name of an option's property."""
+    return declared.option.stored or declared.name
+
+
+def options_of[Given: Options](options: type[Given], group: Any, own: str = "") -> Given:
+    """The options that properties say.
+
+    Parameters
+    ----------
+    options : type
+        What `properties_of` made the properties of.
+    group : bpy.types.PropertyGroup or bpy.types.Operator
+    own : str
+        Name of the material to take where the properties say so.
+
+    Raises
+    ------
+    RangeError
+        Values do not go together.
+    InputFileError
+        A measured material's file is not there, or not of a known format.
+    """
+    values = {each.name: _value(each, group, own) for each in declared_options(options)}
+    source = getattr(group, "source", None)
+    for each in declared_options(options):
+        instead = each.option.materials.instead if each.option.materials else ""
+        if instead and source not in (None, instead.upper()):
+            values[instead] = None
+    return options(**values)
+
+
+def show_option(declared: Declared, group: Any, value: Any) -> None:
+    """Have a property say the value of an option, which is no material."""
+    name = property_name(declared)
+    if value is None and declared.option.none_as is None:
+        setattr(group, f"use_{name}", False)
+    else:
+        setattr(group, name, shown_value(declared, value))
+
+
+def shown_value(declared: Declared, value: Any) -> Any:
+    """A value of an option, which is no material, as its property has it."""
+    if value is None:
+        return declared.option.none_as
+    return str(value) if _items(declared) else value
+
+
+def _of_materials(declared: Declared, materials: Materials, common: dict[str, Any]) -> dict[str, Any]:
+    items = []
+    found: dict[str, Any] = {}
+    if materials.own:
+        items.append((OWN, "Object's Own", "The active object's active material, whatever its nodes"))
+    nothing = [(NONE, "None", _capital(declared.option.none))] if declared.optional else []
+    if materials.presets:
+        items.append((PRESET, "Preset", "One that comes with the extension"))
+        found["preset"] = bpy.props.EnumProperty(
+            name="Preset" if materials.own else declared.option.label,
+            description="Material that comes with the extension",
+            items=_enum(materials.presets) + nothing,
+            default=materials.preset,
+            **common,
+        )
+    if materials.model:
+        items.append((MODEL, "Model", "A reflectance model and its parameters"))
+        items.append((FILE, "Measured", "A file of measurements"))
+        found[property_name(declared)] = bpy.props.StringProperty(
+            name=declared.option.label,
+            description=declared.option.help,
+            default=materials.model,
+            **common,
+        )
+        found["path"] = bpy.props.StringProperty(
+            name="File",
+            description=f"Measurement of the MERL, Cornell or RGL database: {', '.join(MEASURED_FORMATS)}",
+            subtype="FILE_PATH",
+            options={"PATH_SUPPORTS_BLEND_RELATIVE"},
+            **common,
+        )
+    if materials.instead:
+        instead = materials.instead
+        items.append((instead.upper(), instead.capitalize(), "A file that was made before"))
+    if len(items) == 1:
+        return found
+    source = bpy.props.EnumProperty(
+        name="Material",
+        description="Where the material is taken from",
+        items=items,
+        default=MODEL if materials.model else OWN,
+        **common,
+    )
+    return {"source": source, **found}
+
+
+def _property(declared: Declared, common: dict[str, Any], by_text: bool) -> Any:
+    told = declared.option
+    common = {"name": told.label, "description": _description(declared), **common}
+    items = _items(declared, by_text)
+    if items and declared.wanted is tuple and isinstance(declared.default, tuple):
+        flags = {_identifier(value) for value in declared.default}
+        return bpy.props.EnumProperty(items=items, options={"ENUM_FLAG"}, default=flags, **common)
+    default = next(
+        each for each in (declared.default, told.start, told.none_as, "") if each not in (None, MISSING, ())
+    )
+    if items:
+        return bpy.props.EnumProperty(items=items, default=_identifier(default), **common)
+    if declared.wanted is bool:
+        return bpy.props.BoolProperty(default=default, **common)
+    if declared.wanted is str:
+        paths = {"subtype": "FILE_PATH", "options": {"PATH_SUPPORTS_BLEND_RELATIVE"}}
+        return bpy.props.StringProperty(
+            default=default, **(paths if told.subtype == "FILE_PATH" else {}), **common
+        )
+    least = 0.0 if told.none_as == 0 else told.least
+    if int in (declared.wanted, declared.members):
+        low, high = max(least, -LARGEST), min(told.most, LARGEST)
+        soft = {} if told.soft_most is None else {"soft_max": int(told.soft_most)}
+        return bpy.props.IntProperty(default=int(default or 0), min=int(low), max=int(high), **soft, **common)
+    ends = {
+        "min": least,
+        "max": told.most,
+        "soft_min": told.soft_least,
+        "soft_max": told.soft_most,
+    }
+    limits = {name: end for name, end in ends.items() if end is not None and math.isfinite(end)}
+    if declared.count:
+        return bpy.props.FloatVectorProperty(
+            default=default, size=declared.count, subtype=told.subtype or "NONE", **limits, **common
+        )
+    return bpy.props.FloatProperty(default=float(default or 0.0), **limits, **common)
+
+
+def _description(declared: Declared) -> str:
+    told = declared.option
+    unit = f", in {told.unit}" if told.unit else ""
+    if told.none and told.none_as is not None:
+        stands = "empty" if told.none_as == "" else f"{told.none_as:g}"
+        return f"{told.help}{unit}; {stands} for {told.none}"
+    return f"{told.help}{unit}"
+
+
+def _items(declared: Declared, by_text: bool = False) -> list[tuple[str, str, str]]:
+    told = declared.option
+    if told.offered and not by_text:
+        return [(str(value), str(value), "") for value in told.offered]
+    return _enum(told.choices)
+
+
+def _enum(choices: Any) -> list[tuple[str, str, str]]:
+    return [(_identifier(value), choice.label, _capital(choice.help)) for value, choice in choices.items()]
+
+
+def _capital(words: str) -> str:
+    return words[:1].upper() + words[1:]
+
+
+def _identifier(value: Any) -> str:
+    return str(value.value if isinstance(value, Enum) else value)
+
+
+def _value(declared: Declared, group: Any, own: str) -> Any:
+    told, name = declared.option, property_name(declared)
+    if told.materials is not None:
+        return _material(declared, group, own)
+    if told.switch is not None and not getattr(group, f"use_{name}"):
+        return declared.default
+    value = getattr(group, name)
+    if value == told.none_as and declared.optional:
+        return None
+    if declared.wanted is int:
+        return int(value)
+    if declared.wanted is tuple and not isinstance(value, str):
+        # Flags in the order of the choices; a colour's numbers, which stay when the property's change
+        chosen = value if not isinstance(value, set) else [each for each in told.choices if each in value]
+        return (chosen,) if isinstance(chosen, int) else tuple(chosen)
+    return value
+
+
+def _material(declared: Declared, group: Any, own: str) -> str | None:
+    materials = declared.option.materials
+    assert materials is not None
+    text = getattr(group, property_name(declared), "")
+    match getattr(group, "source", None):
+        case "FILE":
+            return measured_spec(existing(group.path, "measured material", "its file"))
+        case "MODEL":
+            return str(text)
+        case other if other == materials.instead.upper():
+            return None
+        case "OWN":
+            return materials.own.format(own)
+        case None if materials.own:  # by its text
+            return str(text) or (materials.own.format(own) if own else None)
+    return None if group.preset == NONE else str(group.preset)

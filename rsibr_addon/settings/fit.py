@@ -1,0 +1,102 @@
+"""How lobes are fitted to a reflectance model: [Kautz2000], and beyond."""
+
+from dataclasses import dataclass
+
+from ..core.brdf.gallery import GALLERY
+from ..core.errors import RangeError
+from ..core.options import Choice, Materials, Options, option
+
+MODEL_HELP = (
+    "Reflectance model, as ggx:alpha=0.3,metal=copper, ward:alpha=0.04,ks=0.8 or merl:path=FILE; "
+    "or a material, blend:FILE.blend:NAME"
+)
+MODELS = Materials(own="blend::{}", model=GALLERY["Metals"]["Brushed copper"])
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fitting(Options):
+    """What every fit of lobes is told."""
+
+    lobes: int = option(
+        3,
+        label="Lobes",
+        help="Lobes for each layer of the material, at most; more follow its reflectance more closely",
+        least=1,
+        most=12,
+        draft=2,
+        final=5,
+        metavar="J",
+    )
+    slices: int = option(
+        16,
+        label="Elevations",
+        help="View elevations that the lobes are fitted at",
+        least=1,
+        most=256,
+        draft=8,
+        final=32,
+        metavar="K",
+    )
+    method: str = option(
+        "joint",
+        label="Fit",
+        help="How the lobes are fitted",
+        choices={
+            "joint": Choice("Joint", "all profiles, colours and axes at once"),
+            "greedy": Choice("Greedy", "lobe after lobe, each a minimum profile, as Kautz & McCool"),
+            "single": Choice("Single", "one lobe, a mean profile"),
+            "single-2d": Choice("Single 2D", "one lobe that all elevations share"),
+        },
+        advanced=True,
+    )
+    taps: int | None = option(
+        None,
+        label="Taps",
+        help="Directions in which each lobe's map is looked up",
+        least=1,
+        most=9,
+        none="as many as pay",
+        none_as=0,
+        advanced=True,
+        metavar="T",
+    )
+    error: float | None = option(
+        None,
+        label="Error",
+        help="Add lobes only until the error is at most this",
+        least=1e-6,
+        most=1.0,
+        none="all lobes",
+        none_as=0.0,
+        advanced=True,
+        metavar="E",
+    )
+    non_negative: bool = option(
+        False, label="Non-Negative", help="Give no kernel a negative weight", advanced=True
+    )
+    seek: str = option(
+        "peaks",
+        label="Seek",
+        help="Where greedy fits place lobes",
+        choices={
+            "peaks": Choice("Peaks", "at the highest peak"),
+            "places": Choice("Places", "at the best of peak, mirror direction, normal and view"),
+            "search": Choice("Search", "anywhere, searched from coarse to fine"),
+        },
+        advanced=True,
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        joint = (self.taps or 1) > 1 or self.error is not None or self.non_negative
+        if joint and self.method != "joint":
+            raise RangeError(f"Taps, an error and signs are for the method joint, not {self.method}.")
+        if self.seek != "peaks" and self.method != "greedy":
+            raise RangeError(f"Where to seek lobes is for the method greedy, not {self.method}.")
+
+
+@dataclass(frozen=True, kw_only=True)
+class FitSettings(Fitting):
+    """What is fitted, and how."""
+
+    brdf: str = option(label="Model", help=MODEL_HELP, metavar="SPEC", materials=MODELS)

@@ -1,0 +1,80 @@
+"""How an environment is filtered with the lobes of a material: [Kautz2000]."""
+
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+from ..core.errors import RangeError
+from ..core.kinds.lobe_stack.stack import LARGEST
+from ..core.options import Choice, declared_options, option
+from .fit import MODEL_HELP, MODELS, Fitting
+from .method import MethodSettings
+
+LAYOUT = {
+    "dual_paraboloid": Choice("Dual Paraboloid", "two disks, one for each hemisphere"),
+    "octahedral": Choice("Octahedral", "one square for the whole sphere"),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class LobeStackSettings(Fitting, MethodSettings):
+    """Settings of lobe stacks: a model and how it is fitted, or a fit that was made before."""
+
+    KIND: ClassVar = "lobe_stack"
+    LABEL: ClassVar = "Lobe Stack"
+    SUMMARY: ClassVar = "A glossy material's highlights, for each view elevation"
+
+    brdf: str | None = option(
+        None,
+        label="Model",
+        help=MODEL_HELP,
+        none="that of the fit",
+        metavar="SPEC",
+        materials=replace(MODELS, instead="fit"),
+    )
+    fit: str | None = option(
+        None,
+        label="Fit File",
+        help="Lobes that were fitted before, by rsibr fit",
+        none="fit the model",
+        none_as="",
+        subtype="FILE_PATH",
+        metavar="FIT.json",
+    )
+    size: int | None = option(
+        None,
+        label="Size",
+        help="Width of a map's sheets",
+        unit="texels",
+        least=2,
+        most=LARGEST,
+        none="what the lobes need",
+        none_as=0,
+        draft=32,
+    )
+    half: bool = option(
+        True,
+        label="Half Floats",
+        help="Store 16-bit floats: half the space on disk, with 11 significant bits",
+        final=False,
+    )
+    layout: str = option(
+        "dual_paraboloid",
+        label="Layout",
+        help="How maps hold all directions",
+        choices=LAYOUT,
+        advanced=True,
+        stored="layout_of_maps",
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if (self.brdf is None) is (self.fit is None):
+            raise RangeError("A lobe stack is made of a reflectance model or of a fit: give one of them.")
+        if self.fit is not None:
+            given = [
+                each.name for each in declared_options(Fitting) if getattr(self, each.name) != each.default
+            ]
+            if given:
+                raise RangeError(
+                    f"A fit has its own {', '.join(given)}: leave the options out, or give a BRDF."
+                )

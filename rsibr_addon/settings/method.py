@@ -1,0 +1,24 @@
+"""What the settings of every method say."""
+
+from typing import ClassVar
+
+from ..core.options import Options
+
+
+class MethodSettings(Options):
+    """Base of the settings of the methods that make map sets.
+
+    Attributes
+    ----------
+    KIND : str
+        Of the map sets that the method makes.
+    LABEL, SUMMARY : str
+        The method in a menu, and what it is for, as a phrase without a full stop.
+    REMARK : str
+        What to know where there is no material to choose; else empty.
+    """
+
+    KIND: ClassVar[str]
+    LABEL: ClassVar[str]
+    SUMMARY: ClassVar[str]
+    REMARK: ClassVar[str] = ""

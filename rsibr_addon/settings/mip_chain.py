@@ -1,0 +1,70 @@
+"""How an environment is filtered into mips: [Kautz2004], and as engines do."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ..core.errors import RangeError
+from ..core.kinds.mip_chain.chain import LARGEST, check_roughness, check_size
+from ..core.kinds.mip_chain.ggx import ROUGHNESS_RULES
+from ..core.options import Choice, option
+from .method import MethodSettings
+
+
+@dataclass(frozen=True, kw_only=True)
+class MipChainSettings(MethodSettings):
+    """Settings of mip chains."""
+
+    KIND: ClassVar = "mip_chain"
+    LABEL: ClassVar = "Mip Chain"
+    SUMMARY: ClassVar = "Light alone, for any roughness: as game engines use it"
+    REMARK: ClassVar = "A mip chain holds light alone: choose colours in Preview."
+
+    filter: str = option(
+        "ggx",
+        label="Filter",
+        help="How each mip is made",
+        choices={
+            "ggx": Choice("GGX", "the highlight of a rough surface, as engines use it"),
+            "bordered": Choice("Bordered", "means of neighbouring texels, across the cube's edges"),
+            "box": Choice("Box", "means within each face of the cube, as in the paper of 2004"),
+        },
+    )
+    size: int = option(
+        256,
+        label="Size",
+        help="Width of the sharpest mip's faces, a power of 2",
+        unit="texels",
+        least=1,
+        most=LARGEST,
+        offered=(64, 128, 256, 512, 1024),
+        draft=64,
+        final=512,
+    )
+    roughness: str | tuple[float, ...] = option(
+        "linear",
+        label="Roughness",
+        help="How roughness grows from mip to mip of the filter ggx; or ascending numbers from 0 to 1, "
+        "as many as there shall be mips",
+        choices={
+            "linear": Choice("Linear", "mip / last, the same step from each mip to the next"),
+            "quadratic": Choice("Quadratic", "1 - sqrt(1 - mip / last), finer where highlights are sharp"),
+        },
+        metavar="RULE|R0,R1,...",
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        check_size(self.size, 1)
+        if isinstance(self.roughness, str):
+            return
+        if self.filter != "ggx":
+            raise RangeError(f"The filter {self.filter} knows no roughness: leave it out, or choose ggx.")
+        check_size(self.size, len(self.roughness))
+        check_roughness(self.roughness)
+
+    @property
+    def roughnesses(self) -> tuple[float, ...]:
+        """Roughness of every mip of the filter ggx."""
+        if isinstance(self.roughness, str):
+            return ROUGHNESS_RULES[self.roughness](self.size.bit_length())
+        return self.roughness

@@ -1,0 +1,69 @@
+"""How a material is rendered from all around: [Cabral1999]."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ..core.brdf.cycles_presets import PRESETS
+from ..core.options import Choice, Materials, option
+from .method import MethodSettings
+
+
+@dataclass(frozen=True, kw_only=True)
+class RadianceViewsSettings(MethodSettings):
+    """Settings of radiance views."""
+
+    KIND: ClassVar = "radiance_views"
+    LABEL: ClassVar = "Radiance Views"
+    SUMMARY: ClassVar = "Any material, rendered by Cycles from all around"
+
+    material: str = option(
+        label="Material",
+        help=f"a preset ({', '.join(PRESETS)}), FILE.blend:NAME, or :NAME of the open file",
+        metavar="MATERIAL",
+        materials=Materials(
+            own=":{}",
+            presets={
+                name: Choice(name.replace("-", " ").title(), preset.summary)
+                for name, preset in PRESETS.items()
+            },
+            preset="copper",
+        ),
+    )
+    views: int = option(
+        12,
+        label="Views",
+        help="Directions to capture the material from; more show its changing look more truly",
+        choices={
+            count: Choice(str(count), f"{count} views, {degrees} degrees apart")
+            for count, degrees in ((12, 63), (42, 36), (162, 18))
+        },
+        final=42,
+    )
+    size: int = option(
+        256,
+        label="Size",
+        help="Width and height of a view; sharp materials need more",
+        unit="texels",
+        least=4,
+        most=8192,
+        draft=64,
+        final=512,
+    )
+    samples: int = option(
+        32,
+        label="Samples",
+        help="Samples of Cycles for each texel; more make less noise",
+        least=2,
+        most=1 << 24,
+        draft=16,
+        final=128,
+    )
+    denoise: bool = option(
+        True,
+        label="Denoise",
+        help="Denoise each view: good for rough materials, bad for mirrors",
+        final=False,
+    )
+    seed: int = option(
+        0, label="Seed", help="Seed of Cycles' noise", least=0, most=(1 << 31) - 1, advanced=True
+    )

@@ -1,0 +1,139 @@
+"""What a method of making map sets is, and what all of them share."""
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ...core.environment import Environment
+from ...core.progress import Progress, Steps
+from ...files.atomic import check_target
+from ...files.map_set import write_map_set
+from ...files.memory import check_memory
+from ...job import BakeJob
+from ..light.environments import load_environment
+
+BLENDER_MEMORY = 350e6
+"""Bytes that a background Blender takes with a small file, before any work."""
+
+BLENDER_SECONDS = 3.0
+"""Processor time that its start takes."""
+
+ENVIRONMENT_TEXELS = 1024 * 512
+"""Texels of an environment that comes with Blender, and of a world."""
+
+STORED = 0.7
+"""Share of a float of radiance that remains when it is compressed, measured on captures of ours."""
+
+RGB = 3 * 4
+"""Bytes of a texel."""
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What making a map set takes, roughly.
+
+    Attributes
+    ----------
+    processor_seconds : float
+        Of all cores together.
+    memory : float
+        Bytes.
+    disk : float
+        Bytes, of the finished file.
+    """
+
+    processor_seconds: float
+    memory: float
+    disk: float
+
+    @property
+    def seconds(self) -> float:
+        """By the clock, where all cores are free; what a single one does is a small part."""
+        return self.processor_seconds / (os.cpu_count() or 1)
+
+
+@dataclass(frozen=True)
+class Baked:
+    """What a method has made.
+
+    Attributes
+    ----------
+    path : Path
+        The map set.
+    told : str
+        What it is, in a few words for people.
+    figures : dict
+        The same and more for programs, as JSON values.
+    """
+
+    path: Path
+    told: str
+    figures: dict[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Method:
+    """A way to make map sets.
+
+    Attributes
+    ----------
+    bake : callable
+        A `BakeJob`, whose output can be written, to `Steps` that end with a `Baked`.
+    cost : callable
+        Settings to what they cost in an environment as large as those of Blender.
+    material : callable
+        Settings to the material's name in words; empty where a map set holds light alone.
+    """
+
+    bake: Callable[[BakeJob[Any]], Steps[Baked]]
+    cost: Callable[[Any], Cost]
+    material: Callable[[Any], str]
+
+
+def read_light(job: BakeJob[Any]) -> Steps[Environment]:
+    """Read the environment of a job, if its output can be written.
+
+    Raises
+    ------
+    OutputFileError
+        The output exists, or cannot be written.
+    InputFileError, SceneError, RenderError
+        See `load_environment`.
+    """
+    check_target(Path(job.output), job.force)
+    yield Progress(0, 1, "reading the environment")
+    return load_environment(job.light.environment, job.light.clamp)
+
+
+def afforded_by(job: BakeJob[Any], besides: float) -> Callable[[float, int], None]:
+    """What refuses maps that are too large for this machine's memory: bytes needed and width to None.
+
+    Parameters
+    ----------
+    job : BakeJob
+    besides : float
+        See `files.memory.check_memory`.
+    """
+
+    def afford(needed: float, size: int) -> None:
+        check_memory(needed, job.output, (size, size), besides)
+
+    return afford
+
+
+def written(job: BakeJob[Any], map_set: Any, half: bool = False) -> Steps[Path]:
+    """Write a job's map set.
+
+    Parameters
+    ----------
+    job : BakeJob
+    map_set : MapSet or MapsInTurn
+    half : bool
+        Store 16-bit floats.
+    """
+    output = Path(job.output)
+    yield Progress(0, 1, f"writing {output.name}")
+    write_map_set(output, map_set, job.force, half)
+    return output

@@ -126,7 +126,7 @@ def test_antialiased_tables_are_means_over_the_pixel() -> None:
 
 def test_a_look_names_tables_that_there_are() -> None:
     assert TablesLook(("diffuse", Role.COAT)).shown == (Role.DIFFUSE, Role.COAT)
-    with pytest.raises(RangeError, match="Tables cannot be chrome: choose one of diff"):
+    with pytest.raises(RangeError, match="Tables cannot be 'chrome': choose one of diff"):
         TablesLook(("chrome",))
     with pytest.raises(RangeError, match="needs a table: choose from diffuse, specular"):
         TablesLook(())

@@ -103,7 +103,8 @@ def _comparison(path: Path) -> None:
 
 
 def _job(path: Path) -> None:
-    with patch("rsibr.rsibr_addon.command_line.bake.run", lambda arguments, report: {}):
+    done = patch("rsibr.rsibr_addon.command_line.job.run_job", lambda job, report: {})
+    with done, patch("rsibr.rsibr_addon.command_line.bake.run_job", lambda job, report: {}):
         job.run(argparse.Namespace(job=path), Report("none", io.StringIO()))
 
 

@@ -245,7 +245,7 @@ def test_missing_files_and_other_files_are_refused(tmp_path: Path) -> None:
 
 def test_a_picture_is_told_from_a_map_set(tmp_path: Path) -> None:
     write_exr(tmp_path / "a.exr", np.ones((2, 4, 4)))
-    assert "is a picture, not a map set: make one with `rsibr capture`" in refusal(tmp_path / "a.exr")
+    assert "is a picture, not a map set: make one with `rsibr bake" in refusal(tmp_path / "a.exr")
 
 
 @pytest.mark.parametrize("text", ["", "{", "[" * 100000, '{"format": 1', "{'format': 1}"])

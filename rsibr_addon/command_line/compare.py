@@ -68,7 +68,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     stacks.add_argument(
         "--brdf",
         metavar="SPEC",
-        help="the model that was baked, where it is in a file, as rsibr bake lobe-stack takes it (default: what the map "
+        help="the model that was baked, where it is in a file, as rsibr bake takes it (default: what the map "
         "set names)",
     )
     options.add_output(parser, "FOLDER", "for the report, its pictures and comparison.json")

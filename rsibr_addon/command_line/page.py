@@ -20,7 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--brdf",
         metavar="SPEC",
-        help="the model to plot beside a lobe stack's lobes, where it is in a file, as rsibr bake lobe-stack takes it "
+        help="the model to plot beside a lobe stack's lobes, where it is in a file, as rsibr bake takes it "
         "(default: what the map set names)",
     )
     parser.add_argument("--force", action="store_true", help="replace what exists")

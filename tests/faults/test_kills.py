@@ -3,6 +3,7 @@
 A few moments with the other tests; RSIBR_MOMENTS asks for more, over the slow commands too.
 """
 
+import contextlib
 import json
 import os
 import random
@@ -35,11 +36,11 @@ QUICK = {
     "export": "export {in}/bake.rsibr.exr -o out.ktx2",
     "illuminate": "illuminate faces {in}/convert.exr --size 32 -o out.exr",
     "report": "report {in}/bake.rsibr.exr -o out.html",
+    "job": "bake {in}/job.json",
 }
 SLOW = {
     "capture": "capture --environment {in}/env.exr --material gold --views 12 --size 16 --samples 4 "
     "-o out.rsibr.exr",
-    "job": "bake {in}/job.json",
     "preview": "preview {in}/bake.rsibr.exr --size 64 -o out.png",
     "turntable": "preview {in}/bake.rsibr.exr --size 32 --turntable 4 -o out.png",
     "compare": "compare {in}/bake.rsibr.exr --views 2 --size 32 --rings 16 -o out",
@@ -159,6 +160,59 @@ def test_a_kill_leaves_nothing_half_and_nothing_for_ever(
     # A capture that was killed at its very end is told to be done
     again = outputs and name != "job" and not any(".partial/" in path for path in seen)
     place.run([*truth.argv, *(["--force"] if again else [])])
+    assert place.contents() == truth.contents
+    assert list(place.temporary.iterdir()) == []
+
+
+BLENDER = """
+import sys
+import bpy
+from rsibr.rsibr_addon.command_line.main import run_alone
+sys.exit(run_alone(sys.argv[1:], bpy.app.tempdir))
+"""
+"""What the panel starts, as far as it is ours."""
+
+PANEL = """
+import sys
+import time
+from pathlib import Path
+from rsibr.rsibr_addon.tasks.queue.background import Bake, BakeQueue
+queue, bake = BakeQueue(), Bake("", Path("out.rsibr.exr"), [sys.executable, "-c", *sys.argv[1:]])
+queue.add(bake)
+print(bake._process.pid, flush=True)
+while queue.busy:
+    queue.update()
+    time.sleep(0.01)
+print(bake.state, bake.message)
+"""
+
+
+@pytest.mark.parametrize("moment", range(-(-MOMENTS // 5)))
+def test_a_kill_of_the_panels_bake_or_of_its_blender(
+    moment: int, truths: dict[str, Truth], tmp_path: Path
+) -> None:
+    chance = random.Random(1000 + moment)
+    truth, place = truths["job"], Place(tmp_path / "place")
+    argv = [sys.executable, "-c", PANEL, BLENDER, *truth.argv, "--json", "--progress", "json"]
+    environment = {**os.environ, "TMPDIR": str(place.temporary)}
+    with subprocess.Popen(argv, cwd=place.work, env=environment, stdout=subprocess.PIPE, text=True) as panel:
+        assert panel.stdout is not None
+        bake = int(panel.stdout.readline())
+        time.sleep(chance.random() * truth.seconds)
+        is_bake = chance.random() < 0.7
+        with contextlib.suppress(ProcessLookupError):  # it may be done
+            os.kill(bake if is_bake else panel.pid, signal.SIGKILL)
+        told = panel.stdout.read()
+    wait_for_group(bake)
+    outputs = {path: data for path, data in place.contents().items() if ".rsibr-" not in path}
+    if is_bake:
+        state = "done" if outputs else "failed The background Blender ended with code -9 and no result"
+        assert told.startswith(state) or (outputs and told.startswith("failed")), told
+        assert outputs in ({}, truth.contents)
+    else:
+        # Nobody listens any more; the work is done all the same
+        assert outputs == truth.contents
+    place.run(truth.argv)
     assert place.contents() == truth.contents
     assert list(place.temporary.iterdir()) == []
 

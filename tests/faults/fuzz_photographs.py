@@ -46,6 +46,9 @@ from rsibr.tests.written_pictures import (
 SECONDS = 10
 """That no case takes."""
 
+WHOLE = 0.02
+"""Share of measurements that are as large as published ones."""
+
 NUMBERS = (0, 1, 2, 6, 8, 9, 255, 65534, 65535)
 FRACTIONS = ((0, 0), (0, 1), (1, 0), (1, 40), (2**31 - 1, 1), (1, 2**31 - 1), (3, 7))
 
@@ -72,26 +75,37 @@ def pictures(folder: Path) -> list[Path]:
     return sorted(folder.iterdir())
 
 
-def measurements(folder: Path) -> dict[Path, Reader]:
-    """Small whole measurements and lists, and what reads them."""
+def measurements(folder: Path, lights: int, texels: int, merl: int) -> dict[Path, Reader]:
+    """Whole measurements and lists, and what reads them.
+
+    Parameters
+    ----------
+    folder : Path
+    lights : int
+        Of a Cornell file, for each of four azimuths.
+    texels : int
+        Width of an RGL file's pictures.
+    merl : int
+        Numbers of a MERL file that are there.
+    """
     rng = np.random.default_rng(0)
-    scattered = itertools.product((0.2, 0.7, 1.2), (0.0, 1.0, 2.0, 3.1))
+    scattered = itertools.product(np.linspace(0.2, 1.2, lights), (0.0, 1.0, 2.0, 3.1))
     angles = np.array([[0.3, 0.0, *each] for each in scattered])
-    rows = np.column_stack([angles, rng.random((12, 4))])
+    rows = np.column_stack([angles, rng.random((4 * lights, 4))])
     text = "\n".join(" ".join(f"{number:.4f}" for number in row) for row in rows)
     fields = {
         "phi_i": np.zeros(1, np.float32),
         "theta_i": np.linspace(0.0, 1.5, 4, dtype=np.float32),
         "sigma": np.ones((2, 16), np.float32),
         "ndf": np.full((2, 16), 0.3, np.float32),
-        "vndf": rng.random((1, 4, 9, 8), np.float32),
-        "rgb": rng.random((1, 4, 3, 5, 6), np.float32),
+        "vndf": rng.random((1, 4, texels + 3, texels + 2), np.float32),
+        "rgb": rng.random((1, 4, 3, texels - 1, texels), np.float32),
         "jacobian": np.ones(1, np.uint8),
     }
     written = {
         "a.brdf": (f"# Cornell\n4\n400 500\n600 700\n{text}\n".encode(), read_cornell),
         "a.bsdf": (tensor_file(fields), read_rgl),
-        "a.binary": (np.array([90, 90, 180], "<i4").tobytes() + bytes(800), read_merl),
+        "a.binary": (np.array([90, 90, 180], "<i4").tobytes() + rng.random(merl).tobytes(), read_merl),
         "a.txt": (b'# seconds\n1/30, 0.5\n"2";1 / 4 s\r\n', read_times),
     }
     for name, (data, _) in written.items():
@@ -102,10 +116,13 @@ def measurements(folder: Path) -> dict[Path, Reader]:
 def cases(folder: Path, rng: random.Random) -> Iterator[tuple[Path, Reader]]:
     """Damaged files without end, and what is to read them."""
     photographs = [(path.name, path.read_bytes()) for path in pictures(folder)]
-    others = [(path.name, path.read_bytes(), read) for path, read in measurements(folder).items()]
+    small, whole = (
+        [(path.name, path.read_bytes(), read) for path, read in measurements(folder, *sizes).items()]
+        for sizes in ((3, 6, 100), (2500, 256, 3 * 90 * 90 * 180))
+    )
     while True:
         if rng.random() < 0.25:
-            name, data, read = rng.choice(others)
+            name, data, read = rng.choice(whole if rng.random() < WHOLE else small)
         else:
             (name, data), read = rng.choice(photographs), rng.choice((_radiance, _radiance, read_exposure))
         damaged = folder / f"damaged-{name}"

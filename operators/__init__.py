@@ -1,6 +1,6 @@
 """Operators, one per file; thin: properties to settings, then a task."""
 
-from . import bake_kinds
+from . import bake_kinds, export
 from .accept import RSIBR_OT_accept
 from .apply_quality import RSIBR_OT_apply_quality
 from .assemble_faces import RSIBR_OT_assemble_faces
@@ -11,7 +11,6 @@ from .cancel_bake import RSIBR_OT_cancel_bake
 from .capture_environment import RSIBR_OT_capture_environment
 from .compare import RSIBR_OT_compare
 from .drag_split import RSIBR_OT_drag_split
-from .export_ktx2 import RSIBR_OT_export_ktx2
 from .fit_lobes import RSIBR_OT_fit_lobes
 from .lift_painting import RSIBR_OT_lift_painting
 from .merge_brackets import RSIBR_OT_merge_brackets
@@ -38,7 +37,7 @@ CLASSES: tuple[type, ...] = (
     RSIBR_OT_pack,
     RSIBR_OT_unpack,
     RSIBR_OT_open_report,
-    RSIBR_OT_export_ktx2,
+    *export.CLASSES,
     RSIBR_OT_compare,
     RSIBR_OT_reload_map_sets,
     RSIBR_OT_drag_split,

@@ -3,8 +3,8 @@
 import bpy
 
 from ..rsibr_addon.core.options import declared_options, quality_values
+from ..rsibr_addon.files.kinds.registry import METHOD_SETTINGS
 from ..rsibr_addon.host.option_properties import show_option
-from ..rsibr_addon.settings.registry import METHOD_SETTINGS
 
 
 class RSIBR_OT_apply_quality(bpy.types.Operator):

@@ -7,13 +7,13 @@ import bpy
 from ..rsibr_addon.core.errors import SceneError
 from ..rsibr_addon.core.options import declared_options
 from ..rsibr_addon.core.progress import Steps
+from ..rsibr_addon.files.kinds.registry import METHOD_SETTINGS
 from ..rsibr_addon.host.option_properties import options_of, properties_of
 from ..rsibr_addon.job import BakeJob
 from ..rsibr_addon.settings.light import Light
 from ..rsibr_addon.settings.method import MethodSettings
-from ..rsibr_addon.settings.registry import METHOD_SETTINGS
+from ..rsibr_addon.tasks.methods.bake import bake
 from ..rsibr_addon.tasks.methods.method import Baked
-from ..rsibr_addon.tasks.methods.registry import bake
 from .stepwise import Stepwise
 
 

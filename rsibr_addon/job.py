@@ -7,9 +7,9 @@ from typing import Any, Literal
 from .core.errors import InputFileError, RangeError, SchemaError
 from .core.options import to_plain
 from .core.schema import decode, loads
+from .files.kinds.registry import METHOD_SETTINGS
 from .settings.light import Light
 from .settings.method import MethodSettings
-from .settings.registry import METHOD_SETTINGS
 
 FORMAT, ARGUMENTS_FORMAT = 2, 1
 """Formats of a job's JSON: a bake, and the arguments of any command."""

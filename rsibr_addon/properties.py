@@ -5,10 +5,10 @@ from typing import Any
 
 import bpy
 
+from .files.kinds.registry import look_types
 from .host.map_sets import chosen_path, use_map_set
 from .host.option_properties import group_of, properties_of
 from .host.overrides import complete_override
-from .settings.registry import LOOKS
 
 
 def _notice(group: bpy.types.PropertyGroup, context: bpy.types.Context | None) -> None:
@@ -20,7 +20,7 @@ LOOK_GROUPS = {
     kind: group_of(
         f"RSIBR_PG_{kind}", f"How a map set of the kind {kind} is shaded.", properties_of(look, _notice)
     )
-    for kind, look in LOOKS.items()
+    for kind, look in look_types().items()
 }
 """Kind of map sets -> the options of its look."""
 

@@ -15,9 +15,9 @@ ROOT = Path(__file__).parents[1]
 LAYERS: dict[str, set[str]] = {
     "core": set(),
     "settings": {"core"},
-    "job": {"core", "settings"},
-    "files": {"core"},
-    "host": {"core", "files"},
+    "job": {"core", "settings", "files"},
+    "files": {"core", "settings"},
+    "host": {"core", "settings", "files"},
     "device": {"core"},
     "tasks": {"core", "settings", "job", "files", "host", "device"},
     "command_line": {"core", "settings", "job", "files", "host", "device", "tasks"},

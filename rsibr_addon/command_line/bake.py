@@ -4,10 +4,10 @@ import argparse
 from dataclasses import dataclass
 from typing import Any
 
+from ..files.kinds.registry import METHOD_SETTINGS
 from ..job import BakeJob
 from ..settings.light import Light
 from ..settings.method import MethodSettings
-from ..settings.registry import METHOD_SETTINGS
 from .options import add_options, add_output, given
 from .report import Report
 
@@ -46,7 +46,7 @@ class BakeCommand:
         Raises
         ------
         RsibrError
-            See `tasks.methods.registry.bake`.
+            See `tasks.methods.bake.bake`.
         """
         settings, light = given(arguments, self.settings), given(arguments, Light)
         return run_job(BakeJob(settings, str(arguments.output), light, arguments.force), report)
@@ -63,9 +63,9 @@ def run_job(job: BakeJob[Any], report: Report) -> dict[str, Any]:
     Raises
     ------
     RsibrError
-        See `tasks.methods.registry.bake`.
+        See `tasks.methods.bake.bake`.
     """
-    from ..tasks.methods.registry import bake
+    from ..tasks.methods.bake import bake
 
     baked = report.steps(bake(job))
     report.say(f"{baked.path}: {baked.told}")

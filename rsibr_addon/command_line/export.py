@@ -1,8 +1,9 @@
-"""Write a map set's maps as textures for engines."""
+"""Write a map set's maps for other programs."""
 
 import argparse
 from typing import Any
 
+from ..tasks.export.formats import FORMATS
 from . import options
 from .report import Report
 
@@ -10,13 +11,9 @@ from .report import Report
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what `run` reads."""
     options.add_map_set(parser)
-    options.add_output(parser, "OUT.ktx2", "the texture, with a note of what it holds")
-    parser.add_argument(
-        "--up",
-        choices=["z", "y"],
-        default="z",
-        help="axis that points up: z as in Blender, y as in glTF; y for mip chains alone (default: z)",
-    )
+    options.add_options_of(parser, {name: each.settings for name, each in FORMATS.items()})
+    names = "|".join(f"OUT{each.suffix}" for each in FORMATS.values())
+    options.add_output(parser, names, "the first file; its name tells the format")
 
 
 def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
@@ -32,11 +29,10 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     RsibrError
         See `tasks.export.export`.
     """
-    from ..files.textures import Up
-    from ..tasks.export.export import export
-    from ..tasks.export.ktx2 import Ktx2Settings
+    from ..tasks.export.export import export, format_of
 
-    settings = Ktx2Settings(Up(arguments.up))
+    owners = {name: each.settings for name, each in FORMATS.items()}
+    settings = options.given_of(arguments, owners, format_of(arguments.output))
     textures = report.steps(export(arguments.map_set, arguments.output, settings, arguments.force))
     for texture in textures:
         report.say(f"{texture}")

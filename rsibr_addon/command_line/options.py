@@ -2,11 +2,13 @@
 
 import argparse
 import math
+from collections.abc import Mapping
 from dataclasses import MISSING
 from functools import partial
 from pathlib import Path
 from typing import Any
 
+from ..core.errors import RangeError
 from ..core.options import Declared, Options, declared_options, value_from_text
 
 
@@ -40,7 +42,10 @@ def add_option(parser: Any, declared: Declared, description: str) -> None:
     else:
         common["metavar"] = told.metavar or _METAVARS[declared.wanted]
     required = declared.default is MISSING
-    parser.add_argument(declared.flag, type=partial(_value, declared), required=required, **common)
+    action = "extend" if declared.wanted is tuple and declared.count is None else "store"
+    parser.add_argument(
+        declared.flag, type=partial(_value, declared), required=required, action=action, **common
+    )
 
 
 def given[Given: Options](arguments: argparse.Namespace, options: type[Given]) -> Given:
@@ -53,6 +58,64 @@ def given[Given: Options](arguments: argparse.Namespace, options: type[Given]) -
     """
     names = {declared.name for declared in declared_options(options)}
     return options(**{name: value for name, value in vars(arguments).items() if name in names})
+
+
+def add_options_of(parser: argparse.ArgumentParser, owners: Mapping[str, type[Options]]) -> None:
+    """Declare the arguments of several dataclasses, of which one will be asked for.
+
+    Parameters
+    ----------
+    parser : argparse.ArgumentParser
+    owners : mapping of str to type
+        What has the options, a kind of map sets for example, -> them. What several have is declared once.
+    """
+    several = parser.add_argument_group("several kinds")
+    groups = {owner: parser.add_argument_group(owner.replace("_", " ")) for owner in owners}
+    for declared in _by_flag(owners).values():
+        texts = {owner.replace("_", " "): help_of(each) for owner, each in declared.items()}
+        first = next(iter(declared.values()))
+        if len(declared) == 1:
+            add_option(groups[next(iter(declared))], first, help_of(first))
+        elif len(set(texts.values())) == 1:
+            add_option(several if len(declared) < len(owners) else parser, first, help_of(first))
+        else:
+            add_option(several, first, "; ".join(f"of {owner}, {text}" for owner, text in texts.items()))
+
+
+def given_of(arguments: argparse.Namespace, owners: Mapping[str, type[Options]], owner: str) -> Any:
+    """The options of one of several owners that a command line gives.
+
+    Parameters
+    ----------
+    arguments : Namespace
+    owners
+        See `add_options_of`.
+    owner : str
+        The one that counts.
+
+    Returns
+    -------
+    Options
+
+    Raises
+    ------
+    RangeError
+        An option of others is given, or a value is out of its range.
+    """
+    for flag, declared in _by_flag(owners).items():
+        name = next(iter(declared.values())).name
+        if name in vars(arguments) and owner not in declared:
+            raise RangeError(f"The option {flag} is for {' or '.join(declared)}, not for {owner}: omit it.")
+    return given(arguments, owners[owner])
+
+
+def _by_flag(owners: Mapping[str, type[Options]]) -> dict[str, dict[str, Declared]]:
+    """Flag -> the owners that have it, and their option."""
+    found: dict[str, dict[str, Declared]] = {}
+    for owner, options in owners.items():
+        for declared in declared_options(options):
+            found.setdefault(declared.flag, {})[owner] = declared
+    return found
 
 
 def help_of(declared: Declared) -> str:
@@ -156,26 +219,6 @@ def degrees(text: str) -> float:
 def add_map_set(parser: argparse.ArgumentParser) -> None:
     """Declare `map_set`, the file to work on."""
     parser.add_argument("map_set", metavar="NAME.rsibr.exr", type=Path, help="a map set")
-
-
-def add_scene(parser: argparse.ArgumentParser, size: int) -> None:
-    """Declare what is drawn and how large: `mesh`, `perspective` and `size`, by default as given."""
-    parser.add_argument(
-        "--mesh",
-        metavar="MESH",
-        default="sphere",
-        help="sphere, monkey or FILE.obj; fitted into the unit sphere, which fills the frame",
-    )
-    parser.add_argument(
-        "--perspective", metavar="DEG", type=degrees, help="angle of view (default: orthographic)"
-    )
-    parser.add_argument(
-        "--size",
-        metavar="N",
-        type=positive,
-        default=size,
-        help="width and height of a picture in pixels (default: %(default)s)",
-    )
 
 
 def add_rendering(parser: argparse.ArgumentParser, samples: int) -> None:

@@ -1,9 +1,10 @@
-"""Show all that a map set holds on one HTML page."""
+"""Show all that a map set holds in one HTML file."""
 
 import argparse
 from pathlib import Path
 from typing import Any
 
+from ..settings.report import ReportOptions
 from . import options
 from .report import Report
 
@@ -15,19 +16,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         *("-o", "--output"),
         metavar="OUT.html",
         type=Path,
-        help="the page, which needs nothing beside it (default: NAME.html beside the map set)",
+        help="the report, which needs nothing beside it (default: NAME.html beside the map set)",
     )
-    parser.add_argument(
-        "--brdf",
-        metavar="SPEC",
-        help="the model to plot beside a lobe stack's lobes, where it is in a file, as rsibr bake takes it "
-        "(default: what the map set names)",
-    )
+    options.add_options(parser, ReportOptions)
     parser.add_argument("--force", action="store_true", help="replace what exists")
 
 
 def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
-    """Write the page.
+    """Write the report.
 
     Returns
     -------
@@ -43,6 +39,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     from ..tasks.report.report import map_set_report
 
     output = arguments.output or report_beside(arguments.map_set)
-    page = report.steps(map_set_report(arguments.map_set, output, arguments.force, arguments.brdf))
+    brdf = options.given(arguments, ReportOptions).brdf
+    page = report.steps(map_set_report(arguments.map_set, output, arguments.force, brdf))
     report.say(f"{page}")
     return {"page": str(page)}

@@ -15,7 +15,10 @@ from typing import Annotated, Any, NotRequired, TypedDict
 from ..core.conventions import WORLD_AXES
 from ..core.environment import Environment
 from ..core.lobes.fit import Fit
+from ..core.options import Options
 from ..core.schema import Rule, between, length
+from ..settings.comparison import ComparisonOptions
+from ..settings.method import MethodSettings
 from .map_set_data import ENVIRONMENT, MapSet
 from .textures import Texture, Up
 
@@ -113,6 +116,12 @@ class StoredKind:
 
     Attributes
     ----------
+    settings : type
+        How it is made, as options.
+    look : type
+        How it is shaded, as options; their defaults are the kind's best.
+    comparison : type or None
+        How it is compared with the truth, as options; None where there is none.
     material : type
         Schema of its material: see `core.schema`.
     roles : mapping of str to type
@@ -133,6 +142,9 @@ class StoredKind:
         state them.
     """
 
+    settings: type[MethodSettings]
+    look: type[Options]
+    comparison: type[ComparisonOptions] | None = None
     material: Any = Material
     roles: Mapping[str, Any] = field(default_factory=dict)
     numbers: tuple[str, ...] = ()

@@ -6,6 +6,7 @@ from typing import ClassVar
 from ..core.errors import RangeError
 from ..core.kinds.lobe_stack.stack import LARGEST
 from ..core.options import Choice, declared_options, option
+from .comparison import ComparisonOptions
 from .fit import MODEL_HELP, MODELS, Fitting
 from .method import MethodSettings
 
@@ -78,3 +79,28 @@ class LobeStackSettings(Fitting, MethodSettings):
                 raise RangeError(
                     f"A fit has its own {', '.join(given)}: leave the options out, or give a BRDF."
                 )
+
+
+@dataclass(frozen=True, kw_only=True)
+class StackComparison(ComparisonOptions):
+    """How lobe stacks are compared with their reflectance model."""
+
+    rings: int | None = option(
+        None,
+        label="Rings",
+        help="Rings of a sphere on which reflection is integrated exactly",
+        least=4,
+        none="as the maps are fine",
+    )
+    brdf: str | None = option(
+        None,
+        label="Model",
+        help="The model that was baked, where it is in a file, as rsibr bake takes it",
+        none="what the map set names",
+        metavar="SPEC",
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.perspective is not None:
+            raise RangeError("Exact references are seen from afar: leave the perspective out.")

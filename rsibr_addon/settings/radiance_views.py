@@ -4,7 +4,9 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..core.brdf.cycles_presets import PRESETS
+from ..core.kinds.radiance_views.shading import Mode, Warping
 from ..core.options import Choice, Materials, option
+from .comparison import ComparisonOptions
 from .method import MethodSettings
 
 
@@ -66,4 +68,44 @@ class RadianceViewsSettings(MethodSettings):
     )
     seed: int = option(
         0, label="Seed", help="Seed of Cycles' noise", least=0, most=(1 << 31) - 1, advanced=True
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class ViewsComparison(ComparisonOptions):
+    """How radiance views are compared with what Cycles renders."""
+
+    samples: int = option(
+        64,
+        label="Samples",
+        help="Samples of Cycles for a pixel, half of them in each of two renders, which tell the noise",
+        least=4,
+        most=1 << 24,
+    )
+    modes: tuple[Mode, ...] = option(
+        tuple(Mode),
+        label="Modes",
+        help="Modes of drawing to compare",
+        choices={mode: Choice(mode.title()) for mode in Mode},
+        flag="--mode",
+    )
+    warpings: tuple[Warping, ...] = option(
+        tuple(Warping),
+        label="Warps",
+        help="Warps to compare",
+        choices={warping: Choice(warping.title()) for warping in Warping},
+        flag="--warp",
+    )
+    captured_views: tuple[int, ...] = option(
+        (),
+        label="Captured Views",
+        help="Draw from so many of the captured views only",
+        choices={count: Choice(str(count)) for count in (12, 42, 162)},
+    )
+    material: str | None = option(
+        None,
+        label="Material",
+        help="The material that was captured, where it is in a file",
+        none="what the map set names",
+        metavar="PRESET|FILE.blend:NAME",
     )

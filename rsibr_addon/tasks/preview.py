@@ -1,7 +1,7 @@
 """Pictures of a mesh shaded from a map set: one, or a turn around it."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,68 +13,38 @@ from ..core.geometry.camera import Camera
 from ..core.progress import Progress, Steps
 from ..device.preview import PreviewRenderer
 from ..files.atomic import check_target, written_aside
+from ..files.kinds.registry import look_types
 from ..files.outputs import together
 from ..files.pictures import write_exr
 from ..files.temporary import temporary_folder
 from ..host.meshes import TriangleMesh, load_mesh
 from ..host.movies import save_movie
 from ..host.pictures import save_png
+from ..settings.drawing import PreviewOptions
 from .compare.contact_sheet import contact_sheet
-from .methods.kinds import KINDS, open_map_set
-
-LARGEST = 2048
-"""Width and height of the largest picture: drawn at four times that, it takes 1 GiB."""
+from .methods.kinds import open_map_set
 
 SHEET_COLUMNS, SHEET_ROWS = 4, 3
 """A contact sheet shows at most so many frames, evenly spaced in time."""
 
 
-@dataclass(frozen=True)
-class PreviewSettings:
-    """What to draw, from where, and how.
-
-    Attributes
-    ----------
-    camera : Camera
-    mesh : str
-        As `host.meshes.load_mesh` takes it.
-    size : int
-        Width and height in pixels, 1 to `LARGEST`.
-    look : object, optional
-        Of the map set's kind, see `core.kinds`; by default that kind's own.
-    clamp : float, optional
-        Of an environment's picture: see `tasks.methods.kinds.open_map_set`.
-
-    Raises
-    ------
-    RangeError
-        `size` is out of range.
-    """
-
-    camera: Camera
-    mesh: str = "sphere"
-    size: int = 512
-    look: Any = None
-    clamp: float | None = None
-
-    def __post_init__(self) -> None:
-        if not 1 <= self.size <= LARGEST:
-            raise RangeError(f"A picture cannot be {self.size} pixels wide: choose 1 to {LARGEST}.")
-
-
-def preview(map_set: Path, settings: PreviewSettings, output: Path, force: bool = False) -> Steps[Path]:
+def preview(
+    map_set: Path, settings: PreviewOptions, output: Path, force: bool = False, look: Any = None
+) -> Steps[Path]:
     """Draw one picture.
 
     Parameters
     ----------
     map_set : Path
         A map set of any kind.
-    settings : PreviewSettings
+    settings : PreviewOptions
     output : Path
         NAME.exr for linear radiance, premultiplied, with coverage in alpha; NAME.png for a picture
         through the view transform "Standard".
     force : bool
         Whether an existing file is replaced.
+    look : object, optional
+        Of the map set's kind, see `files.kinds.registry.look_types`; by default that kind's best.
 
     Yields
     ------
@@ -91,14 +61,14 @@ def preview(map_set: Path, settings: PreviewSettings, output: Path, force: bool 
     """
     _check_picture_target(output, force)
     yield Progress(0, 2, f"reading {map_set.name}")
-    draw = _Studio(map_set, settings)
+    draw = _Studio(map_set, settings, look)
     yield Progress(1, 2, f"drawing {output.name}")
-    _write_picture(output, draw(settings.camera), force)
+    _write_picture(output, draw(settings.camera(settings.view)), force)
     return output
 
 
 def turntable(
-    map_set: Path, settings: PreviewSettings, frame_count: int, output: Path, force: bool = False
+    map_set: Path, settings: PreviewOptions, output: Path, force: bool = False, look: Any = None
 ) -> Steps[tuple[Path, Path]]:
     """Draw a turn around the world's Z axis, as a movie and a contact sheet.
 
@@ -106,15 +76,16 @@ def turntable(
     ----------
     map_set : Path
         A map set of any kind.
-    settings : PreviewSettings
-        Its camera is the first frame's; an even size, as H.264 demands.
-    frame_count : int
-        At least 2; the movie shows 24 a second and loops.
+    settings : PreviewOptions
+        Has the number of frames, of which the movie shows 24 a second, and loops; its view is the first
+        frame's, its size even, as H.264 demands.
     output : Path
         The contact sheet, NAME.png or NAME.exr. The movie is NAME.mp4 beside it; there, what the
         mesh does not cover is black.
     force : bool
         Whether existing files are replaced.
+    look : object, optional
+        See `preview`.
 
     Yields
     ------
@@ -127,7 +98,7 @@ def turntable(
     Raises
     ------
     RangeError
-        There are fewer than 2 frames, the size is odd, or the view points along the axis.
+        The size is odd, or the view points along the axis.
     MapSetError, InputFileError, OutputFileError, DeviceError, RenderError
     """
     movie = output.with_suffix(".mp4")
@@ -135,9 +106,10 @@ def turntable(
     check_target(movie, force)
     if settings.size % 2:
         raise RangeError(f"A movie cannot be {settings.size} pixels wide: choose an even size.")
-    cameras = list(_orbit(settings.camera, frame_count))
+    frame_count = settings.turntable or 2
+    cameras = list(_orbit(settings.camera(settings.view), frame_count))
     yield Progress(0, frame_count + 1, f"reading {map_set.name}")
-    draw = _Studio(map_set, settings)
+    draw = _Studio(map_set, settings, look)
     shown = _spaced(frame_count)
     sheet = []
     with temporary_folder() as folder:
@@ -159,11 +131,11 @@ def turntable(
 class _Studio:
     """A map set and a mesh, uploaded, to be drawn from any camera."""
 
-    def __init__(self, map_set: Path, settings: PreviewSettings) -> None:
+    def __init__(self, map_set: Path, settings: PreviewOptions, look: Any) -> None:
         self._settings = settings
         self._mesh: TriangleMesh = load_mesh(settings.mesh)
         opened = open_map_set(map_set, clamp=settings.clamp)
-        self._look = settings.look or KINDS[opened.kind].look()
+        self._look = look or look_types()[opened.kind]()
         self._renderer = PreviewRenderer(opened.upload())
 
     def __call__(self, camera: Camera) -> Array:
@@ -173,8 +145,6 @@ class _Studio:
 
 def _orbit(camera: Camera, frame_count: int) -> Iterator[Camera]:
     """Cameras spaced evenly about Z, counter-clockwise seen from above."""
-    if frame_count < 2:
-        raise RangeError(f"A turntable of {frame_count} frames does not turn: ask for 2 or more.")
     x, y, z = camera.view_dir
     if np.hypot(x, y) < 1e-6:
         raise RangeError("A turntable turns about Z, so its view cannot be along Z: look from aside.")

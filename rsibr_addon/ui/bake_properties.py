@@ -2,12 +2,12 @@
 
 import bpy
 
+from ..files.kinds.registry import METHOD_SETTINGS
 from ..host.bake_settings import chosen_picture, use_picture
 from ..host.option_properties import group_of, properties_of
 from ..host.worlds import studio_environments
 from ..properties import keep_in_overrides
 from ..settings.light import Clamp
-from ..settings.registry import METHOD_SETTINGS
 from .map_pictures import Item
 
 METHOD_GROUPS = {

@@ -5,7 +5,7 @@ from typing import Any
 import bpy
 
 from ..core.brdf.gallery import GALLERY, gallery_name
-from ..settings.registry import METHOD_SETTINGS
+from ..files.kinds.registry import METHOD_SETTINGS
 from .sentences import tell
 
 

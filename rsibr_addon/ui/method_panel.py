@@ -3,8 +3,8 @@
 import bpy
 
 from ..core.options import Declared, declared_options, quality_values
+from ..files.kinds.registry import METHOD_SETTINGS
 from ..host.option_properties import property_name, shown_value
-from ..settings.registry import METHOD_SETTINGS
 
 
 class RSIBR_PT_method(bpy.types.Panel):

@@ -14,11 +14,11 @@ from rsibr.rsibr_addon.command_line.commands import parsed
 from rsibr.rsibr_addon.core.errors import InputFileError, MapSetError, OutputFileError, RsibrError, SceneError
 from rsibr.rsibr_addon.core.options import declared_options, quality_values
 from rsibr.rsibr_addon.files.exr import Part, write_parts
+from rsibr.rsibr_addon.files.kinds.registry import METHOD_SETTINGS
 from rsibr.rsibr_addon.files.staging import is_staging_folder
 from rsibr.rsibr_addon.host.bake_settings import apply_settings, plain_settings
 from rsibr.rsibr_addon.host.option_properties import property_name, shown_value
 from rsibr.rsibr_addon.job import CommandJob, read_job
-from rsibr.rsibr_addon.settings.registry import METHOD_SETTINGS
 from rsibr.rsibr_addon.tasks.light.light_pictures import NO_RADIANCE, light_remarks
 from rsibr.rsibr_addon.tasks.queue.bake_request import (
     BakeRequest,

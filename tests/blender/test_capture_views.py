@@ -9,7 +9,7 @@ import rsibr
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.job import BakeJob
 from rsibr.rsibr_addon.settings.radiance_views import RadianceViewsSettings
-from rsibr.rsibr_addon.tasks.methods.registry import bake
+from rsibr.rsibr_addon.tasks.methods.bake import bake
 from rsibr.tests.open_file import open_file_state
 
 pytestmark = pytest.mark.needs("cycles")

@@ -28,10 +28,7 @@ CAPTURE = ["capture", "--environment", "forest", "--material", "copper", "-o", "
         ([*CAPTURE, "--views", "13"], "13"),
         ([*CAPTURE, "--size", "0.5"], "'0.5' is not a whole number"),
         ([*CAPTURE, "--size", "²"], "'²' is not a whole number"),
-        (["preview", "a.exr", "-o", "b.png", "--view", "1,2"], "'1,2' is not X,Y,Z"),
-        (["preview", "a.exr", "-o", "b.png", "--view", "0,0,0"], "'0,0,0' points nowhere"),
-        (["preview", "a.exr", "-o", "b.png", "--view", "nan,0,1"], "'nan,0,1' points nowhere"),
-        (["preview", "a.exr", "-o", "b.png", "--perspective", "180"], "'180' is not an angle"),
+        (["preview", "a.exr", "-o", "b.png", "--view", "1,2"], "'1,2' is neither a number nor 3 numbers"),
         (["preview", "a.exr", "-o", "b.png", "--mode", "magic"], "magic"),
     ],
 )

@@ -21,9 +21,9 @@ from rsibr.rsibr_addon.files.map_set import read_map_set, write_map_set
 from rsibr.rsibr_addon.files.map_set_data import MapSet
 from rsibr.rsibr_addon.host import materials
 from rsibr.rsibr_addon.job import read_job
+from rsibr.rsibr_addon.settings.lobe_stack import StackComparison
+from rsibr.rsibr_addon.settings.radiance_views import ViewsComparison
 from rsibr.rsibr_addon.tasks.compare.compare import compare
-from rsibr.rsibr_addon.tasks.compare.lobe_stack import StackComparison
-from rsibr.rsibr_addon.tasks.compare.radiance_views import ViewsComparison
 from rsibr.rsibr_addon.tasks.queue.bake_request import comparison_of
 from rsibr.rsibr_addon.tasks.reflectance.brdfs import check_told_brdf, told_brdf
 from rsibr.rsibr_addon.tasks.report.report import map_set_report
@@ -103,7 +103,7 @@ def test_the_report_plots_the_model_that_is_named(tmp_path: Path) -> None:
 
 @needs_gl
 def test_stacks_are_compared_with_files_that_are_named(tmp_path: Path) -> None:
-    path, settings = write_stack(tmp_path / "a.rsibr.exr", ELSEWHERE[0]), StackComparison(1, size=8)
+    path, settings = write_stack(tmp_path / "a.rsibr.exr", ELSEWHERE[0]), StackComparison(views=1, size=8)
     with pytest.raises(InputFileError, match=r"its model is in /etc/passwd, .* with --brdf"):
         drain(compare(path, settings, tmp_path / "out"))
     with pytest.raises(AssertionError, match="/etc/passwd is opened"):
@@ -118,7 +118,7 @@ def test_views_are_compared_with_files_that_are_named(tmp_path: Path) -> None:
     path, spec = tmp_path / "a.rsibr.exr", "/art/evil.blend:Evil"
     header = flat.header | {"material": flat.header["material"] | {"spec": spec}}
     write_map_set(path, MapSet(flat.kind, flat.maps, header))
-    settings = ViewsComparison(1, size=8)
+    settings = ViewsComparison(views=1, size=8)
     with pytest.raises(InputFileError, match=r"material is /art/evil\.blend:Evil, .* with --material"):
         drain(compare(path, settings, tmp_path / "out"))
     with pytest.raises(AssertionError, match=r"/art/evil\.blend is opened"):

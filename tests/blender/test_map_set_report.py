@@ -14,7 +14,7 @@ from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.job import BakeJob
 from rsibr.rsibr_addon.settings.light import Light
 from rsibr.rsibr_addon.settings.mip_chain import MipChainSettings
-from rsibr.rsibr_addon.tasks.methods.registry import bake
+from rsibr.rsibr_addon.tasks.methods.bake import bake
 from rsibr.rsibr_addon.tasks.report.report import map_set_report
 
 pytestmark = pytest.mark.needs("gl")

@@ -6,10 +6,11 @@ from typing import Any
 
 import pytest
 from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, ViewsLook, Warping
+from rsibr.rsibr_addon.settings.radiance_views import ViewsComparison
 from rsibr.rsibr_addon.tasks.compare import comparison as comparisons
 from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, WayError
 from rsibr.rsibr_addon.tasks.compare.measured_error import measured_facts
-from rsibr.rsibr_addon.tasks.compare.radiance_views import ViewsComparison, ViewsWay
+from rsibr.rsibr_addon.tasks.compare.radiance_views import ViewsWay
 from rsibr.rsibr_addon.tasks.report import facts
 from rsibr.tests.flat_capture import write_flat_capture
 
@@ -66,7 +67,7 @@ def test_measured_errors_are_told_while_the_content_is_the_same(path: Path) -> N
         ({"settings": "x"}, "settings is not an object"),
         (
             {"settings": {"views": 0}},
-            "settings is impossible: A comparison of 0 views compares nothing: ask for 1 or more",
+            "settings is impossible: Views cannot be 0: choose 1 to 65536",
         ),
         ({"errors": [{"pooled": 10**400}]}, "the number 1000000000000000... is too large"),
         ({"reference_noise": None}, "reference_noise is not a finite number"),

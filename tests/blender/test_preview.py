@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,7 +17,8 @@ from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.files.pictures import read_exr
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
-from rsibr.rsibr_addon.tasks.preview import PreviewSettings, preview, turntable
+from rsibr.rsibr_addon.settings.drawing import PreviewOptions
+from rsibr.rsibr_addon.tasks.preview import preview, turntable
 from rsibr.tests.mirror_capture import (
     BRIGHT_DIR,
     environment,
@@ -44,8 +46,8 @@ def mirrored_sphere(camera: Camera, size: int) -> tuple[np.ndarray, np.ndarray]:
 def test_a_mirrored_sphere_shows_its_surroundings(tmp_path: Path, mode: Mode, warping: Warping) -> None:
     path = write_mirror_capture(tmp_path / "mirror.rsibr.exr")
     camera = Camera(VIEW)
-    settings = PreviewSettings(camera, size=SIZE, look=ViewsLook(mode, warping))
-    output = drain(preview(path, settings, tmp_path / "out.exr"))
+    settings, look = PreviewOptions(view=VIEW, size=SIZE), ViewsLook(mode, warping)
+    output = drain(preview(path, settings, tmp_path / "out.exr", look=look))
     assert output == tmp_path / "out.exr"
     rgba = read_exr(output)
     expected, inside = mirrored_sphere(camera, SIZE)
@@ -63,8 +65,8 @@ def test_a_mirrored_sphere_shows_its_surroundings(tmp_path: Path, mode: Mode, wa
 def test_a_picture_of_an_environment_is_mirrored(tmp_path: Path, look: EnvironmentLook | None) -> None:
     write_radiance(tmp_path / "forest.exr", environment(128).radiance)
     camera = Camera(VIEW)
-    settings = PreviewSettings(camera, size=SIZE, look=look)
-    rgba = read_exr(drain(preview(tmp_path / "forest.exr", settings, tmp_path / "out.exr")))
+    settings = PreviewOptions(view=VIEW, size=SIZE)
+    rgba = read_exr(drain(preview(tmp_path / "forest.exr", settings, tmp_path / "out.exr", look=look)))
     expected, inside = mirrored_sphere(camera, SIZE)
     # A pixel of 1/24 averages as above; texels of 1.4 degrees err by h^2 / 8 of second derivatives up to 4,
     # averaged over boxes that hold a texel and more by a few times that: 1e-3.
@@ -74,12 +76,12 @@ def test_a_picture_of_an_environment_is_mirrored(tmp_path: Path, look: Environme
 def test_a_picture_that_is_no_environment_is_refused(tmp_path: Path) -> None:
     write_radiance(tmp_path / "square.exr", np.ones((4, 4, 3), np.float32))
     with pytest.raises(InputFileError, match="twice as wide as high"):
-        drain(preview(tmp_path / "square.exr", PreviewSettings(Camera(VIEW)), tmp_path / "out.png"))
+        drain(preview(tmp_path / "square.exr", PreviewOptions(view=VIEW), tmp_path / "out.png"))
 
 
 def test_png_and_exr_agree(tmp_path: Path, stored_bytes: Callable) -> None:
     path = write_mirror_capture(tmp_path / "mirror.rsibr.exr", size=32)
-    settings = PreviewSettings(Camera(VIEW), size=SIZE)
+    settings = PreviewOptions(view=VIEW, size=SIZE)
     linear = read_exr(drain(preview(path, settings, tmp_path / "out.exr")))
     shown = stored_bytes(drain(preview(path, settings, tmp_path / "out.png")))
     np.testing.assert_allclose(shown[..., 3], 255.0 * linear[..., 3], atol=0.51)
@@ -91,7 +93,8 @@ def test_png_and_exr_agree(tmp_path: Path, stored_bytes: Callable) -> None:
 def test_perspective_looks_from_the_eye(tmp_path: Path) -> None:
     path = write_mirror_capture(tmp_path / "mirror.rsibr.exr", view_count=42)
     camera = Camera(VIEW, field_of_view=np.radians(60.0))
-    rgba = read_exr(drain(preview(path, PreviewSettings(camera, size=SIZE), tmp_path / "out.exr")))
+    settings = PreviewOptions(view=VIEW, perspective=60.0, size=SIZE)
+    rgba = read_exr(drain(preview(path, settings, tmp_path / "out.exr")))
     # Rays through pixel centres, and where they meet the unit sphere first.
     spread = np.tan(0.5 * camera.field_of_view)
     screen = spread * (2.0 * texel_centres(SIZE, SIZE) - 1.0)
@@ -110,8 +113,8 @@ def test_perspective_looks_from_the_eye(tmp_path: Path) -> None:
 @pytest.mark.parametrize("suffix", [".png", ".exr"])
 def test_a_turntable_turns_once(tmp_path: Path, suffix: str, stored_bytes: Callable) -> None:
     path = write_mirror_capture(tmp_path / "mirror.rsibr.exr", size=32)
-    settings = PreviewSettings(Camera(VIEW), size=32)
-    steps = turntable(path, settings, 6, tmp_path / f"turn{suffix}")
+    settings = PreviewOptions(view=VIEW, size=32, turntable=6)
+    steps = turntable(path, settings, tmp_path / f"turn{suffix}")
     progress = []
     while True:
         try:
@@ -149,7 +152,7 @@ def test_an_objs_picture_is_upright(tmp_path: Path) -> None:
     path = write_mirror_capture(tmp_path / "mirror.rsibr.exr", size=32)
     arrow = tmp_path / "arrow.obj"
     arrow.write_text("v -1 -1 0\nv 1 -1 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n")
-    settings = PreviewSettings(Camera((0.0, -1.0, 0.0)), mesh=str(arrow), size=32)
+    settings = PreviewOptions(mesh=str(arrow), size=32)
     alpha = read_exr(drain(preview(path, settings, tmp_path / "out.exr")))[..., 3]
     widths = (alpha > 0.5).sum(axis=1)
     assert widths[8] > widths[16] > widths[24] > 0
@@ -163,7 +166,7 @@ def test_an_objs_picture_is_upright(tmp_path: Path) -> None:
 
 def test_existing_files_and_odd_names_are_refused_before_anything_is_read(tmp_path: Path) -> None:
     absent = tmp_path / "absent.rsibr.exr"
-    settings = PreviewSettings(Camera(VIEW), size=32)
+    settings = PreviewOptions(view=VIEW, size=32, turntable=4)
     (tmp_path / "there.png").touch()
     (tmp_path / "turn.mp4").touch()
     with pytest.raises(OutputFileError, match=r"there\.png exists"):
@@ -171,31 +174,33 @@ def test_existing_files_and_odd_names_are_refused_before_anything_is_read(tmp_pa
     with pytest.raises(OutputFileError, match=r"there\.jpg would be of an unknown kind"):
         drain(preview(absent, settings, tmp_path / "there.jpg"))
     with pytest.raises(OutputFileError, match=r"turn\.mp4 exists"):
-        drain(turntable(absent, settings, 4, tmp_path / "turn.png"))
+        drain(turntable(absent, settings, tmp_path / "turn.png"))
     with pytest.raises(MapSetError, match=r"absent\.rsibr\.exr"):
         drain(preview(absent, settings, tmp_path / "new.png"))
     assert not (tmp_path / "new.png").exists()
 
 
 @pytest.mark.parametrize(
-    ("camera", "size", "frames", "complaint"),
+    ("wanted", "complaint"),
     [
-        (Camera(VIEW), 31, 4, "31 pixels wide: choose an even size"),
-        (Camera(VIEW), 32, 1, "of 1 frames does not turn"),
-        (Camera((0.0, 0.0, 2.0)), 32, 4, "cannot be along Z"),
+        ({"view": VIEW, "size": 31, "turntable": 4}, "31 pixels wide: choose an even size"),
+        ({"view": VIEW, "size": 32, "turntable": 1}, "Turntable cannot be 1"),
+        ({"view": (0.0, 0.0, 2.0), "size": 32, "turntable": 4}, "cannot be along Z"),
+        ({"view": (0.0, 0.0, 0.0), "size": 32, "turntable": 4}, "length 0"),
+        ({"perspective": 180.0, "turntable": 4}, "between 0 and 180 degrees"),
     ],
 )
 def test_a_turntable_that_cannot_be_is_refused(
-    tmp_path: Path, camera: Camera, size: int, frames: int, complaint: str
+    tmp_path: Path, wanted: dict[str, Any], complaint: str
 ) -> None:
     with pytest.raises(RangeError, match=complaint):
-        drain(turntable(tmp_path / "m", PreviewSettings(camera, size=size), frames, tmp_path / "t.png"))
+        drain(turntable(tmp_path / "m", PreviewOptions(**wanted), tmp_path / "t.png"))
 
 
 @pytest.mark.parametrize("size", [0, -3, 4096])
 def test_sizes_have_limits(size: int) -> None:
     with pytest.raises(RangeError, match="choose 1 to 2048"):
-        PreviewSettings(Camera(VIEW), size=size)
+        PreviewOptions(view=VIEW, size=size)
 
 
 def test_views_from_elsewhere_are_refused(tmp_path: Path) -> None:
@@ -204,4 +209,4 @@ def test_views_from_elsewhere_are_refused(tmp_path: Path) -> None:
         part["view_dir"] = BRIGHT_DIR.tolist()
     write_map_set(tmp_path / "bent.rsibr.exr", map_set)
     with pytest.raises(MapSetError, match="other directions than RSIBR's own"):
-        drain(preview(tmp_path / "bent.rsibr.exr", PreviewSettings(Camera(VIEW)), tmp_path / "out.png"))
+        drain(preview(tmp_path / "bent.rsibr.exr", PreviewOptions(view=VIEW), tmp_path / "out.png"))

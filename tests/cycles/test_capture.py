@@ -33,8 +33,8 @@ from rsibr.rsibr_addon.settings.light import Light
 from rsibr.rsibr_addon.settings.radiance_views import RadianceViewsSettings
 from rsibr.rsibr_addon.tasks.light import environments
 from rsibr.rsibr_addon.tasks.methods import radiance_views as task
+from rsibr.rsibr_addon.tasks.methods.bake import bake
 from rsibr.rsibr_addon.tasks.methods.kinds import open_map_set
-from rsibr.rsibr_addon.tasks.methods.registry import bake
 from rsibr.tests.open_file import open_file_state
 
 LIT = (12, 3)
@@ -153,7 +153,7 @@ def test_a_killed_capture_goes_on_bit_for_bit(job: BakeJob, partial: Path, rende
     script = (
         "import os, signal, sys\n"
         "from rsibr.rsibr_addon.job import read_job\n"
-        "from rsibr.rsibr_addon.tasks.methods.registry import bake\n"
+        "from rsibr.rsibr_addon.tasks.methods.bake import bake\n"
         "for progress in bake(read_job(sys.argv[1], 'job')):\n"
         "    if progress.done == 6:\n"
         "        os.kill(os.getpid(), signal.SIGKILL)\n"

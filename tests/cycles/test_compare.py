@@ -15,10 +15,11 @@ from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.host.materials import fingerprint, load_material
 from rsibr.rsibr_addon.host.scenes import temporary_scene
+from rsibr.rsibr_addon.settings.radiance_views import ViewsComparison
 from rsibr.rsibr_addon.tasks.compare.compare import compare
 from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, random_directions
 from rsibr.rsibr_addon.tasks.compare.pictures import BRIGHTER, DARKER, difference_picture
-from rsibr.rsibr_addon.tasks.compare.radiance_views import ViewsComparison, ViewsWay, views_table
+from rsibr.rsibr_addon.tasks.compare.radiance_views import ViewsWay, views_table
 from rsibr.tests.mirror_capture import mirror_map_set
 
 pytestmark = pytest.mark.needs("gl")
@@ -129,7 +130,7 @@ def test_meshes_stand_as_they_are_drawn(tmp_path: Path, capture: Path) -> None:
     settings = ViewsComparison(
         views=3,
         mesh=str(tmp_path / "box.obj"),
-        field_of_view=np.radians(50.0),
+        perspective=50.0,
         size=32,
         samples=16,
         modes=(Mode.FRAGMENT,),
@@ -196,9 +197,9 @@ def test_a_cancelled_comparison_leaves_nothing(tmp_path: Path, capture: Path) ->
 @pytest.mark.parametrize(
     ("settings", "complaint"),
     [
-        ({"views": 0}, "ask for 1 or more"),
-        ({"samples": 3}, "4 samples or more"),
-        ({"size": 5000}, "at most 1024"),
+        ({"views": 0}, "Views cannot be 0"),
+        ({"samples": 3}, "Samples cannot be 3"),
+        ({"size": 5000}, "choose 1 to 1024"),
     ],
 )
 def test_settings_have_limits(settings: dict[str, int], complaint: str) -> None:

@@ -16,9 +16,12 @@ from rsibr.rsibr_addon.files.fits import write_fit
 from rsibr.rsibr_addon.files.kinds import kernel_bank, lobe_stack, mip_chain, reflection_tables
 from rsibr.rsibr_addon.files.map_set_data import MapSet
 from rsibr.rsibr_addon.job import CommandJob
-from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, SceneSettings, WayError
-from rsibr.rsibr_addon.tasks.compare.lobe_stack import StackComparison, StackWay
-from rsibr.rsibr_addon.tasks.compare.radiance_views import ViewsComparison, ViewsWay
+from rsibr.rsibr_addon.settings.comparison import ComparisonOptions
+from rsibr.rsibr_addon.settings.lobe_stack import StackComparison
+from rsibr.rsibr_addon.settings.radiance_views import ViewsComparison
+from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, WayError
+from rsibr.rsibr_addon.tasks.compare.lobe_stack import StackWay
+from rsibr.rsibr_addon.tasks.compare.radiance_views import ViewsWay
 from rsibr.tests.lobe_stacks import random_fit, random_stack
 from rsibr.tests.mirror_capture import mirror_map_set
 
@@ -44,7 +47,7 @@ def json_files(folder: Path) -> dict[str, str]:
     return {"fit.json": fit, "job.json": job, "views.json": views, "stack.json": stack}
 
 
-def _comparison(settings: SceneSettings, error: WayError) -> str:
+def _comparison(settings: ComparisonOptions, error: WayError) -> str:
     view_dirs = ((0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
     found = Comparison("a.rsibr.exr", "0" * 64, "forest", "copper", 8, settings, view_dirs, 0.001, (error,))
     return json.dumps(found.to_json())

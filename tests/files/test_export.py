@@ -104,7 +104,7 @@ def test_a_chain_is_a_cube_with_its_mips(tmp_path: Path) -> None:
 
 
 def test_with_y_up_directions_show_what_they_showed(tmp_path: Path) -> None:
-    (path,) = drain(export(chain_file(tmp_path), tmp_path / "sky.ktx2", Ktx2Settings(Up.Y)))
+    (path,) = drain(export(chain_file(tmp_path), tmp_path / "sky.ktx2", Ktx2Settings(up=Up.Y)))
     texture = read(path)
     here = RNG.standard_normal((500, 3))
     here /= np.linalg.norm(here, axis=-1, keepdims=True)
@@ -134,7 +134,7 @@ def test_tables_of_several_sizes_are_several_textures(tmp_path: Path) -> None:
         np.testing.assert_allclose(texture.levels[0][0, ..., :3], values, rtol=2.0**-11, atol=2.0**-25)
         assert texture.note["numbers"]["weights"]["rows"] == np.ones((len(Role), 3, 3)).tolist()
     with pytest.raises(RangeError, match=r"cannot be turned: export it with Z up"):
-        drain(export(source, tmp_path / "turned.ktx2", Ktx2Settings(Up.Y)))
+        drain(export(source, tmp_path / "turned.ktx2", Ktx2Settings(up=Up.Y)))
 
 
 def test_light_too_bright_for_half_floats_is_kept(tmp_path: Path) -> None:

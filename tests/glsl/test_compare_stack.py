@@ -16,9 +16,10 @@ from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.kinds.lobe_stack import to_map_set
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.files.map_set_data import MapSet
+from rsibr.rsibr_addon.settings.lobe_stack import StackComparison
 from rsibr.rsibr_addon.tasks.compare.compare import compare
 from rsibr.rsibr_addon.tasks.compare.comparison import Comparison
-from rsibr.rsibr_addon.tasks.compare.lobe_stack import StackComparison, StackWay, stack_table
+from rsibr.rsibr_addon.tasks.compare.lobe_stack import StackWay, stack_table
 
 KD = 0.8
 LIGHT = np.random.default_rng(61).random((32, 64, 3), dtype=np.float32) ** 2
@@ -98,11 +99,11 @@ def test_the_command_tells_the_table(path: Path, capfd: pytest.CaptureFixture[st
 @pytest.mark.parametrize(
     ("options", "complaint"),
     [
-        (["--warp", "split"], "option for warpings is for radiance_views, which this map set is not"),
-        (["--samples", "16"], "option for samples is for radiance_views, which this map set is not"),
+        (["--warp", "split"], "option --warp is for radiance_views, not for lobe_stack"),
+        (["--samples", "16"], "option --samples is for radiance_views, not for lobe_stack"),
         (["--perspective", "40"], "seen from afar: leave the perspective out"),
-        (["--rings", "3"], "3 rings are too few"),
-        (["--size", "5000"], "at most 1024"),
+        (["--rings", "3"], "Rings cannot be 3"),
+        (["--size", "5000"], "choose 1 to 1024"),
     ],
 )
 def test_what_cannot_be_compared_is_refused(

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from rsibr.rsibr_addon.core.conventions import Array
 from rsibr.rsibr_addon.core.geometry.directions import dot
+from rsibr.rsibr_addon.core.options import Options, option
 
 
 @dataclass(frozen=True)
@@ -16,10 +17,10 @@ class Disk:
 
 
 @dataclass(frozen=True)
-class DiskLook:
-    """How it is shaded: the radiance is multiplied by `gain`."""
+class DiskLook(Options):
+    """How it is shaded."""
 
-    gain: float = 1.0
+    gain: float = option(1.0, label="Gain", help="Factor of the radiance", least=0.0)
 
 
 def disk_radiance(disk: Disk, normal: Array, view_dir: Array, look: DiskLook) -> Array:

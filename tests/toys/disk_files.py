@@ -7,7 +7,8 @@ import numpy as np
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.files.map_set_data import ENVIRONMENT, MapSet
 from rsibr.rsibr_addon.files.map_set_header import StoredKind, make_header
-from rsibr.tests.toys.disk_core import Disk
+from rsibr.tests.toys.disk_core import Disk, DiskLook
+from rsibr.tests.toys.disk_settings import DiskComparison, DiskSettings
 
 KIND = "disk"
 
@@ -45,4 +46,12 @@ def _part_title(part: dict[str, Any]) -> str:
     return f"Colour at n\N{DOT OPERATOR}v {part['cosine']:g}" if "cosine" in part else "Light"
 
 
-STORED = StoredKind(_Material, {"colour": _Colour}, facts=_facts, part_title=_part_title)
+STORED = StoredKind(
+    DiskSettings,
+    DiskLook,
+    DiskComparison,
+    _Material,
+    {"colour": _Colour},
+    facts=_facts,
+    part_title=_part_title,
+)

@@ -11,17 +11,11 @@ from rsibr.rsibr_addon.core.metrics import relative_rmse, unpremultiplied
 from rsibr.rsibr_addon.core.progress import Progress, Steps
 from rsibr.rsibr_addon.device.preview import PreviewRenderer
 from rsibr.rsibr_addon.host.meshes import load_mesh
-from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, SceneSettings, way_error
+from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, cameras_of, way_error
 from rsibr.rsibr_addon.tasks.compare.truth import Drawn, Truth
 from rsibr.tests.toys.disk_core import Disk, DiskLook
 from rsibr.tests.toys.disk_device import DiskOnDevice
-
-
-@dataclass(frozen=True)
-class DiskComparison(SceneSettings):
-    """How much brighter the truth is."""
-
-    brighter: float = 1.25
+from rsibr.tests.toys.disk_settings import DiskComparison
 
 
 @dataclass(frozen=True)
@@ -39,7 +33,7 @@ def draw(
     mesh, renderer = load_mesh(settings.mesh), PreviewRenderer(DiskOnDevice(disk))
     surface = mesh.positions, mesh.normals, mesh.triangles
     drawn, true = (
-        [renderer.draw(*surface, camera, settings.size, DiskLook(gain)) for camera in settings.cameras]
+        [renderer.draw(*surface, camera, settings.size, DiskLook(gain)) for camera in cameras_of(settings)]
         for gain in (1.0, settings.brighter)
     )
     stacked = np.stack(true)
@@ -55,7 +49,6 @@ def table(comparisons: Sequence[Comparison]) -> str:
 
 
 TRUTH = Truth(
-    settings=DiskComparison,
     way=DiskWay,
     draw=draw,
     name="a brighter disk",

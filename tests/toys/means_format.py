@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+from rsibr.rsibr_addon.core.options import Options, option
 from rsibr.rsibr_addon.files.atomic import written_aside
 from rsibr.rsibr_addon.files.map_set_data import MapSet
 from rsibr.rsibr_addon.files.textures import Up
@@ -10,10 +11,10 @@ from rsibr.rsibr_addon.tasks.export.format import Format, textures_of
 
 
 @dataclass(frozen=True)
-class MeansSettings:
+class MeansSettings(Options):
     """How exactly colours are written."""
 
-    digits: int = 3
+    digits: int = option(3, label="Digits", help="Digits after the point", least=0, most=9)
 
 
 def write(map_set: Path, held: MapSet, output: Path, settings: MeansSettings, force: bool) -> list[Path]:

@@ -7,6 +7,7 @@ import gpu
 import numpy as np
 from rsibr.rsibr_addon.core.conventions import Array
 from rsibr.rsibr_addon.core.geometry.directions import dot
+from rsibr.rsibr_addon.core.options import option
 from rsibr.rsibr_addon.device.drawing import Draw, MeshOnDevice
 from rsibr.rsibr_addon.device.shaders import build, kept_until_exit, mesh_interface
 from rsibr.tests.toys.disk_core import Disk, DiskLook
@@ -17,9 +18,9 @@ FRAGMENT = str(Path(__file__).with_name("toon_frag.glsl"))
 
 @dataclass(frozen=True)
 class ToonLook(DiskLook):
-    """The colour of the middle where the cosine is above `edge`, and the rim's elsewhere."""
+    """The colour of the middle where the cosine is above an edge, and the rim's elsewhere."""
 
-    edge: float = 0.5
+    edge: float = option(0.5, label="Edge", help="Cosine between the tones", least=0.0, most=1.0)
 
 
 def toon_radiance(disk: Disk, normal: Array, view_dir: Array, look: ToonLook) -> Array:

@@ -8,9 +8,11 @@ import numpy as np
 from ...core.environment import Environment
 from ...core.errors import MapSetError, RangeError, ShapeError
 from ...core.kinds.kernel_bank.filtered_bank import FilteredBank
+from ...core.kinds.kernel_bank.shading import BankLook
 from ...core.kinds.lobe_stack.stack import stack_representation
 from ...core.lobes.bake import BakedBank
 from ...core.lobes.bank import KernelBank
+from ...settings.kernel_bank import KernelBankSettings
 from ..map_set_data import ENVIRONMENT, MapSet
 from ..map_set_header import Colour, StoredKind, make_header, role_in_words
 from .sheets import sheets_from_strip, strip_from_sheets
@@ -116,4 +118,10 @@ def _part_title(part: dict[str, Any]) -> str:
     return f"Kernel, Concentration {part['concentration']:.3g}"
 
 
-STORED = StoredKind(roles={"prefiltered": _Kernel}, facts=_facts, part_title=_part_title)
+STORED = StoredKind(
+    settings=KernelBankSettings,
+    look=BankLook,
+    roles={"prefiltered": _Kernel},
+    facts=_facts,
+    part_title=_part_title,
+)

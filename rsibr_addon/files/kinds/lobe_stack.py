@@ -13,11 +13,13 @@ from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.errors import MapSetError, RangeError, SchemaError, ShapeError
 from ...core.kinds.kernel_bank.filtered_bank import maps_from_bank
+from ...core.kinds.lobe_stack.shading import StackLook
 from ...core.kinds.lobe_stack.stack import LobeStack, stack_representation
 from ...core.lobes.bake import BakedStack
 from ...core.lobes.bank import KernelBank
 from ...core.lobes.fit import Fit
 from ...core.schema import array, between, decode, length
+from ...settings.lobe_stack import LobeStackSettings, StackComparison
 from ..map_set_data import ENVIRONMENT, MapSet, MapsInTurn
 from ..map_set_header import MOST_KERNELS, Colour, Model, StoredKind, make_header, role_in_words
 from .sheets import sheets_from_strip, strip_from_sheets
@@ -323,5 +325,12 @@ def _part_title(part: dict[str, Any]) -> str:
 
 
 STORED = StoredKind(
-    material=_Material, roles={"prefiltered": _Lobe}, facts=_facts, part_title=_part_title, lobes=fit_of
+    settings=LobeStackSettings,
+    look=StackLook,
+    comparison=StackComparison,
+    material=_Material,
+    roles={"prefiltered": _Lobe},
+    facts=_facts,
+    part_title=_part_title,
+    lobes=fit_of,
 )

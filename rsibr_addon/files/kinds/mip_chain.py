@@ -9,7 +9,9 @@ from ...core.conventions import WORLD_AXES, Array
 from ...core.environment import Environment
 from ...core.errors import MapSetError, RangeError, ShapeError
 from ...core.kinds.mip_chain.chain import MipChain
+from ...core.kinds.mip_chain.shading import MipLook
 from ...core.schema import between
+from ...settings.mip_chain import MipChainSettings
 from ..map_set_data import ENVIRONMENT, MapSet
 from ..map_set_header import StoredKind, make_header, role_in_words
 from ..textures import Texture, Up
@@ -152,6 +154,8 @@ def _textures(path: Path, map_set: MapSet, up: Up) -> list[Texture]:
 
 
 STORED = StoredKind(
+    settings=MipChainSettings,
+    look=MipLook,
     roles={"prefiltered": _Mip},
     numbers=(HARMONICS,),
     facts=_facts,

@@ -9,8 +9,10 @@ import numpy as np
 from ...core.conventions import Array
 from ...core.errors import MapSetError, RangeError, ShapeError
 from ...core.geometry.geodesic import VERTEX_COUNTS
+from ...core.kinds.radiance_views.shading import ViewsLook
 from ...core.kinds.radiance_views.views import RadianceViews
 from ...core.schema import between
+from ...settings.radiance_views import RadianceViewsSettings, ViewsComparison
 from ..map_set_data import MapSet
 from ..map_set_header import Direction, Model, StoredKind, role_in_words
 
@@ -98,6 +100,9 @@ def _part_title(part: dict[str, Any]) -> str:
 
 
 STORED = StoredKind(
+    settings=RadianceViewsSettings,
+    look=ViewsLook,
+    comparison=ViewsComparison,
     material=_Material,
     roles={"diffuse": _View, "glossy": _View},
     numbers=("albedo",),

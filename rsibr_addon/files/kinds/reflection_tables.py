@@ -7,7 +7,9 @@ import numpy as np
 
 from ...core.environment import Environment
 from ...core.errors import MapSetError, RangeError, ShapeError
+from ...core.kinds.reflection_tables.shading import TablesLook
 from ...core.kinds.reflection_tables.tables import ReflectionTables, Role
+from ...settings.reflection_tables import ReflectionTablesSettings
 from ..map_set_data import ENVIRONMENT, MapSet
 from ..map_set_header import StoredKind, make_header
 
@@ -121,4 +123,10 @@ def _facts(header: dict[str, Any]) -> dict[str, str]:
     return {name.capitalize(): text for name, text in header["material"].items() if isinstance(text, str)}
 
 
-STORED = StoredKind(roles={WEIGHTS: _Weights, Role.REFRACTION: _Refraction}, numbers=(WEIGHTS,), facts=_facts)
+STORED = StoredKind(
+    settings=ReflectionTablesSettings,
+    look=TablesLook,
+    roles={WEIGHTS: _Weights, Role.REFRACTION: _Refraction},
+    numbers=(WEIGHTS,),
+    facts=_facts,
+)

@@ -1,5 +1,9 @@
-"""The kinds of map sets that files hold."""
+"""The kinds of map sets: what is known of them without Blender."""
 
+from ...core.kinds.environment import EnvironmentLook
+from ...core.options import Options
+from ...settings.method import MethodSettings
+from ..map_set_data import ENVIRONMENT
 from ..map_set_header import StoredKind
 from . import kernel_bank, lobe_stack, mip_chain, radiance_views, reflection_tables
 
@@ -10,4 +14,12 @@ STORED: dict[str, StoredKind] = {
     mip_chain.KIND: mip_chain.STORED,
     kernel_bank.KIND: kernel_bank.STORED,
 }
-"""Kind, as descriptions name it -> the fields and words of its descriptions."""
+"""Kind, as descriptions name it -> its options, and the fields and words of its descriptions."""
+
+METHOD_SETTINGS: dict[str, type[MethodSettings]] = {kind: stored.settings for kind, stored in STORED.items()}
+"""Kind -> the settings of the method that makes it, in the order of menus."""
+
+
+def look_types() -> dict[str, type[Options]]:
+    """Kind, a picture of an environment included -> how it is shaded, as options."""
+    return {**{kind: stored.look for kind, stored in STORED.items()}, ENVIRONMENT: EnvironmentLook}

@@ -7,10 +7,12 @@ from ...core.errors import MapSetError
 from ...core.progress import Progress, Steps
 from ...device.context import ensure_context
 from ...files.folders import check_folder_target, folder_written_aside
+from ...files.kinds.registry import STORED
 from ...files.map_set_header import content_hash
+from ...settings.comparison import ComparisonOptions
 from ..methods.kinds import KINDS, open_map_set
 from ..report.facts import map_set_header
-from .comparison import RESULT, Comparison, SceneSettings
+from .comparison import RESULT, Comparison, cameras_of
 from .pictures import save_sheets
 from .report import comparison_report
 from .truth import Truth
@@ -31,14 +33,16 @@ def truth_of(map_set: Path) -> Truth:
     return truth
 
 
-def compare(map_set: Path, settings: SceneSettings, output: Path, force: bool = False) -> Steps[Comparison]:
+def compare(
+    map_set: Path, settings: ComparisonOptions, output: Path, force: bool = False
+) -> Steps[Comparison]:
     """See random views as they truly are, draw the same views from a map set, and tell the difference.
 
     Parameters
     ----------
     map_set : Path
         With the environment that it was made in.
-    settings : SceneSettings
+    settings : ComparisonOptions
         Of its kind: see `truth_of`.
     output : Path
         A folder to be made: comparison.json (`Comparison.to_json`), index.html, which shows all of
@@ -72,7 +76,7 @@ def compare(map_set: Path, settings: SceneSettings, output: Path, force: bool = 
     total = settings.views + 2
     yield Progress(0, total, f"reading {map_set.name}")
     header, truth = map_set_header(map_set), truth_of(map_set)
-    if not isinstance(settings, truth.settings):
+    if not isinstance(settings, STORED[header["kind"]].comparison or ()):
         raise MapSetError(f"{map_set} holds {header['kind']}, which are not compared so: give another.")
     opened = open_map_set(map_set)
     if opened.environment is None:
@@ -90,7 +94,7 @@ def compare(map_set: Path, settings: SceneSettings, output: Path, force: bool = 
         material=seen.material,
         map_size=seen.map_size,
         settings=seen.settings,
-        view_dirs=tuple(camera.view_dir for camera in settings.cameras),
+        view_dirs=tuple(camera.view_dir for camera in cameras_of(settings)),
         reference_noise=seen.noise,
         errors=seen.errors,
     )

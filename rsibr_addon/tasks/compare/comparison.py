@@ -1,5 +1,6 @@
 """What a comparison found: plain data."""
 
+import math
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
 from statistics import median
@@ -8,62 +9,18 @@ from typing import Annotated, Any, Protocol, TypedDict
 import numpy as np
 
 from ...core.conventions import Array
-from ...core.errors import RangeError, SchemaError
+from ...core.errors import SchemaError
 from ...core.geometry.camera import Camera
 from ...core.geometry.directions import normalize
 from ...core.schema import Rule, between, decode, length
 from ...files.map_set_header import WIDEST
+from ...settings.comparison import ComparisonOptions
 
 RESULT = "comparison.json"
 """The file by which a comparison's folder is known."""
 
-LARGEST = 1024
-"""Width and height of the largest picture to compare."""
-
 MOST_VIEWS, MOST_WAYS = 2**16, 1024
 """Of a comparison that is read."""
-
-
-@dataclass(frozen=True)
-class SceneSettings:
-    """What is seen in a comparison, from where, and how large.
-
-    Attributes
-    ----------
-    views : int
-        How many view directions, at least 1, evenly distributed at random over the sphere.
-    seed : int
-        Of everything random.
-    mesh : str
-        As `host.meshes.load_mesh` takes it.
-    field_of_view : float or None
-        Of a perspective camera, in radians; None for orthographic.
-    size : int
-        Width and height of each picture in pixels, at most `LARGEST`.
-
-    Raises
-    ------
-    RangeError
-        There are no views, or `size` is too large.
-    """
-
-    views: int = 30
-    seed: int = 0
-    mesh: str = "sphere"
-    field_of_view: float | None = None
-    size: int = 128
-
-    def __post_init__(self) -> None:
-        if self.views < 1:
-            raise RangeError(f"A comparison of {self.views} views compares nothing: ask for 1 or more.")
-        if self.size > LARGEST:
-            raise RangeError(f"A comparison cannot be {self.size} pixels wide: choose at most {LARGEST}.")
-
-    @property
-    def cameras(self) -> list[Camera]:
-        """One for each view."""
-        directions = random_directions(self.views, self.seed).tolist()
-        return [Camera((x, y, z), self.field_of_view) for x, y, z in directions]
 
 
 class Way(Protocol):
@@ -145,7 +102,7 @@ class Comparison:
         What the map set held: see `files.map_set_header.content_hash`.
     map_size : int
         Width and height of the maps in texels.
-    settings : SceneSettings
+    settings : ComparisonOptions
         Of the kind of map set.
     view_dirs : tuple
         Unit vector to the eye of each view.
@@ -198,7 +155,7 @@ class Comparison:
         told: dict[str, Any] = {**decode(_File, plain)}
         return Comparison(
             **{name: told[name] for name in ("map_set", "content", "environment", "material", "map_size")},
-            settings=decode(settings, told["settings"], "settings"),
+            settings=decode(settings, _with_perspective(told["settings"]), "settings"),
             view_dirs=decode(tuple[tuple[float, float, float], ...], told["view_dirs"], "view_dirs"),
             reference_noise=told["reference_noise"],
             errors=tuple(_way_error(way, each, len(told["view_dirs"])) for each in told["errors"]),
@@ -227,11 +184,26 @@ class _File(TypedDict):
     errors: Annotated[list[_Error], length(1, MOST_WAYS)]
 
 
+def _with_perspective(told: dict[str, Any]) -> dict[str, Any]:
+    """Settings as they are now; version 0.1 wrote the angle of view in radians."""
+    now = {name: value for name, value in told.items() if name != "field_of_view"}
+    angle = told.get("field_of_view")
+    return (
+        now if angle is None else now | {"perspective": math.degrees(decode(float, angle, "field_of_view"))}
+    )
+
+
 def _way_error(way: type, told: _Error, views: int) -> WayError:
     plain = {name: value for name, value in told.items() if name not in _Error.__annotations__}
     if len(told["per_view"]) != views:
         raise SchemaError(f"errors are of {len(told['per_view'])} views, not {views}")
     return WayError(decode(way, plain, "errors"), tuple(told["per_view"]), told["pooled"])
+
+
+def cameras_of(settings: ComparisonOptions) -> list[Camera]:
+    """The camera of each view of a comparison."""
+    directions = random_directions(settings.views, settings.seed).tolist()
+    return [settings.camera((x, y, z)) for x, y, z in directions]
 
 
 def random_directions(count: int, seed: int) -> Array:

@@ -9,7 +9,6 @@ import numpy as np
 
 from ...core.conventions import Array
 from ...core.environment import Environment
-from ...core.errors import RangeError
 from ...core.geometry.camera import Camera
 from ...core.geometry.lit_sphere import lit_spheres
 from ...core.kinds.lobe_stack.shading import StackLook
@@ -21,42 +20,13 @@ from ...device.kinds.lobe_stack import LobeStackOnDevice
 from ...device.lit_sphere import LitSphereOnDevice
 from ...device.preview import PreviewRenderer
 from ...host.meshes import TriangleMesh, load_mesh
+from ...settings.lobe_stack import StackComparison
 from ..reflectance.brdfs import check_told_brdf, load_brdf
-from .comparison import Comparison, SceneSettings, way_error
+from .comparison import Comparison, cameras_of, way_error
 from .truth import Drawn, Truth
 
 LEAST_RINGS = 32
 """Of a reference, where no number is asked for."""
-
-
-@dataclass(frozen=True)
-class StackComparison(SceneSettings):
-    """What to light exactly, and to hold a lobe stack against.
-
-    Attributes
-    ----------
-    rings : int or None
-        Of `core.geometry.lit_sphere`, at least 4; None for half as many as a map has texels in a row, at
-        least 32.
-    brdf : str or None
-        The model that counts as true, as `tasks.reflectance.brdfs.load_brdf` takes it; None for the map
-        set's own, which must not be in another file.
-
-    Raises
-    ------
-    RangeError
-        The camera is a perspective one, there are too few rings, or as `SceneSettings`.
-    """
-
-    rings: int | None = None
-    brdf: str | None = None
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.field_of_view is not None:
-            raise RangeError("Exact references are seen from afar: leave the perspective out.")
-        if self.rings is not None and self.rings < 4:
-            raise RangeError(f"{self.rings} rings are too few to interpolate between: ask for 4 or more.")
 
 
 @dataclass(frozen=True)
@@ -104,7 +74,7 @@ def draw(
     if settings.brdf is None:
         check_told_brdf(spec)
     model = yield from load_brdf(spec)
-    mesh, cameras = load_mesh(settings.mesh), settings.cameras
+    mesh, cameras = load_mesh(settings.mesh), cameras_of(settings)
     rings = settings.rings or max(LEAST_RINGS, stack.size // 2)
     view_dirs = [camera.view_dir for camera in cameras]
     spheres = yield from lit_spheres(model, environment.radiance, view_dirs, rings)
@@ -157,7 +127,6 @@ def stack_table(comparisons: Sequence[Comparison]) -> str:
 
 
 TRUTH = Truth(
-    settings=StackComparison,
     way=StackWay,
     draw=draw,
     name="the model itself",

@@ -5,12 +5,12 @@ from typing import Any
 
 from ...core.errors import InputFileError, SchemaError
 from ...core.schema import LARGEST_TEXT, loads
+from ...files.kinds.registry import STORED
 from ...files.output_paths import comparison_beside
 from ...files.reading import opened
 from ..methods.kinds import KINDS
 from ..report.facts import map_set_content, map_set_header, read_once
 from .comparison import RESULT, Comparison, WayError
-from .truth import Truth
 
 
 def measured_facts(map_set: Path, look: Any = None) -> dict[str, str]:
@@ -32,11 +32,12 @@ def measured_facts(map_set: Path, look: Any = None) -> dict[str, str]:
     MapSetError
         There is no such map set.
     """
-    truth = KINDS[map_set_header(map_set)["kind"]].truth
-    if truth is None:
+    kind = map_set_header(map_set)["kind"]
+    truth, settings = KINDS[kind].truth, STORED[kind].comparison
+    if truth is None or settings is None:
         return {}
     try:
-        comparison = _comparison(comparison_beside(map_set) / RESULT, truth)
+        comparison = _comparison(comparison_beside(map_set) / RESULT, settings, truth.way)
     except InputFileError as error:
         return {"Measured": str(error)}
     if comparison is None:
@@ -54,7 +55,7 @@ def measured_facts(map_set: Path, look: Any = None) -> dict[str, str]:
 
 
 @read_once
-def _comparison(path: Path, truth: Truth) -> Comparison | None:
+def _comparison(path: Path, settings: type, way: type) -> Comparison | None:
     """What a comparison has written; None where there is none.
 
     Raises
@@ -67,7 +68,7 @@ def _comparison(path: Path, truth: Truth) -> Comparison | None:
     with opened(path) as stream:
         text = stream.read(LARGEST_TEXT + 1)
     try:
-        return Comparison.from_json(loads(text), truth.settings, truth.way)
+        return Comparison.from_json(loads(text), settings, way)
     except SchemaError as error:
         raise InputFileError(f"{path} is no comparison of this version ({error}): compare again.") from error
 

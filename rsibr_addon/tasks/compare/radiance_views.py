@@ -10,7 +10,7 @@ import numpy as np
 
 from ...core.conventions import Array
 from ...core.environment import Environment
-from ...core.errors import InputFileError, RangeError
+from ...core.errors import InputFileError
 from ...core.geometry.camera import Camera
 from ...core.kinds.radiance_views.shading import Mode, ViewsLook, Warping
 from ...core.kinds.radiance_views.views import RadianceViews
@@ -20,43 +20,10 @@ from ...device.kinds.radiance_views import RadianceViewsOnDevice
 from ...device.preview import PreviewRenderer
 from ...host.materials import names_other_file
 from ...host.meshes import load_mesh
-from .comparison import Comparison, SceneSettings, WayError, way_error
+from ...settings.radiance_views import ViewsComparison
+from .comparison import Comparison, WayError, cameras_of, way_error
 from .references import Captured, Reference, check_material, render_reference
 from .truth import Drawn, Truth
-
-
-@dataclass(frozen=True)
-class ViewsComparison(SceneSettings):
-    """What to render with Cycles, and which ways of drawing radiance views to hold against it.
-
-    Attributes
-    ----------
-    samples : int
-        Cycles' samples a pixel, at least 4: two renders of half as many each tell the noise.
-    modes : tuple of Mode
-    warpings : tuple of Warping
-    captured_views : tuple of int
-        Draw also from the first 12 or 42 captured views alone; empty for all of them.
-    material : str or None
-        The material that was captured, as `host.materials.load_material` takes it; None for the one that
-        the map set names, which must not be in another file.
-
-    Raises
-    ------
-    RangeError
-        Too few samples, or as `SceneSettings`.
-    """
-
-    samples: int = 64
-    modes: tuple[Mode, ...] = tuple(Mode)
-    warpings: tuple[Warping, ...] = tuple(Warping)
-    captured_views: tuple[int, ...] = ()
-    material: str | None = None
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.samples < 4:
-            raise RangeError("Two renders tell the noise of a reference: ask for 4 samples or more.")
 
 
 @dataclass(frozen=True)
@@ -103,7 +70,7 @@ def draw(
     easel = _Easel(views, settings)
     references: list[Reference] = []
     drawn: dict[ViewsWay, list[Array]] = {way: [] for way in easel.ways}
-    for number, camera in enumerate(settings.cameras):
+    for number, camera in enumerate(cameras_of(settings)):
         what = f"rendering reference {number + 1} of {settings.views}"
         yield Progress(number + 1, settings.views + 2, what)
         seed = settings.seed + 2 * number
@@ -217,7 +184,6 @@ def _notes(comparison: Comparison) -> str:
 
 
 TRUTH = Truth(
-    settings=ViewsComparison,
     way=ViewsWay,
     draw=draw,
     name="Cycles",

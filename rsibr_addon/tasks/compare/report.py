@@ -99,14 +99,14 @@ def _figure(comparison: Comparison, truth: Truth, number: int) -> str:
 def _settings(comparison: Comparison, truth: Truth) -> list[tuple[str, str]]:
     """Names and values, in words."""
     settings = comparison.settings
-    angle = settings.field_of_view
+    angle = settings.perspective
     return [
         ("map set", escape(comparison.map_set)),
         ("material", escape(comparison.material)),
         ("environment", escape(comparison.environment)),
         ("maps", f"{comparison.map_size}&times;{comparison.map_size}"),
         ("mesh", escape(_mesh(comparison))),
-        ("camera", "orthographic" if angle is None else f"perspective, {math.degrees(angle):g}&deg;"),
+        ("camera", "orthographic" if angle is None else f"perspective, {angle:g}&deg;"),
         ("pictures", f"{settings.size}&times;{settings.size}"),
         (truth.name, truth.quality(settings)),
         ("seed", str(settings.seed)),

@@ -7,7 +7,8 @@ from typing import Any
 from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.progress import Steps
-from .comparison import Comparison, SceneSettings, Way, WayError
+from ...settings.comparison import ComparisonOptions
+from .comparison import Comparison, Way, WayError
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,7 +21,7 @@ class Drawn:
         What counts as true, in words.
     map_size : int
         Width and height of the maps in texels.
-    settings : SceneSettings
+    settings : ComparisonOptions
         With all that they left open.
     references : list of ndarray
         The truth, of each view; row 0 at the bottom.
@@ -34,7 +35,7 @@ class Drawn:
 
     material: str
     map_size: int
-    settings: SceneSettings
+    settings: ComparisonOptions
     references: list[Array]
     drawn: dict[Any, list[Array]]
     errors: tuple[WayError, ...]
@@ -47,8 +48,6 @@ class Truth:
 
     Attributes
     ----------
-    settings : type
-        A dataclass derived from `SceneSettings`.
     way : type
         A dataclass that is a `Way`.
     draw : callable
@@ -67,7 +66,6 @@ class Truth:
         Whether a way to draw is that of a look.
     """
 
-    settings: type[SceneSettings]
     way: type[Way]
     draw: Callable[[Any, Any, Environment, dict[str, Any], Any], Steps[Drawn]]
     name: str

@@ -7,21 +7,20 @@ from ...core.errors import OutputFileError
 from ...core.progress import Progress, Steps
 from ...files.map_set import read_map_set
 from ...files.outputs import together
-from .format import Format
 from .formats import FORMATS
 
 
-def format_of(output: Path) -> Format:
-    """The format that a name asks for.
+def format_of(output: Path) -> str:
+    """The format that a name asks for: one of `FORMATS`.
 
     Raises
     ------
     OutputFileError
         Its suffix is that of none.
     """
-    for each in FORMATS.values():
+    for name, each in FORMATS.items():
         if output.suffix.lower() == each.suffix:
-            return each
+            return name
     known = " or ".join(each.suffix for each in FORMATS.values())
     raise OutputFileError(f"{output} would not be known for an export: give a name that ends in {known}.")
 
@@ -61,7 +60,7 @@ def export(map_set: Path, output: Path, settings: Any = None, force: bool = Fals
     -----
     docs/export.md says what the files hold.
     """
-    chosen = format_of(output)
+    chosen = FORMATS[format_of(output)]
     yield Progress(0, 2, f"reading {map_set.name}")
     held = read_map_set(map_set)
     yield Progress(1, 2, f"writing {output.name}")

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ...core.errors import RangeError
+from ...core.options import Options
 from ...files.kinds.registry import STORED
 from ...files.map_set_data import MapSet
 from ...files.textures import Texture, Up, arrays
@@ -22,7 +23,7 @@ class Format:
     suffix : str
         Of its files' names, in small letters: ".ktx2".
     settings : type
-        A dataclass, whose fields all have defaults.
+        Its options, which all have defaults.
     write : callable
         The map set's file, for messages; what it holds; the output; settings; and whether existing files are
         replaced, to the files that were written.
@@ -30,7 +31,7 @@ class Format:
 
     label: str
     suffix: str
-    settings: type
+    settings: type[Options]
     write: Callable[[Path, MapSet, Path, Any, bool], list[Path]]
 
 

@@ -4,24 +4,23 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
+from ...core.options import Choice, Options, option
 from ...files.ktx2 import write_ktx2
 from ...files.map_set_data import MapSet
 from ...files.textures import Up
 from .format import Format, textures_of
 
 
-@dataclass(frozen=True)
-class Ktx2Settings:
-    """How textures are written.
+@dataclass(frozen=True, kw_only=True)
+class Ktx2Settings(Options):
+    """How textures are written."""
 
-    Attributes
-    ----------
-    up : Up
-        The axis that points up in them: Y for mip chains alone, whose texels it leaves as they are; others
-        are looked up by directions with Z up.
-    """
-
-    up: Up = Up.Z
+    up: Up = option(
+        Up.Z,
+        label="Up",
+        help="Axis that points up in the textures; of mip chains alone it can be another than Z",
+        choices={Up.Z: Choice("Z", "as in Blender"), Up.Y: Choice("Y", "as in glTF")},
+    )
 
 
 def write(map_set: Path, held: MapSet, output: Path, settings: Ktx2Settings, force: bool) -> list[Path]:

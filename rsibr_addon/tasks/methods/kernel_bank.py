@@ -6,10 +6,12 @@ from ...core.filtering.prefilter import BYTES_BESIDES, bytes_needed
 from ...core.lobes.bake import bake_bank
 from ...core.options import to_plain
 from ...core.progress import Steps
-from ...files.kinds.kernel_bank import to_map_set
+from ...files.kinds.kernel_bank import from_map_set, to_map_set
 from ...host.version import software
 from ...job import BakeJob
 from ...settings.kernel_bank import KernelBankSettings
+from .kind import Kind
+from .live_materials import LiveMaterials
 from .method import (
     BLENDER_MEMORY,
     BLENDER_SECONDS,
@@ -18,6 +20,7 @@ from .method import (
     STORED,
     Baked,
     Cost,
+    Method,
     afforded_by,
     read_light,
     written,
@@ -60,3 +63,8 @@ def bake(job: BakeJob[KernelBankSettings]) -> Steps[Baked]:
         f"{kernels} kernels, the sharpest of concentration {sharpest:g}, {size}x{size} texels",
         {"kernels": kernels, "sharpest": sharpest},
     )
+
+
+KIND = Kind(
+    from_map_set, LiveMaterials, Method(bake, cost), newest=LiveMaterials.newest, menu="RSIBR_MT_live_models"
+)

@@ -1,81 +1,28 @@
 """The kinds of map sets: how each is read, uploaded and shaded."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ...core.environment import Environment
 from ...core.errors import RangeError
-from ...core.kinds.environment import EnvironmentLook
-from ...core.kinds.kernel_bank.shading import BankLook
-from ...core.kinds.lobe_stack.shading import StackLook
-from ...core.kinds.mip_chain.shading import MipLook
-from ...core.kinds.radiance_views.shading import ViewsLook
-from ...core.kinds.reflection_tables.shading import TablesLook
 from ...device.context import ensure_context
 from ...device.drawing import OnDevice
 from ...device.kinds.environment import EnvironmentOnDevice
-from ...device.kinds.lobe_stack import LobeStackOnDevice
-from ...device.kinds.mip_chain import MipChainOnDevice
-from ...device.kinds.radiance_views import RadianceViewsOnDevice
-from ...device.kinds.reflection_tables import ReflectionTablesOnDevice
-from ...files.kinds import (
-    environment,
-    kernel_bank,
-    lobe_stack,
-    mip_chain,
-    radiance_views,
-    reflection_tables,
-)
+from ...files.kinds import environment
 from ...files.map_set import read_map_set, read_map_set_header
-from ...files.map_set_data import MapSet
-from ..compare import lobe_stack as stack_truth
-from ..compare import radiance_views as views_truth
-from ..compare.truth import Truth
-from .live_materials import LiveMaterials
+from . import kernel_bank, lobe_stack, mip_chain, radiance_views, reflection_tables
+from .kind import Kind
 
-
-@dataclass(frozen=True)
-class Kind:
-    """What can be done with map sets of one kind.
-
-    Attributes
-    ----------
-    from_map_set : callable
-        The file's path, for messages, and a `MapSet` to what it holds, its content.
-    on_device : callable
-        The content to an `OnDevice`.
-    look : type
-        How it is shaded; its defaults are this kind's best.
-    newest : callable
-        What is uploaded and looks that were asked for, oldest first, to the last that can be drawn, or None.
-    truth : Truth or None
-        What pictures drawn from it are compared with; None for nothing.
-    menu : str
-        A menu of Blender that its preview offers beside its look; empty for none.
-    """
-
-    from_map_set: Callable[[Path, MapSet], Any]
-    on_device: Callable[[Any], OnDevice]
-    look: type
-    newest: Callable[[Any, list[Any]], Any] = lambda on_device, looks: looks[-1]
-    truth: Truth | None = None
-    menu: str = ""
-
-
-KINDS = {
-    radiance_views.KIND: Kind(
-        radiance_views.from_map_set, RadianceViewsOnDevice, ViewsLook, truth=views_truth.TRUTH
-    ),
-    lobe_stack.KIND: Kind(lobe_stack.from_map_set, LobeStackOnDevice, StackLook, truth=stack_truth.TRUTH),
-    reflection_tables.KIND: Kind(reflection_tables.from_map_set, ReflectionTablesOnDevice, TablesLook),
-    mip_chain.KIND: Kind(mip_chain.from_map_set, MipChainOnDevice, MipLook),
-    environment.KIND: Kind(environment.from_map_set, EnvironmentOnDevice, EnvironmentLook),
-    kernel_bank.KIND: Kind(
-        kernel_bank.from_map_set, LiveMaterials, BankLook, LiveMaterials.newest, menu="RSIBR_MT_live_models"
-    ),
+KINDS: dict[str, Kind] = {
+    "radiance_views": radiance_views.KIND,
+    "lobe_stack": lobe_stack.KIND,
+    "reflection_tables": reflection_tables.KIND,
+    "mip_chain": mip_chain.KIND,
+    "kernel_bank": kernel_bank.KIND,
+    environment.KIND: Kind(environment.from_map_set, EnvironmentOnDevice),
 }
+"""Kind of map sets, or `environment` for a picture -> what can be done with it."""
 
 
 @dataclass(frozen=True)

@@ -15,13 +15,16 @@ from ...core.lobes.accuracy import fit_errors
 from ...core.lobes.bake import SIZES, bake_stack, sharpest_resolved
 from ...core.lobes.fit import Fit
 from ...core.progress import Progress, Steps
+from ...device.kinds.lobe_stack import LobeStackOnDevice
 from ...files.fits import read_fit
-from ...files.kinds.lobe_stack import in_turn
+from ...files.kinds.lobe_stack import from_map_set, in_turn
 from ...host.version import software
 from ...job import BakeJob
 from ...settings.lobe_stack import LobeStackSettings
+from ..compare.lobe_stack import TRUTH
 from ..reflectance.brdfs import MATERIAL, load_brdf
 from ..reflectance.fit_lobes import fitted
+from .kind import Kind
 from .method import (
     BLENDER_MEMORY,
     BLENDER_SECONDS,
@@ -30,6 +33,7 @@ from .method import (
     STORED,
     Baked,
     Cost,
+    Method,
     afforded_by,
     read_light,
     written,
@@ -149,3 +153,6 @@ def _resolved_fit(spec: str, settings: LobeStackSettings, light: Environment) ->
         stacklevel=2,
     )
     return coarser
+
+
+KIND = Kind(from_map_set, LobeStackOnDevice, Method(bake, cost, material), TRUTH)

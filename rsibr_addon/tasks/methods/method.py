@@ -89,7 +89,7 @@ class Method:
 
     bake: Callable[[BakeJob[Any]], Steps[Baked]]
     cost: Callable[[Any], Cost]
-    material: Callable[[Any], str]
+    material: Callable[[Any], str] = lambda settings: ""
 
 
 def read_light(job: BakeJob[Any]) -> Steps[Environment]:

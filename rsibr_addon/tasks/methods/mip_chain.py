@@ -13,11 +13,13 @@ from ...core.maps.representation import representation
 from ...core.options import to_plain
 from ...core.progress import Progress, Steps
 from ...core.resample import resample
-from ...files.kinds.mip_chain import to_map_set
+from ...device.kinds.mip_chain import MipChainOnDevice
+from ...files.kinds.mip_chain import from_map_set, to_map_set
 from ...files.memory import check_memory
 from ...host.version import software
 from ...job import BakeJob
 from ...settings.mip_chain import MipChainSettings
+from .kind import Kind
 from .method import (
     BLENDER_MEMORY,
     BLENDER_SECONDS,
@@ -26,6 +28,7 @@ from .method import (
     STORED,
     Baked,
     Cost,
+    Method,
     read_light,
     written,
 )
@@ -105,3 +108,6 @@ def _texture_space(light: Environment, settings: MipChainSettings) -> MipChain:
 
 def _harmonics(light: Environment) -> Array:
     return analyse_environment(light.radiance, 2).real(2)
+
+
+KIND = Kind(from_map_set, MipChainOnDevice, Method(bake, cost))

@@ -16,8 +16,10 @@ from ...core.geometry.geodesic import geodesic_sphere
 from ...core.maps.sphere_map import fill_rim
 from ...core.options import to_plain
 from ...core.progress import Progress, Steps
+from ...device.kinds.radiance_views import RadianceViewsOnDevice
 from ...files.atomic import check_target, written_aside
 from ...files.exr import Part, read_attributes, read_parts, write_parts
+from ...files.kinds.radiance_views import from_map_set
 from ...files.map_set import read_map_set_header, write_map_set
 from ...files.map_set_data import ENVIRONMENT, MapsInTurn
 from ...files.map_set_header import make_header
@@ -35,8 +37,10 @@ from ...host.worlds import LIGHT_OF_TEXEL, light_with
 from ...job import BakeJob
 from ...settings.light import Light
 from ...settings.radiance_views import RadianceViewsSettings
+from ..compare.radiance_views import TRUTH
 from ..light.environments import load_environment
-from .method import BLENDER_MEMORY, BLENDER_SECONDS, ENVIRONMENT_TEXELS, RGB, STORED, Baked, Cost
+from .kind import Kind
+from .method import BLENDER_MEMORY, BLENDER_SECONDS, ENVIRONMENT_TEXELS, RGB, STORED, Baked, Cost, Method
 
 ALBEDO = "albedo"
 """Name and role of the part that holds the material's directional albedo."""
@@ -238,3 +242,6 @@ def _header(captured: _Captured, parts: list[dict[str, Any]], noise: float) -> d
         settings={name: value for name, value in to_plain(settings).items() if name != "material"},
         software=software(),
     )
+
+
+KIND = Kind(from_map_set, RadianceViewsOnDevice, Method(bake, cost, material), TRUTH)

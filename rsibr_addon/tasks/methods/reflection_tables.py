@@ -5,12 +5,14 @@ from ...core.kinds.reflection_tables.bake import bake_tables, largest_rows
 from ...core.kinds.reflection_tables.material import material_from_texts
 from ...core.kinds.reflection_tables.weights import warn_of_table_gain
 from ...core.progress import Steps
+from ...device.kinds.reflection_tables import ReflectionTablesOnDevice
 from ...files.brdfs import read_measured
-from ...files.kinds.reflection_tables import to_map_set
+from ...files.kinds.reflection_tables import from_map_set, to_map_set
 from ...files.memory import check_memory
 from ...host.version import software
 from ...job import BakeJob
 from ...settings.reflection_tables import ReflectionTablesSettings
+from .kind import Kind
 from .method import (
     BLENDER_MEMORY,
     BLENDER_SECONDS,
@@ -19,6 +21,7 @@ from .method import (
     STORED,
     Baked,
     Cost,
+    Method,
     read_light,
     written,
 )
@@ -79,3 +82,6 @@ def bake(job: BakeJob[ReflectionTablesSettings]) -> Steps[Baked]:
     )
     path = yield from written(job, map_set)
     return Baked(path, ", ".join(f"{part} {text}" for part, text in parts.items()))
+
+
+KIND = Kind(from_map_set, ReflectionTablesOnDevice, Method(bake, cost, material))

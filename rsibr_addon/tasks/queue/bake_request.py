@@ -10,6 +10,7 @@ from typing import Any
 
 from ...core.errors import MapSetError, SceneError
 from ...core.options import to_plain
+from ...files.kinds.registry import METHOD_SETTINGS
 from ...files.map_set import read_map_set
 from ...files.output_paths import comparison_beside
 from ...files.pictures import split_layer
@@ -35,10 +36,9 @@ from ...job import BakeJob, CommandJob
 from ...settings.light import Clamp, Light
 from ...settings.lobe_stack import LobeStackSettings
 from ...settings.method import MethodSettings
-from ...settings.registry import METHOD_SETTINGS
 from ..compare.compare import truth_of
+from ..methods.kinds import KINDS
 from ..methods.method import Cost
-from ..methods.registry import METHODS
 from .background import Bake, blender_command
 
 HASH_LETTERS = 10
@@ -84,12 +84,13 @@ class BakeRequest:
         """What is baked, in words."""
         environment, kind = self.light.environment, self.settings.KIND
         light = "the world" if environment is None else split_layer(environment)[0].stem
-        return f"{METHODS[kind].material(self.settings) or kind.replace('_', ' ')} in {light}"
+        return f"{KINDS[kind].method.material(self.settings) or kind.replace('_', ' ')} in {light}"
 
     @property
     def cost(self) -> Cost:
         """What it will take."""
-        return METHODS[self.settings.KIND].cost(self.settings)
+        cost: Cost = KINDS[self.settings.KIND].method.cost(self.settings)
+        return cost
 
     def job(self, output: Path) -> BakeJob[Any]:
         """What makes `output`, and replaces what is there: that is damaged, or it would not be made."""

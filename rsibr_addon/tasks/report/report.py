@@ -17,7 +17,7 @@ from ...core.pictures.thumbnail import miniature
 from ...core.progress import Progress, Steps
 from ...device.preview import PreviewRenderer
 from ...files.atomic import check_target, written_aside
-from ...files.kinds.registry import STORED
+from ...files.kinds.registry import STORED, look_types
 from ...files.map_set import read_map_set
 from ...files.map_set_data import MapSet
 from ...files.map_set_facts import in_words, told_errors, told_facts, told_making
@@ -25,7 +25,7 @@ from ...files.temporary import temporary_folder
 from ...host.meshes import load_mesh
 from ...host.pictures import save_png
 from ..compare.measured_error import measured_facts
-from ..methods.kinds import KINDS, open_map_set
+from ..methods.kinds import open_map_set
 from ..reflectance.brdfs import load_brdf, told_brdf
 from ..reflectance.fit_plots import ELEVATIONS, lobe_plot
 from .facts import map_set_fit, map_set_header
@@ -112,7 +112,7 @@ def _drawn_meshes(map_set: Path) -> dict[str, Array]:
     """Meshes shaded from the map set; none where nothing can draw them, which a warning tells."""
     opened = open_map_set(map_set)
     try:
-        renderer, look = PreviewRenderer(opened.upload()), KINDS[opened.kind].look()
+        renderer, look = PreviewRenderer(opened.upload()), look_types()[opened.kind]()
     except DeviceError as error:
         warnings.warn(f"The report shows no mesh: {error}", RsibrWarning, stacklevel=2)
         return {}

@@ -3,15 +3,17 @@
 import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from itertools import product
 from typing import Any
 
 from ...core.conventions import Array
 from ...core.errors import RsibrError
+from ...core.options import declared_options
 from ...core.pictures.display import table_radiance
 from ...device import buffers
 from ...device.viewport import Sight, Stage, current_sight, draw_occluder
+from ...files.kinds.registry import look_types
 from ...host.display import Display, display_of, displayed_colours, scale_before_display
 from ...host.live_light import is_live_name, shows_surroundings
 from ...host.map_sets import written_path
@@ -293,7 +295,9 @@ class Previews:
         """How an object is shaded: as before, while a new look is being made; None before there is any."""
         item, map_set = preview.surface.item, self._map_sets[preview.path]
         kind = KINDS[map_set.kind]
-        look: Any = options_of(kind.look, getattr(item.rsibr.other if other else item.rsibr, map_set.kind))
+        look: Any = options_of(
+            look_types()[map_set.kind], getattr(item.rsibr.other if other else item.rsibr, map_set.kind)
+        )
         asked = self._looks.setdefault((item.session_uid, preview.path, other), [])
         if look in asked:
             asked.remove(look)
@@ -343,7 +347,7 @@ def _look_settings(looks: Any, kind: str) -> dict[str, Any]:
     A field `name` may have a switch `use_name`.
     """
     group = getattr(looks, kind, None)
-    names = [field.name for field in fields(KINDS[kind].look) if hasattr(group, field.name)]
+    names = [each.name for each in declared_options(look_types()[kind]) if hasattr(group, each.name)]
     return {name: _plain(getattr(group, name)) for name in names if getattr(group, f"use_{name}", True)}
 
 

@@ -1,0 +1,19 @@
+"""What is compared with the truth, whatever the kind of map set."""
+
+from dataclasses import dataclass
+
+from ..core.options import option
+from .drawing import SceneOptions
+
+
+@dataclass(frozen=True, kw_only=True)
+class ComparisonOptions(SceneOptions):
+    """What is seen in a comparison, and from where."""
+
+    size: int = option(
+        128, label="Size", help="Width and height of a picture", unit="pixels", least=1, most=1024
+    )
+    views: int = option(
+        30, label="Views", help="View directions, at random evenly over the sphere", least=1, most=2**16
+    )
+    seed: int = option(0, label="Seed", help="Seed of everything random", least=0)

@@ -1,0 +1,61 @@
+"""What a picture shows, from where, and how large."""
+
+import math
+from dataclasses import dataclass
+
+from ..core.geometry.camera import Camera
+from ..core.options import Options, option
+from .light import Clamp
+
+
+@dataclass(frozen=True, kw_only=True)
+class SceneOptions(Options):
+    """What is drawn, and how large."""
+
+    mesh: str = option(
+        "sphere",
+        label="Mesh",
+        help="sphere, monkey or FILE.obj; fitted into the unit sphere, which fills the frame",
+        metavar="MESH",
+    )
+    perspective: float | None = option(
+        None,
+        label="Perspective",
+        help="Angle of view",
+        unit="degrees",
+        least=0.0,
+        most=180.0,
+        none="orthographic",
+        metavar="DEG",
+    )
+    size: int = option(
+        512, label="Size", help="Width and height of a picture", unit="pixels", least=1, most=2048
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self.camera((0.0, -1.0, 0.0))
+
+    def camera(self, view_dir: tuple[float, float, float]) -> Camera:
+        """The camera that sees the object from a direction."""
+        return Camera(view_dir, None if self.perspective is None else math.radians(self.perspective))
+
+
+@dataclass(frozen=True, kw_only=True)
+class PreviewOptions(SceneOptions, Clamp):
+    """What a preview shows."""
+
+    view: tuple[float, float, float] = option(
+        (0.0, -1.0, 0.0), label="View", help="Direction from the object to the eye", metavar="X,Y,Z"
+    )
+    turntable: int | None = option(
+        None,
+        label="Turntable",
+        help="Frames around the object: a contact sheet in OUT and a movie beside it, OUT.mp4",
+        least=2,
+        none="a single picture",
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self.camera(self.view)

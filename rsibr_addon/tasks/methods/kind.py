@@ -1,0 +1,38 @@
+"""What a kind of map sets is, with Blender."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ...device.drawing import OnDevice
+from ...files.map_set_data import MapSet
+from ..compare.truth import Truth
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What can be done with map sets of one kind.
+
+    Attributes
+    ----------
+    from_map_set : callable
+        The file's path, for messages, and a `MapSet` to what it holds, its content.
+    on_device : callable
+        The content to an `OnDevice`.
+    method : Method or None
+        What makes it; None for pictures of environments.
+    truth : Truth or None
+        What pictures drawn from it are compared with; None for nothing.
+    newest : callable
+        What is uploaded and looks that were asked for, oldest first, to the last that can be drawn, or None.
+    menu : str
+        A menu of Blender that its preview offers beside its look; empty for none.
+    """
+
+    from_map_set: Callable[[Path, MapSet], Any]
+    on_device: Callable[[Any], OnDevice]
+    method: Any = None
+    truth: Truth | None = None
+    newest: Callable[[Any, list[Any]], Any] = lambda on_device, looks: looks[-1]
+    menu: str = ""

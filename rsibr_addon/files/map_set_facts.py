@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from ..core.brdf.gallery import gallery_name
+from ..core.options import declared_options
 from .kinds.registry import STORED
 
 
@@ -41,13 +42,13 @@ def told_errors(header: dict[str, Any]) -> dict[str, str]:
 
 def told_making(header: dict[str, Any]) -> dict[str, str]:
     """The environment, material, settings and software of the bake."""
-    environment, settings = header["environment"], header["settings"]
+    environment = header["environment"]
     clamped = f", clamped to {environment['clamp']:g}" if "clamp" in environment else ""
     return {
         "Environment": f"{environment['name']}, {_size(environment['size'])}{clamped}",
         "Layout": in_words(header["layout"]),
         "Axes": header["axes"],
-        **{in_words(name): _value(value) for name, value in settings.items() if value is not None},
+        **_settings(header),
         "Made by": header["software"],
     }
 
@@ -60,6 +61,22 @@ def in_words(name: str) -> str:
 
 def _size(size: list[int]) -> str:
     return "{} x {}".format(*size)
+
+
+def _settings(header: dict[str, Any]) -> dict[str, str]:
+    """The settings by their labels, but for what facts tell already."""
+    options = {each.name: each.option for each in declared_options(STORED[header["kind"]].settings)}
+    known, told = told_facts(header), {}
+    for name, value in header["settings"].items():
+        option = options.get(name)
+        label = option.label if option else in_words(name)
+        if value is None or label in known:
+            continue
+        if option and isinstance(value, str | int) and value in option.choices:
+            told[label] = option.choices[value].label
+        else:
+            told[label] = f"{_value(value)} {option.unit if option else ''}".rstrip()
+    return told
 
 
 def _value(value: Any) -> str:

@@ -9,6 +9,7 @@ from fnmatch import fnmatch
 from pathlib import Path
 
 import pytest
+from rsibr.rsibr_addon.files.kinds.registry import STORED
 
 ROOT = Path(__file__).parents[1]
 
@@ -97,6 +98,30 @@ def test_a_module_imports_only_what_its_layer_may(path: Path) -> None:
 def test_a_module_stays_readable(path: Path) -> None:
     assert len(path.read_text().splitlines()) <= 400
     assert "utils" not in "".join(dotted_name(path))
+
+
+OF_KINDS = ("core/*", "*/kinds/*", "settings/*", "tasks/methods/*", "tasks/compare/*")
+"""Modules below rsibr_addon that may know a kind of map sets: each kind's own, and the registries."""
+
+EXCEPTIONS = {
+    "operators/bake_kinds": "has the operators' names of version 0.1",
+    "tasks/viewport/previews": "draws light that is rendered live as a mip chain",
+}
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_only_its_own_modules_and_the_registries_know_a_kind(path: Path) -> None:
+    where = "/".join(dotted_name(path)).removeprefix("rsibr_addon/")
+    if any(fnmatch(where, pattern) for pattern in OF_KINDS) or where in EXCEPTIONS:
+        return
+    named = {word for _, name in imports(path) for word in name}
+    for node in ast.walk(ast.parse(path.read_text())):
+        match node:
+            case ast.Constant(value=str(word)) | ast.Attribute(attr=word):
+                named.add(word)
+            case ast.ImportFrom(names=names):
+                named |= {alias.name for alias in names}
+    assert not named & STORED.keys()
 
 
 def test_everything_but_blenders_layers_imports_without_blender_and_photographs() -> None:

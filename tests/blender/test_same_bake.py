@@ -14,11 +14,11 @@ from rsibr.rsibr_addon.command_line import bake as bake_command
 from rsibr.rsibr_addon.command_line import job as job_command
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.options import Declared, declared_options, to_plain
+from rsibr.rsibr_addon.files.kinds.registry import METHOD_SETTINGS
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.host.option_properties import property_name, show_option
 from rsibr.rsibr_addon.job import BakeJob
 from rsibr.rsibr_addon.settings.light import Light
-from rsibr.rsibr_addon.settings.registry import METHOD_SETTINGS
 from rsibr.rsibr_addon.tasks.queue.bake_request import request_for
 from rsibr.tests.bake_jobs import run_job
 

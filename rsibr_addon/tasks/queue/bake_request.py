@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from ...core.errors import MapSetError, SceneError
-from ...core.options import to_plain
-from ...files.kinds.registry import METHOD_SETTINGS
+from ...core.options import declared_options, to_plain
+from ...files.kinds.registry import METHOD_SETTINGS, STORED
 from ...files.map_set import read_map_set
 from ...files.output_paths import comparison_beside
 from ...files.pictures import split_layer
@@ -34,7 +34,6 @@ from ...host.version import software
 from ...host.worlds import world_of
 from ...job import BakeJob, CommandJob
 from ...settings.light import Clamp, Light
-from ...settings.lobe_stack import LobeStackSettings
 from ...settings.method import MethodSettings
 from ..compare.compare import truth_of
 from ..methods.kinds import KINDS
@@ -255,11 +254,21 @@ def comparison_of(item: Any, map_set: Path) -> ObjectBake:
 
 def _named_model(item: Any) -> tuple[str, ...]:
     """The model that the artist chose for a bake: no file is opened because a map set alone names it."""
-    if not item.is_property_set("rsibr_baked") or item.rsibr_baked.kind != LobeStackSettings.KIND:
+    if not item.is_property_set("rsibr_baked"):
         return ()
-    chosen = getattr(item.rsibr_baked, LobeStackSettings.KIND)
-    model = None if chosen.source == OWN else options_of(LobeStackSettings, chosen).brdf
-    return () if model is None else ("--brdf", model)
+    stored = STORED[item.rsibr_baked.kind]
+    chosen = getattr(item.rsibr_baked, item.rsibr_baked.kind)
+    models = [
+        each
+        for each in declared_options(stored.settings)
+        if each.option.materials and each.option.materials.model
+    ]
+    if stored.comparison is None or getattr(chosen, "source", OWN) == OWN:
+        return ()
+    compared = {each.name for each in declared_options(stored.comparison)}
+    settings = options_of(stored.settings, chosen)
+    given = [(each.flag, getattr(settings, each.name)) for each in models if each.name in compared]
+    return tuple(text for flag, value in given if value is not None for text in (flag, value))
 
 
 def _in_background(

@@ -7,8 +7,8 @@ import bpy
 import numpy as np
 import pytest
 import rsibr
+from rsibr.rsibr_addon.files.kinds.registry import look_types
 from rsibr.rsibr_addon.host.viewport import is_wanted, map_set_of, surfaces
-from rsibr.rsibr_addon.tasks.methods.kinds import KINDS
 from rsibr.rsibr_addon.tasks.viewport.previews import _look_settings, _settings
 
 
@@ -23,10 +23,10 @@ def settings_of(group: bpy.types.PropertyGroup) -> set[str]:
     return {prop.identifier for prop in group.bl_rna.properties} - {"rna_type", "name"}
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", look_types())
 def test_an_untouched_object_is_shaded_by_its_kind_s_defaults(kind: str) -> None:
     cube = bpy.data.objects["Cube"]
-    look, default = KINDS[kind].look(**_look_settings(cube.rsibr, kind)), KINDS[kind].look()
+    look, default = look_types()[kind](**_look_settings(cube.rsibr, kind)), look_types()[kind]()
     for field in fields(default):
         found, expected = getattr(look, field.name), getattr(default, field.name)
         if isinstance(expected, tuple) and expected and isinstance(expected[0], float):
@@ -37,12 +37,12 @@ def test_an_untouched_object_is_shaded_by_its_kind_s_defaults(kind: str) -> None
             assert found == expected
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", look_types())
 def test_every_setting_is_a_field_of_the_look(kind: str) -> None:
     group = getattr(bpy.data.objects["Cube"].rsibr, kind, None)
     if group is None:
         return  # shaded by its defaults alone
-    names = {field.name for field in fields(KINDS[kind].look)}
+    names = {field.name for field in fields(look_types()[kind])}
     assert {name.removeprefix("use_") for name in settings_of(group)} <= names
 
 

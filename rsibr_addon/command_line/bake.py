@@ -8,8 +8,8 @@ from ..files.kinds.registry import METHOD_SETTINGS
 from ..job import BakeJob
 from ..settings.light import Light
 from ..settings.method import MethodSettings
+from .console import Console
 from .options import add_options, add_output, given
-from .report import Report
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class BakeCommand:
         add_options(parser, self.settings)
         add_output(parser, "NAME.rsibr.exr", "the map set to write")
 
-    def run(self, arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
+    def run(self, arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         """Bake.
 
         Returns
@@ -49,10 +49,10 @@ class BakeCommand:
             See `tasks.methods.bake.bake`.
         """
         settings, light = given(arguments, self.settings), given(arguments, Light)
-        return run_job(BakeJob(settings, str(arguments.output), light, arguments.force), report)
+        return run_job(BakeJob(settings, str(arguments.output), light, arguments.force), console)
 
 
-def run_job(job: BakeJob[Any], report: Report) -> dict[str, Any]:
+def run_job(job: BakeJob[Any], console: Console) -> dict[str, Any]:
     """Bake what a job says.
 
     Returns
@@ -67,8 +67,8 @@ def run_job(job: BakeJob[Any], report: Report) -> dict[str, Any]:
     """
     from ..tasks.methods.bake import bake
 
-    baked = report.steps(bake(job))
-    report.say(f"{baked.path}: {baked.told}")
+    baked = console.steps(bake(job))
+    console.say(f"{baked.path}: {baked.told}")
     return {"map_set": str(baked.path), **baked.figures}
 
 

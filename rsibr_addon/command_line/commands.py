@@ -14,8 +14,8 @@ from . import (
     illuminate,
     info,
     job,
-    page,
     preview,
+    report,
 )
 
 COMMANDS = {
@@ -26,7 +26,7 @@ COMMANDS = {
     "convert": convert,
     "illuminate": illuminate,
     "fit": fit,
-    "report": page,
+    "report": report,
     "export": export,
     "job": job,
 }

@@ -5,7 +5,7 @@ from typing import Any
 
 from ..files.kinds.registry import STORED
 from . import options
-from .report import Report
+from .console import Console
 
 
 def _owners() -> dict[str, Any]:
@@ -20,7 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     options.add_output(parser, "FOLDER", "for the report, its pictures and comparison.json")
 
 
-def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
+def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Compare, and write the folder.
 
     Returns
@@ -38,9 +38,9 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
 
     truth = truth_of(arguments.map_set)
     settings = options.given_of(arguments, _owners(), kind_of(arguments.map_set))
-    comparison = report.steps(compare(arguments.map_set, settings, arguments.output, arguments.force))
+    comparison = console.steps(compare(arguments.map_set, settings, arguments.output, arguments.force))
     page = arguments.output / "index.html"
-    report.say("Relative RMSE over all views:")
-    report.say(truth.table([comparison]))
-    report.say(f"{page}")
+    console.say("Relative RMSE over all views:")
+    console.say(truth.table([comparison]))
+    console.say(f"{page}")
     return {"page": str(page), "comparison": comparison.to_json()}

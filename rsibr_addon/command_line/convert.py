@@ -5,8 +5,8 @@ from pathlib import Path
 from typing import Any
 
 from ..settings.light import Clamp
+from .console import Console
 from .options import add_options, given, positive
-from .report import Report
 
 LAYOUTS = (
     "equirect",
@@ -65,7 +65,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--force", action="store_true", help="replace what exists")
 
 
-def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
+def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Convert.
 
     Returns
@@ -88,7 +88,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
         distance=arguments.distance,
         clamp=given(arguments, Clamp).clamp,
     )
-    pictures = report.steps(convert(arguments.source, settings, arguments.output, arguments.force))
+    pictures = console.steps(convert(arguments.source, settings, arguments.output, arguments.force))
     for picture in pictures:
-        report.say(f"{picture}")
+        console.say(f"{picture}")
     return {"pictures": [str(picture) for picture in pictures]}

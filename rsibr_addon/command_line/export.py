@@ -5,7 +5,7 @@ from typing import Any
 
 from ..tasks.export.formats import FORMATS
 from . import options
-from .report import Report
+from .console import Console
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -16,7 +16,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     options.add_output(parser, names, "the first file; its name tells the format")
 
 
-def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
+def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Export.
 
     Returns
@@ -33,7 +33,7 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
 
     owners = {name: each.settings for name, each in FORMATS.items()}
     settings = options.given_of(arguments, owners, format_of(arguments.output))
-    textures = report.steps(export(arguments.map_set, arguments.output, settings, arguments.force))
+    textures = console.steps(export(arguments.map_set, arguments.output, settings, arguments.force))
     for texture in textures:
-        report.say(f"{texture}")
+        console.say(f"{texture}")
     return {"textures": [str(texture) for texture in textures]}

@@ -6,7 +6,7 @@ from typing import Any
 
 from ..settings.fit import FitSettings
 from . import options
-from .report import Report
+from .console import Console
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -18,7 +18,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     options.add_output(parser, "FIT.json", "the fit to write")
 
 
-def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
+def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Fit.
 
     Returns
@@ -34,9 +34,9 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     from ..tasks.reflectance.fit_lobes import fit_lobes
 
     settings = options.given(arguments, FitSettings)
-    result = report.steps(fit_lobes(settings, arguments.output, arguments.force, arguments.plot))
+    result = console.steps(fit_lobes(settings, arguments.output, arguments.force, arguments.plot))
     figures = result.report()
-    report.say(
+    console.say(
         f"{arguments.output}: {', '.join(f'{name} {_text(value)}' for name, value in figures.items())}"
     )
     return {"fit": str(arguments.output), **figures}

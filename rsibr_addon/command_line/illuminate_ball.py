@@ -6,9 +6,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from .console import Console
 from .illuminate_options import add_bracket, add_environment_output, bracket_settings, exposure_times
 from .options import degrees
-from .report import Report
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -61,7 +61,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_environment_output(parser)
 
 
-def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
+def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Unwrap.
 
     Returns
@@ -90,10 +90,10 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
         math.radians(arguments.elevation),
         math.radians(arguments.camera),
     )
-    found = report.steps(illuminate_from_ball(settings, arguments.output, arguments.force))
+    found = console.steps(illuminate_from_ball(settings, arguments.output, arguments.force))
     for path, (x, y, radius) in found.circles:
-        report.say(f"{path}: ball {x:.1f},{y:.1f},{radius:.1f}")
-    report.say(f"{arguments.output}")
+        console.say(f"{path}: ball {x:.1f},{y:.1f},{radius:.1f}")
+    console.say(f"{arguments.output}")
     return {
         "environment": str(arguments.output),
         "circles": [[str(path), *circle] for path, circle in found.circles],

@@ -3,9 +3,9 @@
 import argparse
 from typing import Any
 
+from .console import Console
 from .illuminate_options import add_bracket, bracket_settings
 from .options import add_output
-from .report import Report
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -14,7 +14,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_output(parser, "OUT.exr|OUT.hdr", "the picture to write, laid out as the photographs are")
 
 
-def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
+def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Merge.
 
     Returns
@@ -31,10 +31,10 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     from ..tasks.light.brackets import illuminate_from_brackets
 
     settings = bracket_settings(arguments)
-    merged = report.steps(illuminate_from_brackets(settings, arguments.output, arguments.force))
+    merged = console.steps(illuminate_from_brackets(settings, arguments.output, arguments.force))
     height, width = merged.radiance.shape[:2]
     moved = max(motion.most(width, height) for motion in merged.motions)
-    report.say(f"{arguments.output}")
+    console.say(f"{arguments.output}")
     return {
         "picture": str(arguments.output),
         "saturated": merged.saturated,

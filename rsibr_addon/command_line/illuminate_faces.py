@@ -5,9 +5,9 @@ from pathlib import Path
 from typing import Any
 
 from ..settings.light import Clamp
+from .console import Console
 from .illuminate_options import add_environment_output
 from .options import add_options, given
-from .report import Report
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -29,7 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_environment_output(parser)
 
 
-def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
+def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Make the map.
 
     Returns
@@ -45,6 +45,6 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     from ..tasks.light.faces import illuminate_from_faces
 
     target = arguments.output, arguments.balance, arguments.force, given(arguments, Clamp).clamp
-    gains = report.steps(illuminate_from_faces(arguments.source, arguments.size, *target))
-    report.say(f"{arguments.output}")
+    gains = console.steps(illuminate_from_faces(arguments.source, arguments.size, *target))
+    console.say(f"{arguments.output}")
     return {"environment": str(arguments.output), "gains": gains.tolist()}

@@ -4,10 +4,10 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from .console import Console
 from .convert import LAYOUTS
 from .illuminate_options import add_environment_output
 from .options import colour
-from .report import Report
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -40,7 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_environment_output(parser)
 
 
-def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
+def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Make the map.
 
     Returns
@@ -56,8 +56,8 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     from ..tasks.light.painted import PaintedSettings, illuminate_from_painting
 
     settings = PaintedSettings(arguments.source_layout, arguments.size, arguments.white, arguments.knee)
-    output = report.steps(
+    output = console.steps(
         illuminate_from_painting(arguments.source, settings, arguments.output, arguments.force)
     )
-    report.say(f"{output}")
+    console.say(f"{output}")
     return {"environment": str(output)}

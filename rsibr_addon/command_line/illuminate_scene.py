@@ -5,8 +5,8 @@ from pathlib import Path
 from typing import Any
 
 from . import options
+from .console import Console
 from .illuminate_options import add_environment_output
-from .report import Report
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -34,7 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_environment_output(parser)
 
 
-def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
+def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Make the map.
 
     Returns
@@ -62,6 +62,6 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
         seed=arguments.seed,
     )
     open_blend(arguments.source)
-    path = report.steps(illuminate_from_scene(light, arguments.output, arguments.force))
-    report.say(f"{path}")
+    path = console.steps(illuminate_from_scene(light, arguments.output, arguments.force))
+    console.say(f"{path}")
     return {"environment": str(path)}

@@ -5,9 +5,9 @@ from pathlib import Path
 from typing import Any
 
 from ..settings.light import Clamp
+from .console import Console
 from .illuminate_options import add_environment_output
 from .options import add_options, given
-from .report import Report
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -18,7 +18,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_environment_output(parser)
 
 
-def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
+def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Make the map.
 
     Returns
@@ -36,6 +36,6 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
 
     open_blend(arguments.source)
     target = arguments.output, arguments.force, given(arguments, Clamp).clamp
-    path = report.steps(illuminate_from_world(arguments.scene, arguments.size, *target))
-    report.say(f"{path}")
+    path = console.steps(illuminate_from_world(arguments.scene, arguments.size, *target))
+    console.say(f"{path}")
     return {"environment": str(path)}

@@ -6,7 +6,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from .report import Report
+from .console import Console
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -18,7 +18,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
+def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Read a file, check all of it, and tell what it is.
 
     Returns
@@ -44,17 +44,17 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     from ..files.radiance_pictures import holds_radiance
 
     if is_environment(Path(arguments.file)):
-        return _tell_of_radiance(arguments.file, report)
+        return _tell_of_radiance(arguments.file, console)
     if holds_radiance(arguments.file):
-        return _tell_of_map_set(arguments.file, report)
-    return _tell_of_photograph(arguments.file, report)
+        return _tell_of_map_set(arguments.file, console)
+    return _tell_of_photograph(arguments.file, console)
 
 
-def _tell_of_radiance(path: str, report: Report) -> dict[str, Any]:
+def _tell_of_radiance(path: str, console: Console) -> dict[str, Any]:
     from ..files.radiance_pictures import describe_radiance, read_radiance
 
     facts = describe_radiance(path)
-    report.say(f"{path}: {facts.format}, {_size(facts.size)}")
+    console.say(f"{path}: {facts.format}, {_size(facts.size)}")
     for name, value in (
         ("window", facts.window),
         ("channels", facts.channels),
@@ -62,29 +62,29 @@ def _tell_of_radiance(path: str, report: Report) -> dict[str, Any]:
         ("colours", facts.colours),
         ("exposure", facts.exposure),
     ):
-        report.say(f"  {name:<12} {value}")
+        console.say(f"  {name:<12} {value}")
     if facts.size[0] != 2 * facts.size[1]:
-        report.say(
+        console.say(
             "  layout       not twice as wide as high, which an environment is: rsibr convert makes one"
         )
-    return {"picture": path, "facts": asdict(facts), "light": _light(read_radiance(path), report)}
+    return {"picture": path, "facts": asdict(facts), "light": _light(read_radiance(path), console)}
 
 
-def _tell_of_photograph(path: str, report: Report) -> dict[str, Any]:
+def _tell_of_photograph(path: str, console: Console) -> dict[str, Any]:
     from ..files.orientation import Orientation
     from ..files.photographs import orientation_of, read_photograph
 
     photograph, turned = read_photograph(path), orientation_of(path) != Orientation()
     height, width = photograph.stored.shape[:2]
-    report.say(f"{path}: {8 * photograph.stored.itemsize} bits a colour, {width}x{height}")
+    console.say(f"{path}: {8 * photograph.stored.itemsize} bits a colour, {width}x{height}")
     if turned:
-        report.say("  turned       upright, as its Exif says")
-    report.say(f"  colours      {photograph.encoding.name}")
-    report.say(f"  exposure     {_exposure(path)}")
+        console.say("  turned       upright, as its Exif says")
+    console.say(f"  colours      {photograph.encoding.name}")
+    console.say(f"  exposure     {_exposure(path)}")
     if photograph.encoding.curves is not None:
         why = "lamps end at white, and no scale is known"
-        report.say(f"  radiance     none: {why}; rsibr illuminate makes some of it")
-    return {"picture": path, "light": _light(photograph.radiance(), report)}
+        console.say(f"  radiance     none: {why}; rsibr illuminate makes some of it")
+    return {"picture": path, "light": _light(photograph.radiance(), console)}
 
 
 def _exposure(path: str) -> str:
@@ -99,29 +99,29 @@ def _exposure(path: str) -> str:
     return f"{told.time:.4g} s{f_number}" + (f", ISO {told.sensitivity:g}" if told.sensitivity else "")
 
 
-def _light(picture: Any, report: Report) -> dict[str, Any]:
+def _light(picture: Any, console: Console) -> dict[str, Any]:
     from ..core.light.light_range import light_range
 
     light = light_range(picture)
-    report.say(f"  light        peak {light.peak:.4g}, mean {light.mean:.4g}, dark end {light.dark_end:.4g}")
-    report.say(
+    console.say(f"  light        peak {light.peak:.4g}, mean {light.mean:.4g}, dark end {light.dark_end:.4g}")
+    console.say(
         f"  values       {light.black} black, {light.negative} negative, {light.infinite} infinite, "
         f"{light.undefined} undefined (NaN)"
     )
     return asdict(light)
 
 
-def _tell_of_map_set(path: str, report: Report) -> dict[str, Any]:
+def _tell_of_map_set(path: str, console: Console) -> dict[str, Any]:
     from ..files.map_set import read_map_set, read_map_set_header
     from ..files.map_set_facts import told_errors, told_facts, told_making
 
     read_map_set(path)
     header = read_map_set_header(path)
-    report.say(f"{path}: a map set, format {header['format']}")
+    console.say(f"{path}: a map set, format {header['format']}")
     facts = told_facts(header) | told_errors(header) | told_making(header)
     width = max(map(len, facts))
     for what, which in facts.items():
-        report.say(f"  {what:<{width}}  {which}")
+        console.say(f"  {what:<{width}}  {which}")
     return {"map_set": path, "header": header}
 
 

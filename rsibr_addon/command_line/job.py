@@ -10,7 +10,7 @@ from typing import Any
 from ..core.errors import InputFileError
 from ..job import BakeJob, read_job
 from .bake import run_job
-from .report import Report
+from .console import Console
 
 REASON_LETTERS = 500
 """Of argparse's words at most, which repeat what is wrong."""
@@ -21,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("job", metavar="JOB.json", type=Path, help="what is to be made, as JSON")
 
 
-def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
+def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Do the job.
 
     Returns
@@ -38,9 +38,9 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     """
     job = read_job(_text(arguments.job), str(arguments.job))
     if isinstance(job, BakeJob):
-        return run_job(job, report)
+        return run_job(job, console)
     asked = _parsed(job.arguments, arguments.job)
-    result: dict[str, Any] = asked.run(asked, report)
+    result: dict[str, Any] = asked.run(asked, console)
     return result
 
 

@@ -103,17 +103,17 @@ def run(argv: Sequence[str]) -> int:
 
 def _done(arguments: argparse.Namespace, told: Outlet) -> tuple[dict[str, Any], list[str]]:
     """Do what is asked for; what is to be said of it to programs and to people."""
-    from .report import Report
+    from .console import Console
 
-    report = Report(arguments.progress, told)
-    with report.hearing_warnings():
+    console = Console(arguments.progress, told)
+    with console.hearing_warnings():
         try:
             with others_hushed(told if arguments.verbose else None, arguments.log):
-                result = {"ok": True, **arguments.run(arguments, report)}
+                result = {"ok": True, **arguments.run(arguments, console)}
         except (RsibrError, OSError, MemoryError) as error:
             result = {"ok": False, "error": _sentence(error)}
             told.write(f"rsibr: error: {result['error']}\n")
-    return result | {"warnings": report.warnings}, report.lines
+    return result | {"warnings": console.warnings}, console.lines
 
 
 def _sentence(error: RsibrError | OSError | MemoryError) -> str:

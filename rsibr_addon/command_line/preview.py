@@ -7,7 +7,7 @@ from typing import Any
 from ..files.kinds.registry import look_types
 from ..settings.drawing import PreviewOptions
 from . import options
-from .report import Report
+from .console import Console
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -23,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     options.add_output(parser, "OUT.exr|OUT.png", "EXR holds linear radiance, and coverage in alpha")
 
 
-def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
+def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Draw the picture, or the turntable.
 
     Returns
@@ -43,9 +43,9 @@ def run(arguments: argparse.Namespace, report: Report) -> dict[str, Any]:
     look = options.given_of(arguments, look_types(), kind_of(arguments.map_set))
     asked = arguments.map_set, settings, arguments.output, arguments.force, look
     if settings.turntable is None:
-        made = [report.steps(preview(*asked))]
+        made = [console.steps(preview(*asked))]
     else:
-        made = [*report.steps(turntable(*asked))]
+        made = [*console.steps(turntable(*asked))]
     for path in made:
-        report.say(f"{path}")
+        console.say(f"{path}")
     return dict(zip(("picture", "movie"), map(str, made), strict=False))

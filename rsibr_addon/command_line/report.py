@@ -1,101 +1,45 @@
-"""What a command tells while it works and at its end; standard output belongs to the result alone."""
+"""Show all that a map set holds in one HTML file."""
 
-import json
-import warnings
-from collections.abc import Iterator
-from contextlib import contextmanager
+import argparse
+from pathlib import Path
 from typing import Any
 
-from ..core.errors import RsibrWarning
-from ..core.progress import Progress, Steps
-from .endings import done, orderly
-from .streams import CLEAR_LINE, Outlet
-
-BAR_WIDTH = 24
+from ..settings.report import ReportOptions
+from . import options
+from .console import Console
 
 
-class Report:
-    """Shows progress and warnings on standard error, and collects what the result will say.
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what `run` reads."""
+    options.add_map_set(parser)
+    parser.add_argument(
+        *("-o", "--output"),
+        metavar="OUT.html",
+        type=Path,
+        help="the report, which needs nothing beside it (default: NAME.html beside the map set)",
+    )
+    options.add_options(parser, ReportOptions)
+    parser.add_argument("--force", action="store_true", help="replace what exists")
 
-    Parameters
-    ----------
-    progress : {"auto", "bar", "json", "none"}
-        A bar, one JSON object a line, or nothing; "auto" is a bar on a terminal and else nothing.
-    told : Outlet
-        Standard error.
 
-    Attributes
-    ----------
-    lines : list of str
-        The result for people.
-    warnings : list of str
-        Each warning once.
+def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
+    """Write the report.
+
+    Returns
+    -------
+    dict
+        "page", its path.
+
+    Raises
+    ------
+    RsibrError
+        See `tasks.report.report`.
     """
+    from ..files.output_paths import report_beside
+    from ..tasks.report.report import map_set_report
 
-    def __init__(self, progress: str, told: Outlet) -> None:
-        self.told = told
-        self.progress = progress
-        if progress == "auto":
-            self.progress = "bar" if told.isatty() else "none"
-        self.lines: list[str] = []
-        self.warnings: list[str] = []
-
-    def say(self, line: str) -> None:
-        """Add a line to the result for people."""
-        self.lines.append(line)
-
-    def steps[Result](self, steps: Steps[Result]) -> Result:
-        """Run long work to its end, showing where it is, and return its result.
-
-        However it ends, the work's own cleaning up is done before this returns or raises. A signal that asks
-        the process to end does so after the step at hand, or soon.
-        """
-        with orderly() as asked:
-            try:
-                while not asked.is_set():
-                    self._show(next(steps))
-            except StopIteration as end:
-                done()
-                result: Result = end.value
-            finally:
-                steps.close()
-                self._clear()
-        return result
-
-    @contextmanager
-    def hearing_warnings(self) -> Iterator[None]:
-        """Within, each `RsibrWarning` is shown and kept; other warnings go where they went."""
-        with warnings.catch_warnings():
-            warnings.simplefilter("always", RsibrWarning)
-            show_other = warnings.showwarning
-
-            def show(message: Warning | str, category: type[Warning], *details: Any, **more: Any) -> None:
-                if issubclass(category, RsibrWarning):
-                    self._warn(str(message))
-                else:
-                    show_other(message, category, *details, **more)
-
-            warnings.showwarning = show
-            yield
-
-    def _warn(self, sentence: str) -> None:
-        if sentence not in self.warnings:
-            self.warnings.append(sentence)
-            self._clear()
-            self.told.write(f"rsibr: warning: {sentence}\n")
-
-    def _show(self, progress: Progress) -> None:
-        if self.progress == "bar":
-            filled = BAR_WIDTH * progress.done // max(progress.total, 1)
-            bar = "#" * filled + "." * (BAR_WIDTH - filled)
-            line = f"[{bar}] {progress.done}/{progress.total} {progress.what}"
-            # Back at the line's begin, so that what comes next writes over the bar
-            self.told.control(CLEAR_LINE)
-            self.told.write(line[: self.told.columns - 1])
-            self.told.control("\r")
-        elif self.progress == "json":
-            self.told.write(json.dumps({"progress": vars(progress)}) + "\n")
-
-    def _clear(self) -> None:
-        if self.progress == "bar":
-            self.told.control(CLEAR_LINE)
+    output = arguments.output or report_beside(arguments.map_set)
+    brdf = options.given(arguments, ReportOptions).brdf
+    page = console.steps(map_set_report(arguments.map_set, output, arguments.force, brdf))
+    console.say(f"{page}")
+    return {"page": str(page)}

@@ -23,7 +23,7 @@ from unittest.mock import patch
 
 import bpy  # noqa: F401  (tasks need it)
 from rsibr.rsibr_addon.command_line import info, job
-from rsibr.rsibr_addon.command_line.report import Report
+from rsibr.rsibr_addon.command_line.console import Console
 from rsibr.rsibr_addon.core.errors import DeviceError, RsibrError, RsibrWarning
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.exr import Part, read_parts, write_parts
@@ -50,7 +50,7 @@ MEGABYTES = 200
 
 
 def _info(path: Path) -> None:
-    told = info.run(argparse.Namespace(file=str(path)), Report("none", io.StringIO()))
+    told = info.run(argparse.Namespace(file=str(path)), Console("none", io.StringIO()))
     json.dumps(told).encode()
 
 
@@ -103,9 +103,9 @@ def _comparison(path: Path) -> None:
 
 
 def _job(path: Path) -> None:
-    done = patch("rsibr.rsibr_addon.command_line.job.run_job", lambda job, report: {})
-    with done, patch("rsibr.rsibr_addon.command_line.bake.run_job", lambda job, report: {}):
-        job.run(argparse.Namespace(job=path), Report("none", io.StringIO()))
+    done = patch("rsibr.rsibr_addon.command_line.job.run_job", lambda job, console: {})
+    with done, patch("rsibr.rsibr_addon.command_line.bake.run_job", lambda job, console: {}):
+        job.run(argparse.Namespace(job=path), Console("none", io.StringIO()))
 
 
 type Reader = Callable[[Path], object]

@@ -1,6 +1,7 @@
 """Who may know whom, by the imports of every module; and what the manifest and the package agree on."""
 
 import ast
+import re
 import subprocess
 import sys
 import tomllib
@@ -18,7 +19,7 @@ LAYERS: dict[str, set[str]] = {
     "settings": {"core"},
     "job": {"core", "settings", "files"},
     "files": {"core", "settings"},
-    "host": {"core", "settings", "files"},
+    "host": {"core", "files"},
     "device": {"core"},
     "tasks": {"core", "settings", "job", "files", "host", "device"},
     "command_line": {"core", "settings", "job", "files", "host", "device", "tasks"},
@@ -56,6 +57,19 @@ MODULES = sorted(
     ]
     if path != ROOT / "rsibr_addon" / "__init__.py"
 )
+
+
+def test_the_page_on_architecture_has_this_table() -> None:
+    page = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    told: dict[str, set[str]] = {}
+    for name, last in re.findall(
+        r"^\| ([a-z ]+) \|.*\| ([^|]+) \|$", page.partition("## The way")[0], re.MULTILINE
+    ):
+        ours, _, besides = last.partition("all above")
+        named = {each.strip().replace(" ", "_") for each in re.split("[,;]", ours)} & LAYERS.keys()
+        above = told.keys() - ({"command_line"} if "but the command line" in besides else set())
+        told[name.replace(" ", "_")] = named or (set(above) if "all above" in last else set())
+    assert told == {layer: others for layer, others in LAYERS.items() if layer != "__init__"}
 
 
 def layer_of(dotted: tuple[str, ...]) -> str:

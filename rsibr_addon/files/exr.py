@@ -32,6 +32,9 @@ OpenEXR.set_global_thread_count(os.cpu_count() or 1)
 FEWEST_STORED = 1000
 """Number of pixels in a picture of which at least one must be stored."""
 
+LARGEST_TILE = 2048
+"""Width or height of a tile that reaches beyond its picture."""
+
 BYTES_OF_SAMPLE = 8
 """Bytes of memory for each number of a channel: a float, and as much again for the picture made of it."""
 
@@ -115,6 +118,9 @@ class OpenExr:
             if header["type"] not in (OpenEXR.scanlineimage, OpenEXR.tiledimage):
                 raise InputFileError(f"{path} holds deep pixels: flatten it, and save it as a plain OpenEXR.")
         sizes = [window_size(header["dataWindow"]) for header in headers]
+        for header, size in zip(headers, sizes, strict=True):
+            if header["type"] == OpenEXR.tiledimage:
+                _check_tiles(path, header["tiles"], size)
         texels = sum(
             width * height * len(header["channels"])
             for header, (width, height) in zip(headers, sizes, strict=True)
@@ -198,6 +204,14 @@ def read_parts(path: str | Path) -> list[Part]:
     """
     with open_exr(path) as file:
         return file.parts()
+
+
+def _check_tiles(path: str | Path, tiles: Any, size: tuple[int, int]) -> None:
+    """Refuse tiles that no program writes: the package takes memory for a whole one before it looks on."""
+    if tiles.xSize > max(size[0], LARGEST_TILE) or tiles.ySize > max(size[1], LARGEST_TILE):
+        raise InputFileError(
+            f"{path} is damaged (it states tiles of {tiles.xSize}x{tiles.ySize}): fetch or make it again."
+        )
 
 
 def _full(channel: Any, window: tuple[Indices, Indices]) -> Array:

@@ -9,6 +9,7 @@ import contextlib
 import faulthandler
 import io
 import json
+import os
 import random
 import resource
 import sys
@@ -158,12 +159,13 @@ def main() -> int:
     parser.add_argument("--only", type=int, help="the one case to run")
     arguments = parser.parse_args()
     rng, ends, failures = random.Random(arguments.seed), Counter(), []
-    with tempfile.TemporaryDirectory() as name, _without_device():
+    # A reader that takes too long may have put standard error away meanwhile
+    with os.fdopen(os.dup(2), "w") as told, tempfile.TemporaryDirectory() as name, _without_device():
         for number, (path, read) in zip(range(arguments.cases), cases(Path(name), rng), strict=False):
             if arguments.only not in (None, number):
                 continue
             before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-            faulthandler.dump_traceback_later(SECONDS, exit=True)
+            faulthandler.dump_traceback_later(SECONDS, exit=True, file=told)
             end = _end(path, read)
             faulthandler.cancel_dump_traceback_later()
             grown = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024

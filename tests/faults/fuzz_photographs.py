@@ -8,6 +8,7 @@ import argparse
 import faulthandler
 import itertools
 import json
+import os
 import random
 import shutil
 import sys
@@ -145,9 +146,10 @@ def main() -> int:
     parser.add_argument("--keep", type=Path, help="a folder for the inputs that failed")
     arguments = parser.parse_args()
     rng, ends = random.Random(arguments.seed), Counter({"done": 0, "refused": 0, "failed": 0})
-    with tempfile.TemporaryDirectory() as name:
+    # A reader that takes too long may have put standard error away meanwhile
+    with os.fdopen(os.dup(2), "w") as told, tempfile.TemporaryDirectory() as name:
         for number, (path, read) in zip(range(arguments.cases), cases(Path(name), rng), strict=False):
-            faulthandler.dump_traceback_later(SECONDS, exit=True)
+            faulthandler.dump_traceback_later(SECONDS, exit=True, file=told)
             end = _end(path, read)
             faulthandler.cancel_dump_traceback_later()
             ends[end if end in ends else "failed"] += 1

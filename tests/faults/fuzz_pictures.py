@@ -7,6 +7,7 @@ numbers of the seed and of the case.
 import argparse
 import faulthandler
 import json
+import os
 import random
 import resource
 import sys
@@ -139,11 +140,12 @@ def main() -> int:
     parser.add_argument("--keep", type=Path, help="a folder for the inputs that failed")
     arguments = parser.parse_args()
     ends: Counter[str] = Counter()
-    with tempfile.TemporaryDirectory() as name:
+    # A reader that takes too long may have put standard error away meanwhile
+    with os.fdopen(os.dup(2), "w") as told, tempfile.TemporaryDirectory() as name:
         made = cases(Path(name), random.Random(arguments.seed))
         for number, (path, read) in zip(range(arguments.cases), made, strict=False):
             before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-            faulthandler.dump_traceback_later(SECONDS, exit=True)
+            faulthandler.dump_traceback_later(SECONDS, exit=True, file=told)
             end = _end(path, read)
             faulthandler.cancel_dump_traceback_later()
             grown = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024

@@ -1,6 +1,7 @@
 """Pictures through OpenEXR files, in every layout that a reader meets."""
 
 import os
+import struct
 from pathlib import Path
 
 import numpy as np
@@ -94,6 +95,21 @@ def test_every_storage_reads_back(
     picture = read_exr(path)
     assert picture.dtype == np.float32
     np.testing.assert_array_equal(picture, rgb[::-1])
+
+
+@pytest.mark.parametrize("size", [(2**25 + 8, 16), (16, 2**25 + 8), (2**31, 2**31), (2**32 - 1, 1)])
+def test_tiles_that_no_program_writes_are_refused(
+    tmp_path: Path, rgb: np.ndarray, size: tuple[int, int]
+) -> None:
+    tiles = OpenEXR.TileDescription()
+    tiles.xSize, tiles.ySize = 2048, 1024  # larger than the picture, as some programs have it
+    path = write(tmp_path / "a.exr", ({"type": OpenEXR.tiledimage, "tiles": tiles}, channels(rgb)))
+    np.testing.assert_array_equal(read_exr(path), rgb[::-1])
+    stated = struct.pack("<2I", 2048, 1024)
+    assert path.read_bytes().count(stated) == 1
+    path.write_bytes(path.read_bytes().replace(stated, struct.pack("<2I", *size)))
+    with pytest.raises(InputFileError, match=r"a\.exr is (truncated or )?damaged"):
+        read_exr(path)
 
 
 def test_bottom_row_first_files_read_the_same(tmp_path: Path, rgb: np.ndarray) -> None:

@@ -78,16 +78,8 @@ def ggx_lobe(alpha: float) -> ZonalLobe:
 def ggx_n_dot_l_lobe(alpha: float) -> ZonalLobe:
     """GGX at normal = view = mirror direction times n.l, as engines prefilter: integrates to 1.
 
-    Parameters
-    ----------
-    alpha : float
-        roughness**2, in (0, 1].
-
-    Returns
-    -------
-    ZonalLobe
-        0 beyond pi / 2, with a kink there: its coefficients fall slowly, so use a larger tolerance than for
-        smooth lobes.
+    0 beyond pi / 2, with a kink there: its coefficients fall slowly, so use a larger tolerance than for
+    smooth lobes. `alpha` as that of `ggx_lobe`.
 
     Raises
     ------

@@ -11,28 +11,19 @@ from ..conventions import Array, ArrayLike
 from ..environment import Environment
 from ..geometry.directions import dot, reflect
 from ..maps import equirect
-from ..options import Options, option
+from ..options import Options
 from ..resample import bilinear
+from .look_options import antialiased_option, colour_option
 
 
 @dataclass(frozen=True)
 class EnvironmentLook(Options):
     """How a mirror in an environment is shaded."""
 
-    f_lambda: tuple[float, float, float] = option(
-        (1.0, 1.0, 1.0),
-        label="Reflectance",
-        help="Reflectance of the mirror at normal incidence; 1 is a perfect mirror",
-        least=0.0,
-        most=1.0,
-        subtype="COLOR",
-        metavar="F|R,G,B",
+    f_lambda: tuple[float, float, float] = colour_option(
+        1.0, "Reflectance", "Reflectance of the mirror at normal incidence; 1 is a perfect mirror"
     )
-    antialiased: bool = option(
-        True,
-        label="Antialiased",
-        help="Average the light over what each pixel reflects, so that small lamps do not shimmer",
-    )
+    antialiased: bool = antialiased_option("the light")
 
 
 def mirrored_environment(
@@ -42,22 +33,9 @@ def mirrored_environment(
     look: EnvironmentLook,
     mirror_footprint: ArrayLike | None = None,
 ) -> Array:
-    """Radiance of a mirror's points.
+    """Radiance of a mirror's points: the environment's by the mirror direction, times Schlick's F.
 
-    Parameters
-    ----------
-    environment : Environment
-    normal, view_dir : array_like, shape (..., 3)
-        Unit vectors in world coordinates.
-    look : EnvironmentLook
-    mirror_footprint : array_like, shape (..., 4, 3), optional
-        Mirrored view directions at the corners of each point's pixel, over which an antialiased look
-        averages: see `core.antialiased`. None for points, which reflect one direction each.
-
-    Returns
-    -------
-    ndarray, shape (..., 3), float64
-        The environment's radiance by the mirror direction, times Schlick's F.
+    Parameters and result are those of every kind's shading: see `core.kinds`.
 
     Notes
     -----

@@ -174,20 +174,7 @@ def single_fit(brdf: BrdfFunction, spec: str, mu: Array, sharpest: float = SHARP
 def single_2d_fit(brdf: BrdfFunction, spec: str, mu: Array, sharpest: float = SHARPEST) -> Fit:
     """Section 3.2: one profile for all elevations, the mean of theirs, times the elevation's albedo.
 
-    Parameters
-    ----------
-    brdf : callable
-    spec : str
-        Its text.
-    mu : ndarray, shape (S,)
-        View elevations, ascending.
-    sharpest : float
-        Concentration that no kernel exceeds, one of `bank.octaves`.
-
-    Returns
-    -------
-    Fit
-        With one lobe and one profile, so that one map is enough.
+    As `single_fit`, but with one profile, so that one map is enough.
     """
     each = single_fit(brdf, spec, mu, sharpest)
     albedo = each.albedo
@@ -218,16 +205,11 @@ def greedy_fit(
 
     Parameters
     ----------
-    brdf : callable
-    spec : str
-        Its text.
-    mu : ndarray, shape (S,)
-        View elevations, ascending.
     lobes : int
     seek : callable
         Finds the axis of the next lobe: the highest peak, or a way of `seeking`.
-    sharpest : float
-        Concentration that no kernel exceeds, one of `bank.octaves`.
+    brdf, spec, mu, sharpest
+        See `single_fit`.
 
     Returns
     -------

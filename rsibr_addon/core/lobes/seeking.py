@@ -20,17 +20,9 @@ _CANDIDATES = 3
 
 
 def best_place(rest: Remainder) -> Array:
-    """First extension: the best of the likely places.
+    """First extension: the best of the likely places, shape (3,).
 
-    Parameters
-    ----------
-    rest : Remainder
-
-    Returns
-    -------
-    ndarray, shape (3,)
-        The peak, the mirror direction, the normal or the view direction: whichever has the lobe of most
-        volume.
+    The peak, the mirror direction, the normal or the view direction: whichever has the lobe of most volume.
     """
     sine = np.sqrt(1.0 - rest.mu**2)
     places = [(sine, 0.0, rest.mu), (0.0, 0.0, 1.0), (-sine, 0.0, rest.mu)]
@@ -40,14 +32,7 @@ def best_place(rest: Remainder) -> Array:
 def search(rest: Remainder) -> Array:
     """Second extension: search everywhere in a blurred copy, and refine what was found in sharper ones.
 
-    Parameters
-    ----------
-    rest : Remainder
-
-    Returns
-    -------
-    ndarray, shape (3,)
-        The axis of the lobe of most volume, within a sixteenth of twelve degrees.
+    Gives the axis of the lobe of most volume, shape (3,), within a sixteenth of twelve degrees.
 
     Notes
     -----

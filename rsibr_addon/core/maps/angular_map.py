@@ -14,20 +14,8 @@ __all__ = ["direction_from_uv", "texel_solid_angle", "uv_from_direction", "wrap"
 
 
 def direction_from_uv(uv: ArrayLike) -> Array:
-    """The direction that a point of the map shows.
+    """The direction that a point of the map shows; outside the disk, that of the nearest point of its rim.
 
-    Parameters
-    ----------
-    uv : array_like, shape (..., 2)
-        Map coordinates. Points outside the disk are taken at the nearest point of its rim.
-
-    Returns
-    -------
-    ndarray, shape (..., 3), float64
-        Unit directions in the map's own axes.
-
-    Notes
-    -----
     The angle from -z is pi times the radius, in radii of the disk.
     """
     xy = 2.0 * np.asarray(uv, dtype=np.float64) - 1.0
@@ -39,19 +27,7 @@ def direction_from_uv(uv: ArrayLike) -> Array:
 
 
 def uv_from_direction(direction: ArrayLike) -> Array:
-    """The inverse of `direction_from_uv`.
-
-    Parameters
-    ----------
-    direction : array_like, shape (..., 3)
-        Unit directions in the map's own axes; +z, which the whole rim shows, is mapped to its rightmost
-        point.
-
-    Returns
-    -------
-    ndarray, shape (..., 2), float64
-        Map coordinates in the disk.
-    """
+    """The inverse of `direction_from_uv`; +z, which the whole rim shows, is mapped to its rightmost point."""
     direction = np.asarray(direction, dtype=np.float64)
     xy, z = direction[..., :2], direction[..., 2:]
     sine = np.linalg.norm(xy, axis=-1, keepdims=True)
@@ -62,18 +38,9 @@ def uv_from_direction(direction: ArrayLike) -> Array:
 
 
 def texel_solid_angle(size: int) -> Array:
-    """Solid angle of every texel.
+    """Solid angle of every texel [sr], shape (size, size), by quadrature along the texels' edges.
 
-    Parameters
-    ----------
-    size : int
-        Width and height of the map in texels.
-
-    Returns
-    -------
-    ndarray, shape (size, size), float64
-        [sr], by quadrature along the texels' edges, to 1e-12 of their sum, 4 pi. A texel that the rim cuts
-        counts with its part within; texels outside have 0.
+    To 1e-12 of their sum, 4 pi. A texel that the rim cuts counts with its part within; texels outside have 0.
     """
     along_line = quadrature(lambda radius: 2.0 * np.sin(0.5 * np.pi * radius) ** 2)
     return disk_solid_angle(size, along_line, 2.0)

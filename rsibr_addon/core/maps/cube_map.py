@@ -28,20 +28,7 @@ NOWHERE = -1
 
 
 def direction_from_uv(uv: ArrayLike, sheet: Indices) -> Array:
-    """The direction that a point of a face shows.
-
-    Parameters
-    ----------
-    uv : array_like, shape (..., 2)
-        Coordinates on the face, in [0, 1].
-    sheet : ndarray of int, broadcastable to uv's shape (...,)
-        The face, 0 to 5.
-
-    Returns
-    -------
-    ndarray, shape (..., 3), float64
-        Unit directions.
-    """
+    """The direction that a point of a face, 0 to 5, shows: see `core.maps`."""
     uv = np.asarray(uv, dtype=np.float64)
     st = 2.0 * uv - 1.0
     sheet = np.broadcast_to(sheet, uv.shape[:-1])
@@ -54,18 +41,9 @@ def direction_from_uv(uv: ArrayLike, sheet: Indices) -> Array:
 
 
 def uv_from_direction(direction: ArrayLike) -> tuple[Array, Indices]:
-    """The inverse of `direction_from_uv`.
+    """The inverse of `direction_from_uv`, of directions of any positive length.
 
-    Parameters
-    ----------
-    direction : array_like, shape (..., 3)
-        Directions, of any positive length.
-
-    Returns
-    -------
-    uv : ndarray, shape (..., 2), float64
-        In [0, 1]. A direction on an edge belongs to the face that comes first along the axes.
-    sheet : ndarray of int, shape (...,)
+    A direction on an edge belongs to the face that comes first along the axes.
     """
     x, y, z = np.moveaxis(np.asarray(direction, dtype=np.float64), -1, 0)
     along_x = (np.abs(x) >= np.abs(y)) & (np.abs(x) >= np.abs(z))
@@ -79,18 +57,9 @@ def uv_from_direction(direction: ArrayLike) -> tuple[Array, Indices]:
 
 
 def texel_solid_angle(size: int) -> Array:
-    """Solid angle of every texel.
+    """Solid angle of every texel [sr], shape (6, size, size): exact, sums to 4 pi.
 
-    Parameters
-    ----------
-    size : int
-        Width and height of a face in texels.
-
-    Returns
-    -------
-    ndarray, shape (6, size, size), float64
-        [sr], exact; sums to 4 pi. The solid angle of the rectangle from the face's centre to (s, t)
-        is atan(s t / sqrt(1 + s^2 + t^2)).
+    The solid angle of the rectangle from the face's centre to (s, t) is atan(s t / sqrt(1 + s^2 + t^2)).
     """
     s = np.linspace(-1.0, 1.0, size + 1)
     t = s[:, None]
@@ -153,18 +122,7 @@ def wrap(
 ) -> tuple[Indices, Indices, Indices]:
     """Texel that a lookup beyond a face's edge falls on: it continues on the neighbouring face.
 
-    Parameters
-    ----------
-    columns, rows, sheet : ndarray of int, any shape
-        Texel indices, at most one face's size outside the face.
-    width, height : int
-        Size of a face, equal.
-
-    Returns
-    -------
-    columns, rows, sheet : ndarray of int
-        Indices within a face. Beyond a corner of the cube, across two edges, there is no texel:
-        `sheet` is `NOWHERE` there.
+    Beyond a corner of the cube, across two edges, there is no texel: `sheet` is `NOWHERE` there.
 
     Notes
     -----

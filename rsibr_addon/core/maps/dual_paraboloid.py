@@ -43,21 +43,7 @@ def disk_radius(overscan: float) -> float:
 
 
 def direction_from_uv(uv: ArrayLike, sheet: Indices, overscan: float = 1.0) -> Array:
-    """The direction that a point of the map shows.
-
-    Parameters
-    ----------
-    uv : array_like, shape (..., 2)
-        Map coordinates, anywhere in the square.
-    sheet : ndarray of int, broadcastable to uv's shape (...,)
-        0 front, 1 back.
-    overscan : float
-        As in `disk_radius`.
-
-    Returns
-    -------
-    ndarray, shape (..., 3), float64
-        Unit directions in the map's own axes.
+    """The direction that a point of the map shows, for the `overscan` of `disk_radius`.
 
     Raises
     ------
@@ -74,18 +60,6 @@ def direction_from_uv(uv: ArrayLike, sheet: Indices, overscan: float = 1.0) -> A
 def uv_from_direction(direction: ArrayLike, overscan: float = 1.0) -> tuple[Array, Indices]:
     """The inverse of `direction_from_uv`, within the disks.
 
-    Parameters
-    ----------
-    direction : array_like, shape (..., 3)
-        Unit directions in the map's own axes.
-    overscan : float
-        As in `disk_radius`.
-
-    Returns
-    -------
-    uv : ndarray, shape (..., 2), float64
-    sheet : ndarray of int, shape (...,)
-
     Raises
     ------
     RangeError
@@ -99,20 +73,9 @@ def uv_from_direction(direction: ArrayLike, overscan: float = 1.0) -> tuple[Arra
 
 
 def texel_solid_angle(size: int, overscan: float = 1.0) -> Array:
-    """Solid angle of every texel, counted within the disks, so that no direction counts twice.
+    """Solid angle of every texel [sr], shape (2, size, size), within the disks: no direction counts twice.
 
-    Parameters
-    ----------
-    size : int
-        Width and height of a sheet in texels.
-    overscan : float
-        As in `disk_radius`.
-
-    Returns
-    -------
-    ndarray, shape (2, size, size), float64
-        [sr], exact; sums to 4 pi. A texel that the rim cuts counts with its part within; texels outside have
-        0.
+    Exact, sums to 4 pi. A texel that the rim cuts counts with its part within; texels outside have 0.
 
     Raises
     ------
@@ -133,18 +96,5 @@ def texel_solid_angle(size: int, overscan: float = 1.0) -> Array:
 def wrap(
     columns: Indices, rows: Indices, sheet: Indices, width: int, height: int
 ) -> tuple[Indices, Indices, Indices]:
-    """Texel that a lookup beyond a sheet's edge falls on: the edge's own.
-
-    Parameters
-    ----------
-    columns, rows, sheet : ndarray of int, any shape
-        Texel indices that may lie outside their sheet.
-    width, height : int
-        Size of a sheet.
-
-    Returns
-    -------
-    columns, rows, sheet : ndarray of int
-        Indices within the same sheet.
-    """
+    """Texel that a lookup beyond a sheet's edge falls on: the edge's own."""
     return np.clip(columns, 0, width - 1), np.clip(rows, 0, height - 1), sheet

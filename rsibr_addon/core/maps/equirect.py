@@ -6,18 +6,7 @@ from ..conventions import Array, ArrayLike, Indices
 
 
 def direction_from_uv(uv: ArrayLike) -> Array:
-    """The direction that a point of the map shows.
-
-    Parameters
-    ----------
-    uv : array_like, shape (..., 2)
-        u in [0, 1] around the horizon, +X in the middle; v in [0, 1] from -Z to +Z.
-
-    Returns
-    -------
-    ndarray, shape (..., 3), float64
-        Unit directions in world coordinates.
-    """
+    """The direction that a point shows: u goes around the horizon, +X in the middle, v from -Z to +Z."""
     uv = np.asarray(uv, dtype=np.float64)
     azimuth = np.pi * (1.0 - 2.0 * uv[..., 0])
     polar = np.pi * (1.0 - uv[..., 1])
@@ -26,18 +15,7 @@ def direction_from_uv(uv: ArrayLike) -> Array:
 
 
 def uv_from_direction(direction: ArrayLike) -> Array:
-    """The inverse of `direction_from_uv`; the poles, where u is arbitrary, have u = 0.5.
-
-    Parameters
-    ----------
-    direction : array_like, shape (..., 3)
-        Unit directions in world coordinates.
-
-    Returns
-    -------
-    ndarray, shape (..., 2), float64
-        u in [0, 1], v in [0, 1].
-    """
+    """The inverse of `direction_from_uv`; the poles, where u is arbitrary, have u = 0.5."""
     direction = np.asarray(direction, dtype=np.float64)
     x, y, z = direction[..., 0], direction[..., 1], direction[..., 2]
     u = 0.5 - np.arctan2(y, x) / (2.0 * np.pi)
@@ -47,17 +25,9 @@ def uv_from_direction(direction: ArrayLike) -> Array:
 
 
 def texel_solid_angle(width: int, height: int) -> Array:
-    """Solid angle of every texel.
+    """Solid angle of every texel [sr], shape (height, width): exact, sums to 4 pi.
 
-    Parameters
-    ----------
-    width, height : int
-        Size of the map in texels.
-
-    Returns
-    -------
-    ndarray, shape (height, width), float64
-        [sr], exact; sums to 4 pi. A view of one column, not to be written to.
+    It is a view of one column, not to be written to.
     """
     # The difference of the edges' cosines, as a product, which keeps its digits at the poles.
     middle = np.pi * (np.arange(height) + 0.5) / height
@@ -66,19 +36,9 @@ def texel_solid_angle(width: int, height: int) -> Array:
 
 
 def wrap(columns: Indices, rows: Indices, width: int, height: int) -> tuple[Indices, Indices]:
-    """Texel that a lookup beyond the map's edge falls on.
+    """Texel that a lookup beyond the edge falls on: around the horizon, and over a pole to its far side.
 
-    Parameters
-    ----------
-    columns, rows : ndarray of int, any shape
-        Texel indices, at most one map's size outside it.
-    width, height : int
-        Size of the map; the width must be even for a pole to have a far side.
-
-    Returns
-    -------
-    columns, rows : ndarray of int
-        Indices within the map: around the horizon, and over a pole to its far side.
+    The width must be even for a pole to have a far side.
     """
     below, above = rows < 0, rows >= height
     over_pole = below | above

@@ -44,19 +44,9 @@ def blind_angle(distance: float) -> float:
 
 
 def direction_from_uv(uv: ArrayLike, distance: float) -> Array:
-    """The direction that a point of the photograph shows.
+    """The direction that a point of the photograph shows, from the `distance` of `blind_angle`.
 
-    Parameters
-    ----------
-    uv : array_like, shape (..., 2)
-        Map coordinates. Points outside the ball are taken at the nearest point of its outline.
-    distance : float
-        As in `blind_angle`.
-
-    Returns
-    -------
-    ndarray, shape (..., 3), float64
-        Unit directions in the camera's axes.
+    Points outside the ball are taken at the nearest point of its outline.
 
     Raises
     ------
@@ -76,18 +66,6 @@ def direction_from_uv(uv: ArrayLike, distance: float) -> Array:
 
 def uv_from_direction(direction: ArrayLike, distance: float) -> Array:
     """The inverse of `direction_from_uv`; directions in the blind spot are mapped to the outline.
-
-    Parameters
-    ----------
-    direction : array_like, shape (..., 3)
-        Unit directions in the camera's axes.
-    distance : float
-        As in `blind_angle`.
-
-    Returns
-    -------
-    ndarray, shape (..., 2), float64
-        Map coordinates in the disk.
 
     Raises
     ------
@@ -120,20 +98,10 @@ def uv_from_direction(direction: ArrayLike, distance: float) -> Array:
 
 
 def texel_solid_angle(size: int, distance: float) -> Array:
-    """Solid angle of every texel.
+    """Solid angle of every texel [sr], shape (size, size), by quadrature along the texels' edges.
 
-    Parameters
-    ----------
-    size : int
-        Width and height of the map in texels.
-    distance : float
-        As in `blind_angle`.
-
-    Returns
-    -------
-    ndarray, shape (size, size), float64
-        [sr], by quadrature along the texels' edges, to 1e-12 of their sum, which is 4 pi less the blind spot.
-        A texel that the outline cuts counts with its part within; texels outside have 0.
+    To 1e-12 of their sum, 4 pi less the blind spot. A texel that the outline cuts counts with its part
+    within; texels outside have 0.
 
     Raises
     ------

@@ -11,18 +11,7 @@ from ..geometry.directions import dot
 
 
 def direction_from_uv(uv: ArrayLike) -> Array:
-    """The direction that a point of the map shows.
-
-    Parameters
-    ----------
-    uv : array_like, shape (..., 2)
-        Map coordinates in [0, 1].
-
-    Returns
-    -------
-    ndarray, shape (..., 3), float64
-        Unit directions.
-    """
+    """The direction that a point of the map shows: see `core.maps`."""
     xy = 2.0 * np.asarray(uv, dtype=np.float64) - 1.0
     z = 1.0 - np.sum(np.abs(xy), axis=-1, keepdims=True)
     direction = np.concatenate([np.where(z < 0.0, _folded(xy), xy), z], axis=-1)
@@ -31,18 +20,7 @@ def direction_from_uv(uv: ArrayLike) -> Array:
 
 
 def uv_from_direction(direction: ArrayLike) -> Array:
-    """The inverse of `direction_from_uv`; -z is taken to the corner (1, 1).
-
-    Parameters
-    ----------
-    direction : array_like, shape (..., 3)
-        Directions, of any positive length.
-
-    Returns
-    -------
-    ndarray, shape (..., 2), float64
-        Map coordinates in [0, 1].
-    """
+    """The inverse of `direction_from_uv`, of any positive length; -z is taken to the corner (1, 1)."""
     direction = np.asarray(direction, dtype=np.float64)
     on_octahedron = direction / np.sum(np.abs(direction), axis=-1, keepdims=True)
     xy, z = on_octahedron[..., :2], on_octahedron[..., 2:]
@@ -50,18 +28,10 @@ def uv_from_direction(direction: ArrayLike) -> Array:
 
 
 def texel_solid_angle(size: int) -> Array:
-    """Solid angle of every texel.
+    """Solid angle of every texel [sr], shape (size, size): exact, sums to 4 pi.
 
-    Parameters
-    ----------
-    size : int
-        Width and height of the map in texels.
-
-    Returns
-    -------
-    ndarray, shape (size, size), float64
-        [sr], exact; sums to 4 pi. The map's lines are great circles within a face of the
-        octahedron, so that a texel is made of spherical triangles [VanOosterom1983].
+    The map's lines are great circles within a face of the octahedron, so that a texel is made of spherical
+    triangles [VanOosterom1983].
     """
     # Texels of a map twice as fine straddle no axis, and a fold only along their diagonal. One quadrant
     # serves for all; its diagonals from the upper left to the lower right run along the fold.
@@ -79,20 +49,7 @@ def texel_solid_angle(size: int) -> Array:
 
 
 def wrap(columns: Indices, rows: Indices, width: int, height: int) -> tuple[Indices, Indices]:
-    """Texel that a lookup beyond the map's edge falls on: each edge is folded about its middle.
-
-    Parameters
-    ----------
-    columns, rows : ndarray of int, any shape
-        Texel indices, at most one map's size outside it.
-    width, height : int
-        Size of the map.
-
-    Returns
-    -------
-    columns, rows : ndarray of int
-        Indices within the map.
-    """
+    """Texel that a lookup beyond the map's edge falls on: each edge is folded about its middle."""
     beside = (columns < 0) | (columns >= width)
     rows = np.where(beside, height - 1 - rows, rows)
     beyond = (rows < 0) | (rows >= height)

@@ -16,55 +16,22 @@ __all__ = ["SHEETS", "direction_from_uv", "texel_solid_angle", "uv_from_directio
 
 
 def direction_from_uv(uv: ArrayLike, sheet: Indices) -> Array:
-    """The direction that a point of the map shows.
-
-    Parameters
-    ----------
-    uv : array_like, shape (..., 2)
-        Map coordinates. Points outside the disk are taken at the nearest point of its rim.
-    sheet : ndarray of int, broadcastable to uv's shape (...,)
-        0 front, 1 back.
-
-    Returns
-    -------
-    ndarray, shape (..., 3), float64
-        Unit directions in the map's own axes.
-    """
+    """The direction that a point of the map shows; outside the disk, that of the nearest point of its rim."""
     front = normal_from_uv(uv)
     direction: Array = np.where(np.asarray(sheet)[..., None] == 0, front, front * (1.0, 1.0, -1.0))
     return direction
 
 
 def uv_from_direction(direction: ArrayLike) -> tuple[Array, Indices]:
-    """The inverse of `direction_from_uv`.
-
-    Parameters
-    ----------
-    direction : array_like, shape (..., 3)
-        Unit directions in the map's own axes.
-
-    Returns
-    -------
-    uv : ndarray, shape (..., 2), float64
-    sheet : ndarray of int, shape (...,)
-    """
+    """The inverse of `direction_from_uv`."""
     direction = np.asarray(direction, dtype=np.float64)
     return 0.5 * direction[..., :2] + 0.5, (direction[..., 2] < 0.0).astype(np.intp)
 
 
 def texel_solid_angle(size: int) -> Array:
-    """Solid angle of every texel.
+    """Solid angle of every texel [sr], shape (2, size, size): exact, sums to 4 pi.
 
-    Parameters
-    ----------
-    size : int
-        Width and height of a sheet in texels.
-
-    Returns
-    -------
-    ndarray, shape (2, size, size), float64
-        [sr], exact; sums to 4 pi. A texel that the rim cuts counts with its part within; texels outside have
-        0.
+    A texel that the rim cuts counts with its part within; texels outside have 0.
     """
     sheet = disk_solid_angle(size, _along_line, 1.0)
     return np.stack([sheet, sheet])

@@ -132,17 +132,7 @@ class Representation:
         return self.own_uv(np.asarray(direction, dtype=np.float64) @ self.frame)
 
     def shows(self, direction: ArrayLike) -> NDArray[np.bool]:
-        """Whether directions lie outside the blind spot.
-
-        Parameters
-        ----------
-        direction : array_like, shape (..., 3)
-            Unit directions in world coordinates.
-
-        Returns
-        -------
-        ndarray of bool, shape (...,)
-        """
+        """Whether unit directions in world coordinates, shape (..., 3), lie outside the blind spot."""
         # In this form rounding hides nothing of a map without a blind spot.
         towards_blind = -np.asarray(direction) @ self.frame[:, 2]
         shown: NDArray[np.bool] = (towards_blind <= np.cos(self.blind_angle)) | (self.blind_angle == 0.0)
@@ -171,17 +161,7 @@ class Representation:
         return self.solid_angle(shape[2], shape[1]).reshape(shape)
 
     def texel_directions(self, size: int) -> Array:
-        """The direction of every texel's centre.
-
-        Parameters
-        ----------
-        size : int
-            Width of a sheet in texels.
-
-        Returns
-        -------
-        ndarray, shape (sheets, height, width, 3), float64
-            Unit directions in world coordinates.
+        """Unit direction of every texel's centre in world coordinates, shape (sheets, height, width, 3).
 
         Raises
         ------

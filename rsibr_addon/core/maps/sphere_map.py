@@ -65,15 +65,7 @@ def uv_from_normal(normal: ArrayLike) -> Array:
 def direction_from_uv(uv: ArrayLike) -> Array:
     """g_mirror: the direction that a mirrored sphere shows at a point of the map.
 
-    Parameters
-    ----------
-    uv : array_like, shape (..., 2)
-        Map coordinates (s, t), as in `normal_from_uv`.
-
-    Returns
-    -------
-    ndarray, shape (..., 3), float64
-        Unit directions; the whole rim shows (0, 0, -1), the singularity.
+    Points outside the disk as in `normal_from_uv`; the whole rim shows (0, 0, -1), the singularity.
 
     Notes
     -----
@@ -86,18 +78,7 @@ def direction_from_uv(uv: ArrayLike) -> Array:
 
 
 def uv_from_direction(direction: ArrayLike) -> Array:
-    """The inverse of `direction_from_uv`.
-
-    Parameters
-    ----------
-    direction : array_like, shape (..., 3)
-        Unit directions in camera coordinates; (0, 0, -1), which the whole rim shows, is mapped to its
-        rightmost point.
-
-    Returns
-    -------
-    ndarray, shape (..., 2), float64
-        (s, t) in the disk.
+    """The inverse of `direction_from_uv`; (0, 0, -1) is mapped to the rim's rightmost point.
 
     Notes
     -----
@@ -114,40 +95,20 @@ def uv_from_direction(direction: ArrayLike) -> Array:
 
 
 def texel_angle(size: int) -> float:
-    """Distance between texels in reflected directions.
+    """Distance between texels in reflected directions [rad], of a map of size x size texels.
 
-    Parameters
-    ----------
-    size : int
-        Width and height of the map in texels.
-
-    Returns
-    -------
-    float
-        [rad], the square root of a texel's solid angle: a mirrored sphere shows equal solid angles in equal
-        areas, 4 pi in pi times a radius of size / 2.
-
-    Notes
-    -----
-    GLSL twin: gpu_shaders/lib/sphere_map_lib.glsl `sphere_map_texel_angle`.
+    Notes ----- The square root of a texel's solid angle: a mirrored sphere shows equal solid angles in equal
+    areas, 4 pi in pi times a radius of size / 2. GLSL twin: gpu_shaders/lib/sphere_map_lib.glsl
+    `sphere_map_texel_angle`.
     """
     return 4.0 / size
 
 
 def texel_solid_angle(size: int) -> Array:
-    """Solid angle of each texel's reflected directions.
+    """Solid angle of each texel's reflected directions [sr], shape (size, size): exact, sums to 4 pi.
 
-    Parameters
-    ----------
-    size : int
-        Width and height of the map in texels.
-
-    Returns
-    -------
-    ndarray, shape (size, size), float64
-        [sr]; sums to 4 pi. A mirrored sphere shows equal solid angles in equal areas,
-        d omega = 4 cos d omega_normal = 4 dA, so this is four times the area of a texel within
-        the disk.
+    A mirrored sphere shows equal solid angles in equal areas, d omega = 4 cos d omega_normal = 4 dA, so this
+    is four times the area of a texel within the disk.
     """
     # A texel of a map twice as fine never straddles an axis, so one quadrant gives all.
     edges = np.linspace(0.0, 1.0, size + 1)
@@ -169,20 +130,7 @@ def texel_solid_angle(size: int) -> Array:
 
 
 def wrap(columns: Indices, rows: Indices, width: int, height: int) -> tuple[Indices, Indices]:
-    """Texel that a lookup beyond the map's edge falls on: the edge's own.
-
-    Parameters
-    ----------
-    columns, rows : ndarray of int, any shape
-        Texel indices that may lie outside the map.
-    width, height : int
-        Size of the map.
-
-    Returns
-    -------
-    columns, rows : ndarray of int
-        Indices within the map.
-    """
+    """Texel that a lookup beyond the map's edge falls on: the edge's own."""
     return np.clip(columns, 0, width - 1), np.clip(rows, 0, height - 1)
 
 

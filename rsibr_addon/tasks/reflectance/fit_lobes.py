@@ -118,22 +118,7 @@ def fit_lobes(
 
 
 def fitted(brdf: Brdf, settings: Fitting, sharpest: float = SHARPEST) -> Steps[Fit]:
-    """Fit lobes to a model.
-
-    Parameters
-    ----------
-    brdf : Brdf
-    settings : Fitting
-    sharpest : float
-        Concentration that no kernel exceeds, one of `core.lobes.bank.octaves`.
-
-    Yields
-    ------
-    Progress
-
-    Returns
-    -------
-    Fit
+    """Fit lobes to a model, none sharper than `sharpest`, one of `core.lobes.bank.octaves`.
 
     Raises
     ------

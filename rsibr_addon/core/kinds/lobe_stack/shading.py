@@ -12,6 +12,7 @@ from ...geometry.directions import dot, reflect
 from ...lobes.fit import lobe_axes
 from ...options import Choice, Options, option
 from ...resample import lookup
+from ..look_options import antialiased_option
 from .stack import LobeStack
 
 
@@ -29,11 +30,7 @@ class StackLook(Options):
         switch=Choice("Single Lobe", "Show one of the lobes that the material is a sum of"),
         metavar="NUMBERS",
     )
-    antialiased: bool = option(
-        True,
-        label="Antialiased",
-        help="Average light over what each pixel reflects, so that small lamps do not shimmer",
-    )
+    antialiased: bool = antialiased_option("light")
 
     def shown(self, stack: LobeStack) -> tuple[int, ...]:
         """The lobes that are shown.
@@ -65,22 +62,10 @@ def stack_radiance(
     look: StackLook,
     mirror_footprint: ArrayLike | None = None,
 ) -> Array:
-    """Radiance of surface points: [Kautz2000] section 5.3.
+    """Radiance of surface points: [Kautz2000] section 5.3; 0 where signed lobes sum to less.
 
-    Parameters
-    ----------
-    stack : LobeStack
-    normal, view_dir : array_like, shape (..., 3)
-        Unit vectors in world coordinates; for normals that point away see `facing_normal`.
-    look : StackLook
-    mirror_footprint : array_like, shape (..., 4, 3), optional
-        Mirrored view directions at the corners of each point's pixel, over which an antialiased look
-        averages: see `core.antialiased`. None for points, which reflect one direction each.
-
-    Returns
-    -------
-    ndarray, shape (..., 3), float64
-        Radiance; 0 where signed lobes sum to less.
+    Parameters and result are those of every kind's shading: see `core.kinds`. For normals that point away see
+    `facing_normal`.
 
     Raises
     ------

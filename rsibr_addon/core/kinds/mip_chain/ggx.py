@@ -43,15 +43,7 @@ def linear_roughness(count: int) -> tuple[float, ...]:
 def quadratic_roughness(count: int) -> tuple[float, ...]:
     """Roughness r with 2 r - r^2 in proportion to the mip's number: smaller steps where lobes are narrow.
 
-    Parameters
-    ----------
-    count : int
-        Number of mips, at least 1.
-
-    Returns
-    -------
-    tuple of float
-        1 - sqrt(1 - mip / (count - 1)); 0 for a single mip. The rule of Filament and its tool cmgen.
+    1 - sqrt(1 - mip / (count - 1)), else as `linear_roughness`. The rule of Filament and its tool cmgen.
     """
     return tuple(1.0 - float(np.sqrt(1.0 - share)) for share in linear_roughness(count))
 

@@ -19,6 +19,7 @@ from ...maps import cube_map
 from ...maps.representation import representation
 from ...options import Choice, Options, option
 from ...resample import bilinear, lookup
+from ..look_options import antialiased_option, colour_option
 from .chain import MipChain
 
 _CUBE = representation("cube_map")
@@ -45,24 +46,10 @@ class MipLook(Options):
         A value is out of range, or bias and roughness are both given.
     """
 
-    f_lambda: tuple[float, float, float] = option(
-        (0.04, 0.04, 0.04),
-        label="Reflectance",
-        help="Reflectance of the glossy part at normal incidence",
-        least=0.0,
-        most=1.0,
-        subtype="COLOR",
-        metavar="F|R,G,B",
+    f_lambda: tuple[float, float, float] = colour_option(
+        0.04, "Reflectance", "Reflectance of the glossy part at normal incidence"
     )
-    k_d: tuple[float, float, float] = option(
-        (0.8, 0.8, 0.8),
-        label="Diffuse",
-        help="Albedo of the diffuse part",
-        least=0.0,
-        most=1.0,
-        subtype="COLOR",
-        metavar="K|R,G,B",
-    )
+    k_d: tuple[float, float, float] = colour_option(0.8, "Diffuse", "Albedo of the diffuse part", "K|R,G,B")
     bias: float = option(
         0.0,
         label="Mip",
@@ -95,11 +82,7 @@ class MipLook(Options):
             Borders.CLAMPED: Choice("Clamped", "the face's own texels, as the hardware of 2004"),
         },
     )
-    antialiased: bool = option(
-        True,
-        label="Antialiased",
-        help="Average glossy light over what each pixel reflects, so that small lamps do not shimmer",
-    )
+    antialiased: bool = antialiased_option("glossy light")
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -140,22 +123,9 @@ def mip_chain_radiance(
     look: MipLook,
     mirror_footprint: ArrayLike | None = None,
 ) -> Array:
-    """Radiance of surface points: [Kautz2004] Eq. 8.
+    """Radiance of surface points, not negative: [Kautz2004] Eq. 8.
 
-    Parameters
-    ----------
-    chain : MipChain
-    normal, view_dir : array_like, shape (..., 3)
-        Unit vectors in world coordinates.
-    look : MipLook
-    mirror_footprint : array_like, shape (..., 4, 3), optional
-        Mirrored view directions at the corners of each point's pixel, over which an antialiased look
-        averages: see `core.antialiased`. None for points, which reflect one direction each.
-
-    Returns
-    -------
-    ndarray, shape (..., 3), float64
-        Radiance, not negative.
+    Parameters and result are those of every kind's shading: see `core.kinds`.
 
     Raises
     ------
@@ -243,20 +213,9 @@ def glossy_mean(
 
 
 def glossy_radiance(chain: MipChain, direction: ArrayLike, level: ArrayLike, borders: Borders) -> Array:
-    """Light of a mip, or of two neighbouring mips, linear between them.
+    """Light of a mip, or of two neighbouring mips, linear between them: as `glossy_mean`, for points.
 
-    Parameters
-    ----------
-    chain : MipChain
-    direction : array_like, shape (..., 3)
-        Unit directions in world coordinates.
-    level : array_like, shape (...,)
-        In [0, mips - 1].
-    borders : Borders
-
-    Returns
-    -------
-    ndarray, shape (..., 3), float64
+    `level` is an array, one for each direction.
 
     Notes
     -----

@@ -60,14 +60,7 @@ def box_halved(faces: Array) -> Array:
 def tent_halved(faces: Array) -> Array:
     """Means of four by four texels, weighted 1 3 3 1 both ways and by solid angle, across the faces' borders.
 
-    Parameters
-    ----------
-    faces : ndarray, shape (6, n, n, channels)
-        n even.
-
-    Returns
-    -------
-    ndarray, shape (6, n / 2, n / 2, channels)
+    Faces as those of `box_halved`.
 
     Notes
     -----

@@ -22,6 +22,7 @@ from ...geometry.reflection_warp import Warp, confidence, source_cosine, source_
 from ...maps import sphere_map
 from ...options import Choice, Options, option
 from ...resample import bilinear
+from ..look_options import antialiased_option
 from .views import RadianceViews
 
 
@@ -72,11 +73,7 @@ class ViewsLook(Options):
         },
         flag="--warp",
     )
-    antialiased: bool = option(
-        True,
-        label="Antialiased",
-        help="Average glossy light over what each pixel reflects, so that small lamps do not shimmer",
-    )
+    antialiased: bool = antialiased_option("glossy light")
 
 
 LEAST_ALBEDO = 1e-3
@@ -113,20 +110,8 @@ def views_fragment(
 ) -> Array:
     """Radiance of surface points, each blended from the three views around its own view direction.
 
-    Parameters
-    ----------
-    views : RadianceViews
-    normal, view_dir : array_like, shape (..., 3)
-        Unit vectors in world coordinates.
-    warping : Warping
-    mirror_footprint : array_like, shape (..., 4, 3), optional
-        Mirrored view directions at the corners of each point's pixel, see `core.antialiased`, to average
-        over. None for points, which reflect one direction each, and for looks that are not antialiased.
-
-    Returns
-    -------
-    ndarray, shape (..., 3), float64
-        Radiance.
+    Parameters and result are those of every kind's shading, see `core.kinds`, with the warping alone of the
+    look; the footprint is None for looks that are not antialiased.
 
     Notes
     -----
@@ -213,21 +198,9 @@ def destination_lookup(
     view_dir: ArrayLike,
     mirror_footprint: ArrayLike | None = None,
 ) -> Array:
-    """Radiance of surface points, from the sphere map of one view.
+    """Radiance of surface points, from the sphere map of one view; parameters as those of `views_fragment`.
 
-    Parameters
-    ----------
-    destination : Destination
-    normal, view_dir : array_like, shape (..., 3)
-        Unit vectors in world coordinates.
-    mirror_footprint : array_like, shape (..., 4, 3), optional
-        Mirrored view directions at the corners of each point's pixel, see `core.antialiased`, to average
-        over. None for points, which reflect one direction each, and for looks that are not antialiased.
-
-    Returns
-    -------
-    ndarray, shape (..., 3), float64
-        Radiance; exact only where the view direction is the map's own, so not in perspective.
+    Exact only where the view direction is the map's own, so not in perspective.
 
     Notes
     -----

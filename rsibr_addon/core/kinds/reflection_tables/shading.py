@@ -13,6 +13,7 @@ from ...geometry.directions import dot, reflect, refract
 from ...maps import equirect, sphere_map
 from ...options import Choice, Options, option
 from ...resample import bilinear
+from ..look_options import antialiased_option
 from .tables import ReflectionTables, Role
 
 MIRRORED = (Role.SPECULAR, Role.COAT)
@@ -60,11 +61,7 @@ class TablesLook(Options):
     w_coat: float = _weight("Coat Weight", "Multiplies the coat's weight")
     w_retro: float = _weight("Retro Weight", "Multiplies the weight of light that is sent back")
     w_refraction: float = _weight("Refraction Weight", "Multiplies the weight of light that is let through")
-    antialiased: bool = option(
-        False,
-        label="Antialiased",
-        help="Average specular and coat over what each pixel reflects: small lamps do not shimmer",
-    )
+    antialiased: bool = antialiased_option("specular and coat", default=False)
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -126,20 +123,8 @@ def reflect_tables(
 ) -> Array:
     """Radiance of surface points: the sum over the tables of weight times table.
 
-    Parameters
-    ----------
-    tables : ReflectionTables
-    normal, view_dir : array_like, shape (..., 3)
-        Unit vectors in world coordinates.
-    look : TablesLook
-    mirror_footprint : array_like, shape (..., 4, 3), optional
-        Mirrored view directions at the corners of each point's pixel, over which an antialiased look
-        averages: see `core.antialiased`. None for points, which reflect one direction each.
-
-    Returns
-    -------
-    ndarray, shape (..., 3), float64
-        Radiance: Wd(E.N) D[N] + Ws(E.N) S[R] of [Miller1984] section 3, and so for the other tables.
+    Wd(E.N) D[N] + Ws(E.N) S[R] of [Miller1984] section 3, and so for the other tables. Parameters and result
+    are those of every kind's shading: see `core.kinds`.
 
     Notes
     -----

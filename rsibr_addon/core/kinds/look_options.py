@@ -1,0 +1,21 @@
+"""Options that the looks of several kinds have."""
+
+from typing import Any
+
+from ..options import option
+
+
+def colour_option(default: float, label: str, help: str, metavar: str = "F|R,G,B") -> Any:
+    """A share of light, in [0, 1] for red, green and blue; `default` is of all three."""
+    return option(
+        (default,) * 3, label=label, help=help, least=0.0, most=1.0, subtype="COLOR", metavar=metavar
+    )
+
+
+def antialiased_option(light: str, default: bool = True) -> Any:
+    """Whether a kind of light is averaged over pixels."""
+    return option(
+        default,
+        label="Antialiased",
+        help=f"Average {light} over what each pixel reflects, so that small lamps do not shimmer",
+    )

@@ -8,7 +8,7 @@ from rsibr.rsibr_addon.core.brdf.fresnel import Index, Schlick
 from rsibr.rsibr_addon.core.brdf.ggx import Ggx
 from rsibr.rsibr_addon.core.brdf.lambert import Lambert
 from rsibr.rsibr_addon.core.brdf.layered import Sum
-from rsibr.rsibr_addon.core.brdf.measured_cornell import DARKEST, NEIGHBOURS, scattered_brdf
+from rsibr.rsibr_addon.core.brdf.measured_cornell import DARKEST, MOST_SAMPLES, NEIGHBOURS, scattered_brdf
 from rsibr.rsibr_addon.core.brdf.measured_merl import SCALE, below_horizon, merl_brdf
 from rsibr.rsibr_addon.core.brdf.measured_merl import SHAPE as MERL_SHAPE
 from rsibr.rsibr_addon.core.brdf.model import Geometry
@@ -190,6 +190,12 @@ def test_dark_samples_are_missing_not_black() -> None:
     few[:NEIGHBOURS] = 0.1
     with pytest.raises(RangeError, match="more than 8 samples"):
         scattered_brdf(light_dir, view_dir, few, "")
+
+
+def test_more_samples_than_anyone_measures_are_refused() -> None:
+    directions = np.tile([0.0, 0.6, 0.8], (MOST_SAMPLES + 1, 1))
+    with pytest.raises(RangeError, match=f"keep {MOST_SAMPLES} at most"):
+        scattered_brdf(directions, directions, np.full((MOST_SAMPLES + 1, 3), 0.1), "")
 
 
 def test_scattered_models_are_the_same_on_both_sides() -> None:

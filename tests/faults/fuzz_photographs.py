@@ -119,7 +119,7 @@ def cases(folder: Path, rng: random.Random) -> Iterator[tuple[Path, Reader]]:
     photographs = [(path.name, path.read_bytes()) for path in pictures(folder)]
     small, whole = (
         [(path.name, path.read_bytes(), read) for path, read in measurements(folder, *sizes).items()]
-        for sizes in ((3, 6, 100), (2500, 256, 3 * 90 * 90 * 180))
+        for sizes in ((3, 6, 100), (360, 256, 3 * 90 * 90 * 180))
     )
     while True:
         if rng.random() < 0.25:

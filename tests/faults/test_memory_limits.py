@@ -45,7 +45,7 @@ COMMANDS: dict[str, tuple[str, tuple[int, int, int]]] = {
     "illuminate brackets": ("illuminate brackets {photo} {photo} --times 1,4 --curve srgb", (0, 0, 0)),
     "illuminate painted": (
         "illuminate painted {photo} --white 20 --from mirror_ball --size {n}",
-        (32, 512, 8192),
+        (32, 512, 4096),
     ),
     "illuminate world": ("illuminate world {blend} --size {n}", (32, 512, 8192)),
     "illuminate scene": ("illuminate scene {blend} --samples 1 --size {n}", (32, 256, 8192)),

@@ -20,6 +20,9 @@ HORIZON = 0.05
 NEIGHBOURS = 8
 """Samples from which a cell is computed."""
 
+MOST_SAMPLES = 10_000
+"""The laboratory's measurements have 1500; a table takes time in proportion, of so many some seconds."""
+
 DIFFERENCE_SCALE, AZIMUTH_SCALE = 0.8, 0.5
 """Weights of theta_d and phi_d relative to theta_h in the distance between samples.
 
@@ -63,6 +66,8 @@ def scattered_brdf(light_dir: Array, view_dir: Array, brdf: Array, spec: str) ->
         raise RangeError(
             f"A measured reflectance needs more than {NEIGHBOURS} samples above {DARKEST:g} per sr."
         )
+    if len(brdf) > MOST_SAMPLES:
+        raise RangeError(f"A reflectance of {len(brdf)} samples takes too long: keep {MOST_SAMPLES} at most.")
     geometry, brdf = Geometry(light_dir[bright], view_dir[bright]), brdf[bright]
     samples = _coordinates(*half_difference_angles(geometry))
     brightness = brdf.sum(axis=1)

@@ -11,8 +11,9 @@ void main()
   vec3 view_dir = view_direction(draw.eye, world_position);
   vec3 mirror_dir = reflect_dir(view_dir, unit_normal);
   vec3 fresnel = fresnel_schlick(clamp(dot(unit_normal, view_dir), 0.0, 1.0), look.f_lambda.rgb);
-  vec3 corners[4];
-  parallelogram(mirror_dir, dFdx(mirror_dir), dFdy(mirror_dir), corners);
+  vec3 across, up, corners[4];
+  pixel_sides(mirror_dir, 1.0, across, up);
+  parallelogram(mirror_dir, across, up, corners);
   vec3 light = (look.antialiased > 0.5) ?
                    footprint_mean(environment, sums, look.unit.rgb, mirror_dir, corners) :
                    equirect_radiance(environment, mirror_dir);

@@ -6,8 +6,9 @@ void main()
 {
   vec3 unit_normal = normalize(world_normal);
   vec3 view_dir = view_direction(draw.eye, world_position);
-  // The region that the pixel reflects, by differences to its neighbours; or its middle alone.
   vec3 mirror_dir = reflect_dir(view_dir, facing_normal(unit_normal, view_dir));
+  vec3 across, up;
+  pixel_sides(mirror_dir, stack.antialiased, across, up);
   radiance.rgb = stack_radiance(maps,
                                 elevations,
                                 int(stack.layout_number),
@@ -16,7 +17,7 @@ void main()
                                 int(stack.slices),
                                 unit_normal,
                                 view_dir,
-                                stack.antialiased * dFdx(mirror_dir),
-                                stack.antialiased * dFdy(mirror_dir));
+                                across,
+                                up);
   radiance.a = 1.0;
 }

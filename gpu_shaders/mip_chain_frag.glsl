@@ -16,11 +16,10 @@ void main()
 #else
   vec3 light = irradiance(look.irradiance_red, look.irradiance_green, look.irradiance_blue, unit_normal);
 #endif
-  vec3 diffuse = look.k_d.rgb / 3.14159265 * max(light, 0.0);
+  vec3 diffuse = look.k_d.rgb / PI * max(light, 0.0);
   vec3 mirror_dir = reflect_dir(view_dir, unit_normal);
-  // The region that the pixel reflects, by differences to its neighbours; or its middle alone.
-  vec3 across = look.antialiased * dFdx(mirror_dir);
-  vec3 up = look.antialiased * dFdy(mirror_dir);
+  vec3 across, up;
+  pixel_sides(mirror_dir, look.antialiased, across, up);
   vec3 glossy = glossy_mean(
       atlas, mirror_dir, across, up, look.level, look.last_level, look.clamped > 0.5);
   radiance = vec4(mix(diffuse, glossy, fresnel), 1.0);

@@ -11,9 +11,9 @@ void main()
   vec3 mirror_dir = reflect_dir(view_dir, unit_normal);
   vec3 refracted_dir = refract_dir(view_dir, unit_normal, tables.eta);
   float cosine = dot(unit_normal, view_dir);
-  // The region that the pixel reflects, by differences to its neighbours.
-  vec3 corners[4];
-  parallelogram(mirror_dir, dFdx(mirror_dir), dFdy(mirror_dir), corners);
+  vec3 across, up, corners[4];
+  pixel_sides(mirror_dir, 1.0, across, up);
+  parallelogram(mirror_dir, across, up, corners);
   radiance = vec4(0.0, 0.0, 0.0, 1.0);
   radiance.rgb += weighted_table(tables.diffuse, diffuse, weights, TABLE_DIFFUSE, cosine, unit_normal);
   radiance.rgb += weighted_table(tables.specular, specular, weights, TABLE_SPECULAR, cosine, mirror_dir);

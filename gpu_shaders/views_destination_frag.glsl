@@ -9,10 +9,9 @@ void main()
   vec3 view_dir = view_direction(draw.eye, world_position);
   mat3 frame = camera_frame(destination.view_dir.xyz);
   vec2 normal_uv = uv_from_normal(unit_normal * frame);
-  // The region that the pixel reflects, by differences to its neighbours; or its middle alone.
   vec3 mirror_dir = reflect_dir(view_dir, unit_normal);
-  vec3 across = mode.antialiased * dFdx(mirror_dir);
-  vec3 up = mode.antialiased * dFdy(mirror_dir);
+  vec3 across, up;
+  pixel_sides(mirror_dir, mode.antialiased, across, up);
   float texel_angle = sphere_map_texel_angle(float(textureSize(by_mirror, 0).x));
   ivec2 counts = sample_counts(across, up, texel_angle);
   int lookups = counts.x * counts.y;

@@ -15,10 +15,9 @@ void main()
   float cosine = dot(unit_normal, view_dir);
   vec3 by_normal = warp_and_blend(
       views, albedo, warping, WARP_NORMAL, unit_normal, view_dir, sources, corners, weights);
-  // The region that the pixel reflects, by differences to its neighbours; or its middle alone.
   vec3 mirror_dir = reflect_dir(view_dir, unit_normal);
-  vec3 across = mode.antialiased * dFdx(mirror_dir);
-  vec3 up = mode.antialiased * dFdy(mirror_dir);
+  vec3 across, up;
+  pixel_sides(mirror_dir, mode.antialiased, across, up);
   float texel_angle = sphere_map_texel_angle(float(textureSize(views, 0).x));
   ivec2 counts = sample_counts(across, up, texel_angle);
   int lookups = counts.x * counts.y;

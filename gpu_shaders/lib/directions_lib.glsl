@@ -1,5 +1,7 @@
 // Twin of rsibr_addon/core/geometry/directions.py.
 
+const float PI = 3.14159265;
+
 vec3 reflect_dir(vec3 view_dir, vec3 normal)
 {
   return 2.0 * dot(normal, view_dir) * normal - view_dir;

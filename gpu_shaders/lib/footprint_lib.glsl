@@ -1,5 +1,12 @@
 // Twin of rsibr_addon/core/antialiased/footprint.py: a pixel's region of directions, [Miller1984] section 8.
 
+// The sides of the region that a pixel reflects, by differences to its neighbours; 0 if antialiased is 0.
+void pixel_sides(vec3 direction, float antialiased, out vec3 across, out vec3 up)
+{
+  across = antialiased * dFdx(direction);
+  up = antialiased * dFdy(direction);
+}
+
 // Corners counterclockwise from the left one at the bottom; across and up are the pixel's whole sides.
 void parallelogram(vec3 middle, vec3 across, vec3 up, out vec3 corners[4])
 {

@@ -1,4 +1,5 @@
 // Twin of rsibr_addon/core/filtering/irradiance.py.
+#include "lib/directions_lib.glsl"
 
 // [Ramamoorthi2001] Eq. 12: a quadratic form of the normal for each channel, `irradiance_matrix`.
 vec3 irradiance(mat4 red, mat4 green, mat4 blue, vec3 normal)
@@ -30,7 +31,7 @@ vec3 irradiance_from_harmonics(sampler2D coefficients, vec3 normal)
 {
   vec3 sum = vec3(0.0);
   for (int index = 0; index < 9; index++) {
-    float zonal = (index == 0) ? 3.14159265 : (index < 4) ? 2.09439510 : 0.78539816;
+    float zonal = (index == 0) ? PI : (index < 4) ? 2.0 * PI / 3.0 : 0.25 * PI;
     sum += zonal * real_harmonic(index, normal) * texelFetch(coefficients, ivec2(index, 0), 0).rgb;
   }
   return sum;

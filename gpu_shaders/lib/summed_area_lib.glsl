@@ -89,10 +89,10 @@ vec3 box_mean(sampler2DArray table, vec3 unit, vec4 box)
     below = here;
   }
   // Differences of cosines, as products.
-  vec3 from = vec3(rows.xyz) * (3.14159265 / float(size.y));
-  vec3 to = vec3(rows.yzw) * (3.14159265 / float(size.y));
+  vec3 from = vec3(rows.xyz) * (PI / float(size.y));
+  vec3 to = vec3(rows.yzw) * (PI / float(size.y));
   vec3 bands = 2.0 * sin(0.5 * (from + to)) * sin(0.5 * (to - from));
-  float turn = dot(column_weights, vec3(columns.yzw - columns.xyz)) * (6.28318531 / float(size.x));
+  float turn = dot(column_weights, vec3(columns.yzw - columns.xyz)) * (2.0 * PI / float(size.x));
   return power * unit / (turn * dot(row_weights, bands));
 }
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.antialiased.footprint import parallelogram
 from rsibr.rsibr_addon.core.antialiased.sampling import MOST, sample_counts, sample_direction
+from rsibr.tests.glsl.evaluation import evaluate
 from rsibr.tests.glsl.twins import COUNT, ULP, Twin, check, single, unit_vectors
 
 
@@ -69,3 +70,13 @@ TWINS = {
 @pytest.mark.parametrize("name", TWINS)
 def test_a_function_says_what_its_twin_says(name: str) -> None:
     check(TWINS[name])
+
+
+def test_pixel_sides() -> None:
+    code = """
+        vec3 direction = vec3(gl_FragCoord.x, 4.0 * gl_FragCoord.y, 1.0);
+        pixel_sides(direction, in_0.x, result_0.xyz, result_1.xyz);
+    """
+    found = evaluate("footprint_lib.glsl", code, [np.repeat([[0.0], [1.0]], 1024, axis=0)], results=2)
+    np.testing.assert_array_equal(found[:1024], np.zeros((1024, 2, 4)))
+    np.testing.assert_array_equal(found[1024:, :, :2], np.broadcast_to(np.diag([1.0, 4.0]), (1024, 2, 2)))

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from rsibr.rsibr_addon.core.errors import DeviceError
 from rsibr.rsibr_addon.device import shader_source as sources
-from rsibr.rsibr_addon.device import shaders, viewport_shaders
+from rsibr.rsibr_addon.device import shaders, stage_shaders
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.kinds import (
     environment,
@@ -30,8 +30,8 @@ PROGRAMS = [
     reflection_tables.reflection_tables_shader,
     environment.environment_shader,
     lobe_stack_shaders.lobe_stack_shader,
-    viewport_shaders.composite_shader,
-    viewport_shaders.occluder_shader,
+    stage_shaders.composite_shader,
+    stage_shaders.occluder_shader,
     live_environment_shaders.face_shader,
     live_environment_shaders.bordered_shader,
     live_environment_shaders.box_shader,
@@ -58,6 +58,13 @@ def test_a_file_s_name_says_its_role(name: str) -> None:
     assert text.startswith("// ")
     assert ("void main()" in text) != name.startswith("lib/")
     assert max(map(len, text.splitlines())) <= 110
+
+
+@pytest.mark.parametrize(
+    ("text", "name"), [("dFdx(", "lib/footprint_lib.glsl"), ("3.141", "lib/directions_lib.glsl")]
+)
+def test_pixels_sides_and_pi_are_said_once(text: str, name: str) -> None:
+    assert [each for each in FILES if text in (SHADER_FOLDER / each).read_text()] == [name]
 
 
 def test_twins_name_each_other_rightly() -> None:

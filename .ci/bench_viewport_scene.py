@@ -23,7 +23,7 @@ KINDS = ("mips", "tables", "stack", "views")
 MODES = ("paper", "texel", "fragment")
 
 tasks = importlib.import_module(f"{ROOT}.rsibr_addon.tasks.viewport.previews")
-stage = importlib.import_module(f"{ROOT}.rsibr_addon.device.viewport")
+stage = importlib.import_module(f"{ROOT}.rsibr_addon.device.preview_stage")
 
 
 def wait_for_gpu() -> None:
@@ -111,9 +111,9 @@ def sphere() -> bpy.types.Object:
     return bpy.context.object
 
 
-def flat(on_device: Any) -> None:
+def flat(gpu_map_set: Any) -> None:
     """Have a map set draw meshes without any shading."""
-    on_device.draw = lambda mesh, placed, look: stage.draw_occluder(mesh, placed)
+    gpu_map_set.draw = lambda mesh, placed, look: stage.draw_occluder(mesh, placed)
 
 
 def scenario(told: dict[str, Any]) -> Iterator[None]:
@@ -150,7 +150,7 @@ def scenario(told: dict[str, Any]) -> Iterator[None]:
         for mode in MODES:
             item.rsibr.radiance_views.mode = mode
             yield from measure(f"views {mode}")
-    flat(tasks.previews._map_sets["/job/views.rsibr.exr"].on_device)
+    flat(tasks.previews._map_sets["/job/views.rsibr.exr"].gpu_map_set)
     yield from measure("flat")
 
     tasks.previews.reload()

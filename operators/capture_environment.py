@@ -72,7 +72,7 @@ class RSIBR_OT_capture_environment(Stepwise, bpy.types.Operator):
         return illuminate_from_scene(self._light(context), output, self.force)
 
     def finish(self, result: Path) -> None:
-        """Load the picture and choose it, if so wished, and say where it is."""
+        """Load the picture and choose it if asked to, and say where it is."""
         take_picture(result, self.load_image, self.use)
         self.report({"INFO"}, f"Captured {result}")
 

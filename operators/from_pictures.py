@@ -38,7 +38,7 @@ class FromPictures(Stepwise):
     interrupted = "Interrupted; nothing was written"
 
     def finish(self, result: Path) -> None:
-        """Load the picture and choose it, if so wished, and say where it is."""
+        """Load the picture and choose it if asked to, and say where it is."""
         take_picture(result, self.load_image, self.use)
         self.report({"INFO"}, f"Wrote {result}")
 

@@ -8,7 +8,7 @@ from ..rsibr_addon.host.map_sets import stored_path
 
 
 def take_picture(path: Path, load: bool, use: bool) -> None:
-    """Load a picture into the open file, and choose it as the light to bake with, if so wished."""
+    """Load a picture into the open file, and choose it as the light to bake with if asked to."""
     if load:
         bpy.data.images.load(str(path), check_existing=True).reload()
     if use:

@@ -16,7 +16,7 @@ def register() -> None:
     from . import properties, ui
     from .host.map_sets import unpacked
     from .host.overrides import complete_overrides
-    from .ui import bake_properties, export_menu, result_properties, viewport
+    from .ui import bake_properties, export_menu, result_properties, viewport_handlers
     from .ui.map_pictures import map_pictures
 
     with ExitStack() as undo:
@@ -34,7 +34,7 @@ def register() -> None:
             handlers.append(complete_overrides)
             undo.callback(handlers.remove, complete_overrides)
         undo.callback(unpacked.remove)
-        viewport.start(undo)
+        viewport_handlers.start(undo)
         export_menu.start(undo)
         map_pictures.start(undo)
         background.start(undo)

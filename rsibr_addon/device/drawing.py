@@ -41,7 +41,7 @@ class Draw:
         return self.model, self.view, self.projection, turn, turn @ self.eye
 
 
-class MeshOnDevice:
+class GpuMesh:
     """An uploaded mesh, and the block with its place.
 
     Parameters
@@ -55,7 +55,7 @@ class MeshOnDevice:
         self._batch = buffers.triangles(shaders.views_fragment_shader(), attributes, triangles)
         self._placed = buffers.KeptBlock()
 
-    def again(self) -> "MeshOnDevice":
+    def again(self) -> "GpuMesh":
         """The same mesh for another place in the same frames, with its own block."""
         other = copy(self)
         other._placed = buffers.KeptBlock()
@@ -74,15 +74,15 @@ class MeshOnDevice:
         self._batch.draw(shader)
 
 
-class OnDevice(Protocol):
+class GpuMapSet(Protocol):
     """The uploaded content of a map set."""
 
-    def draw(self, mesh: MeshOnDevice, draw: Draw, look: Any) -> None:
+    def draw(self, mesh: GpuMesh, draw: Draw, look: Any) -> None:
         """Draw a mesh into the active frame buffer, with the current depth test.
 
         Parameters
         ----------
-        mesh : MeshOnDevice
+        mesh : GpuMesh
         draw : Draw
         look : object
             The look of this kind of map set: see `core.kinds`.

@@ -5,13 +5,13 @@ import numpy as np
 
 from ..core.geometry.lit_sphere import LitSphere
 from . import buffers
-from .drawing import Draw, MeshOnDevice
+from .drawing import Draw, GpuMesh
 from .shaders import build, kept_until_exit, mesh_interface
 
 _SPHERE_BLOCK = "struct Sphere { mat4 frame; };"
 
 
-class LitSphereOnDevice:
+class GpuLitSphere:
     """Uploaded radiance by normals; meshes must be seen from the sphere's view.
 
     Parameters
@@ -28,8 +28,8 @@ class LitSphereOnDevice:
         frame[:3, :3] = sphere.frame
         self._block = buffers.uniform_block(frame)
 
-    def draw(self, mesh: MeshOnDevice, draw: Draw, look: None) -> None:
-        """See `OnDevice.draw`; there is one look. Reference: `core.geometry.lit_sphere.LitSphere.at`."""
+    def draw(self, mesh: GpuMesh, draw: Draw, look: None) -> None:
+        """See `GpuMapSet.draw`; there is one look. Reference: `core.geometry.lit_sphere.LitSphere.at`."""
         shader = lit_sphere_shader()
         shader.bind()
         shader.uniform_block("sphere", self._block)

@@ -8,7 +8,7 @@ import numpy as np
 from ..core.conventions import Array, Indices
 from ..core.geometry.camera import Camera
 from . import buffers
-from .drawing import Draw, MeshOnDevice, OnDevice
+from .drawing import Draw, GpuMapSet, GpuMesh
 
 SAMPLES_PER_AXIS = 4
 """Samples along each axis of a pixel, whose mean is the pixel: antialiased, as by Cycles' box filter."""
@@ -19,10 +19,10 @@ class PreviewRenderer:
 
     Parameters
     ----------
-    subject : OnDevice
+    subject : GpuMapSet
     """
 
-    def __init__(self, subject: OnDevice) -> None:
+    def __init__(self, subject: GpuMapSet) -> None:
         self._subject = subject
 
     def draw(
@@ -63,7 +63,7 @@ class PreviewRenderer:
             eye=camera.eye,
             view_dir=np.asarray(camera.view_dir),
         )
-        mesh = MeshOnDevice(positions, normals, triangles)
+        mesh = GpuMesh(positions, normals, triangles)
         depth_test, depth_mask = gpu.state.depth_test_get(), gpu.state.depth_mask_get()
         with target.bind():
             target.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)

@@ -11,8 +11,8 @@ from ..core.conventions import Array, ArrayLike, texel_centres
 from ..core.geometry.camera import Camera
 from ..core.geometry.directions import normalize
 from ..core.light.lamps import angular_width, directions_in_cap
+from .camera_ray_shell import show_to_camera_only
 from .cameras import add_camera, closeness
-from .clear_shell import show_to_camera_only
 from .rendering import configure_cycles, render_passes
 from .spheres import add_ball
 from .surroundings import TWIN_OF, Surroundings, stand_in

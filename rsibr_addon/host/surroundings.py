@@ -10,8 +10,8 @@ import numpy as np
 
 from ..core.conventions import Array
 from ..core.errors import SceneError
+from .camera_ray_shell import add_camera_ray_shell
 from .cameras import add_face_camera, add_panoramic_camera, closeness
-from .clear_shell import add_clear_shell
 from .light_linking import take_place_of
 from .rendering import configure_cycles, render_passes
 from .scenes import find_scene, temporary_copy
@@ -202,7 +202,7 @@ def render_surroundings(
         add_panoramic_camera(scene, around.point)
     else:
         add_face_camera(scene, face, around.point)
-    stand_in(scene, around, add_clear_shell(scene, around.point, closeness(around.point)))
+    stand_in(scene, around, add_camera_ray_shell(scene, around.point, closeness(around.point)))
     passes = render_passes(scene)
     seen = {"radiance": rec709_from_working(passes["Combined"][..., :3])}
     if sampling.guides:

@@ -8,8 +8,8 @@ import numpy as np
 from ..core.conventions import Array
 from ..core.environment import Environment, environment_from_pixels
 from ..core.errors import SceneError
+from .camera_ray_shell import add_camera_ray_shell
 from .cameras import add_panoramic_camera
-from .clear_shell import add_clear_shell
 from .rendering import configure_cycles, render_passes
 from .scenes import temporary_scene
 from .working_space import rec709_from_working, working_from_rec709
@@ -114,7 +114,7 @@ def sample_world(world: bpy.types.World, height: int, clamp: float | None = None
         scene.cycles.adaptive_min_samples = FEWEST_WORLD_SAMPLES
         scene.cycles.adaptive_threshold = WORLD_ERROR
         if _tells_rays_apart(world.node_tree):
-            add_clear_shell(scene)
+            add_camera_ray_shell(scene)
             scene.cycles.max_bounces = scene.cycles.transmission_bounces = 1
         seen = render_passes(scene)["Combined"][..., :3]
         return environment_from_pixels(rec709_from_working(seen), world.name, clamp)

@@ -14,7 +14,7 @@ from rsibr.rsibr_addon.host.live_light import (
     points_of,
     shows_surroundings,
 )
-from rsibr.rsibr_addon.host.viewport import is_wanted, map_set_of
+from rsibr.rsibr_addon.host.visible_surfaces import is_wanted, map_set_of
 
 
 @pytest.fixture(autouse=True)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import rsibr
 from rsibr.rsibr_addon.files.kinds.registry import look_types
-from rsibr.rsibr_addon.host.viewport import is_wanted, map_set_of, surfaces
+from rsibr.rsibr_addon.host.visible_surfaces import is_wanted, map_set_of, surfaces
 from rsibr.rsibr_addon.tasks.viewport.previews import _look_settings, _settings
 
 

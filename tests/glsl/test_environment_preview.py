@@ -7,7 +7,7 @@ from rsibr.rsibr_addon.core.geometry.camera import Camera
 from rsibr.rsibr_addon.core.kinds.environment import EnvironmentLook, mirrored_environment
 from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.device.context import ensure_context
-from rsibr.rsibr_addon.device.kinds.environment import EnvironmentOnDevice, environment_shader
+from rsibr.rsibr_addon.device.kinds.environment import GpuEnvironment, environment_shader
 from rsibr.rsibr_addon.device.preview import SAMPLES_PER_AXIS, PreviewRenderer
 from rsibr.tests.glsl.test_preview_renderer import BY_CAMERA, SIZE, SPHERE, sample_footprints, samples
 from rsibr.tests.mirror_capture import environment
@@ -18,7 +18,7 @@ from rsibr.tests.mirror_capture import environment
 def test_a_picture_is_what_the_reference_says(antialiased: bool, camera: Camera) -> None:
     ensure_context()
     light, look = environment(), EnvironmentLook((0.2, 0.6, 1.0), antialiased)
-    picture = PreviewRenderer(EnvironmentOnDevice(light)).draw(*SPHERE, camera, SIZE, look)
+    picture = PreviewRenderer(GpuEnvironment(light)).draw(*SPHERE, camera, SIZE, look)
     normal, view_dir, cosine = samples(camera)
     footprint = sample_footprints(normal, view_dir)
     shown = mirrored_environment(light, normal, view_dir, look, footprint)
@@ -39,7 +39,7 @@ def test_a_small_lamp_neither_goes_out_nor_flickers() -> None:
     for turn in range(8):
         radiance = np.full((height, 2 * height, 3), 1e-3, dtype=np.float32)
         radiance[70:73, height + 20 + turn : height + 23 + turn] = 1e4
-        renderer = PreviewRenderer(EnvironmentOnDevice(Environment(radiance, "lamp")))
+        renderer = PreviewRenderer(GpuEnvironment(Environment(radiance, "lamp")))
         for antialiased, energy in found.items():
             picture = renderer.draw(
                 *SPHERE, Camera((1.0, 0.0, 0.0)), 8, EnvironmentLook(antialiased=antialiased)

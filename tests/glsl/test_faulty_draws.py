@@ -21,11 +21,11 @@ from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.shaders import release_programs
 from rsibr.rsibr_addon.files.map_set import MapSet, write_map_set
 from rsibr.rsibr_addon.host.map_sets import use_map_set
-from rsibr.rsibr_addon.host.viewport import View
+from rsibr.rsibr_addon.host.visible_surfaces import View
 from rsibr.rsibr_addon.tasks import viewport
 from rsibr.rsibr_addon.tasks.viewport import live_light
 from rsibr.rsibr_addon.tasks.viewport.previews import Previews
-from rsibr.rsibr_addon.ui import viewport as ui
+from rsibr.rsibr_addon.ui import viewport_handlers as ui
 from rsibr.tests.faults.small_map_sets import map_sets
 
 STRIDE = 1 if "RSIBR_MOMENTS" in os.environ else 5

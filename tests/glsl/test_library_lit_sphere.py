@@ -7,7 +7,7 @@ from rsibr.rsibr_addon.core.geometry.directions import camera_frame, dot
 from rsibr.rsibr_addon.core.geometry.lit_sphere import LitSphere
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.context import ensure_context
-from rsibr.rsibr_addon.device.lit_sphere import LitSphereOnDevice
+from rsibr.rsibr_addon.device.lit_sphere import GpuLitSphere
 from rsibr.rsibr_addon.device.preview import SAMPLES_PER_AXIS, PreviewRenderer
 from rsibr.tests.glsl.evaluation import evaluate
 from rsibr.tests.glsl.test_preview_renderer import SIZE, SPHERE, samples
@@ -48,7 +48,7 @@ def test_a_picture_is_what_the_sphere_shows(view_dir: tuple[float, float, float]
     blocks = (SIZE, SAMPLES_PER_AXIS, SIZE, SAMPLES_PER_AXIS)
     inside = (cosine > 0.2).reshape(blocks).all(axis=(1, 3))
     expected = sphere.at(normal).reshape(*blocks, 3).mean(axis=(1, 3))
-    picture = PreviewRenderer(LitSphereOnDevice(sphere)).draw(*SPHERE, camera, SIZE, None)
+    picture = PreviewRenderer(GpuLitSphere(sphere)).draw(*SPHERE, camera, SIZE, None)
     # As above; facets turn normals by up to 2e-4, a thousandth of the rings' distance.
     assert np.abs(picture[..., :3] - expected)[inside].max() < 8e-3
     assert np.all(picture[inside, 3] == 1.0)

@@ -12,8 +12,8 @@ from rsibr.rsibr_addon.core.kinds.mip_chain.texture_space import box_halved, ten
 from rsibr.rsibr_addon.core.maps.representation import representation
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.context import ensure_context
-from rsibr.rsibr_addon.device.kinds.live_environment import LiveEnvironmentOnDevice
-from rsibr.rsibr_addon.device.kinds.mip_chain import MipChainOnDevice, atlas_texels
+from rsibr.rsibr_addon.device.kinds.live_environment import GpuLiveEnvironment
+from rsibr.rsibr_addon.device.kinds.mip_chain import GpuMipChain, atlas_texels
 from rsibr.rsibr_addon.device.preview import PreviewRenderer
 from rsibr.tests.glsl.test_preview_renderer import SIZE, SPHERE
 
@@ -29,7 +29,7 @@ def smooth_faces(size: int) -> Array:
     return np.float32(0.5 + 0.2 * np.sin(3.0 * direction + (0.0, 1.0, 2.0)))
 
 
-def show(live: LiveEnvironmentOnDevice, faces: Array, numbers: range = range(6)) -> None:
+def show(live: GpuLiveEnvironment, faces: Array, numbers: range = range(6)) -> None:
     """Give some of six faces as renders."""
     for number in numbers:
         texels = np.ones((*faces.shape[1:3], 4), dtype=np.float32)
@@ -53,7 +53,7 @@ def reference(faces: Array, across_borders: bool):
 def test_mips_and_harmonics(size: int, across_borders: bool) -> None:
     ensure_context()
     faces = random_faces(size)
-    live = LiveEnvironmentOnDevice(size, across_borders)
+    live = GpuLiveEnvironment(size, across_borders)
     show(live, faces)
     expected = reference(faces, across_borders)
     atlas, expected_atlas = read(live._atlas), atlas_texels(expected)[..., :3]
@@ -71,7 +71,7 @@ def test_mips_and_harmonics(size: int, across_borders: bool) -> None:
 def test_a_face_changes_alone() -> None:
     ensure_context()
     before, after = random_faces(8, 52), random_faces(8, 53)
-    live = LiveEnvironmentOnDevice(8)
+    live = GpuLiveEnvironment(8)
     show(live, before)
     show(live, after, range(2, 3))
     before[2] = after[2]
@@ -84,7 +84,7 @@ def test_what_is_no_radiance_is_black_or_bounded() -> None:
     ensure_context()
     faces = np.full((6, 4, 4, 3), 0.5, dtype=np.float32)
     faces[0, 0, :3, 0] = (np.nan, np.inf, -1.0)
-    live = LiveEnvironmentOnDevice(4)
+    live = GpuLiveEnvironment(4)
     show(live, faces)
     np.testing.assert_array_equal(read(live._faces)[0, :3], [(0, 0.5, 0.5), (65504, 0.5, 0.5), (0, 0.5, 0.5)])
     assert np.isfinite(read(live._atlas)).all()
@@ -95,11 +95,11 @@ def test_what_is_no_radiance_is_black_or_bounded() -> None:
 def test_a_picture_is_that_of_the_uploaded_chain(across_borders: bool, bias: float) -> None:
     ensure_context()
     faces = smooth_faces(32)
-    live = LiveEnvironmentOnDevice(32, across_borders)
+    live = GpuLiveEnvironment(32, across_borders)
     show(live, faces)
     look = MipLook(f_lambda=(0.3, 0.5, 0.9), k_d=(0.9, 0.5, 0.1), bias=bias)
     camera = Camera((1.0, -0.7, 0.4), 0.6)
-    uploaded = MipChainOnDevice(reference(faces, across_borders))
+    uploaded = GpuMipChain(reference(faces, across_borders))
     pictures = [PreviewRenderer(subject).draw(*SPHERE, camera, SIZE, look) for subject in (live, uploaded)]
     assert pictures[0][..., :3].max() > 0.1
     # The same lookups, of texels that differ by roundings; and two forms of one quadratic polynomial.
@@ -108,7 +108,7 @@ def test_a_picture_is_that_of_the_uploaded_chain(across_borders: bool, bias: flo
 
 def test_black_at_first_and_bad_requests() -> None:
     ensure_context()
-    live = LiveEnvironmentOnDevice(4)
+    live = GpuLiveEnvironment(4)
     camera = Camera((0.0, -1.0, 0.0))
     picture = PreviewRenderer(live).draw(*SPHERE, camera, SIZE, MipLook())
     assert picture[..., 3].max() == 1.0
@@ -116,7 +116,7 @@ def test_black_at_first_and_bad_requests() -> None:
     with pytest.raises(RangeError, match=r"^Live light has no roughness: choose a bias instead\.$"):
         PreviewRenderer(live).draw(*SPHERE, camera, SIZE, MipLook(roughness=0.3))
     with pytest.raises(RangeError, match=r"^A mip chain cannot be 24 texels wide: choose a power of 2"):
-        LiveEnvironmentOnDevice(24)
+        GpuLiveEnvironment(24)
 
 
 def test_filtering_leaves_blender_s_state_alone() -> None:
@@ -124,7 +124,7 @@ def test_filtering_leaves_blender_s_state_alone() -> None:
     gpu.state.depth_test_set("LESS_EQUAL")
     gpu.state.blend_set("ALPHA")
     try:
-        live = LiveEnvironmentOnDevice(4)
+        live = GpuLiveEnvironment(4)
         show(live, random_faces(4))
         assert (gpu.state.depth_test_get(), gpu.state.blend_get()) == ("LESS_EQUAL", "ALPHA")
         np.testing.assert_array_equal(read(live._faces), np.concatenate(list(random_faces(4)), axis=1))

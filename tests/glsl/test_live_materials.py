@@ -15,12 +15,12 @@ from rsibr.rsibr_addon.core.lobes.layers import layered_fit
 from rsibr.rsibr_addon.core.lobes.target import elevation_slices
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.device.context import ensure_context
-from rsibr.rsibr_addon.device.kinds.lobe_stack import LobeStackOnDevice
+from rsibr.rsibr_addon.device.kinds.lobe_stack import GpuLobeStack
 from rsibr.rsibr_addon.device.preview import PreviewRenderer
 from rsibr.rsibr_addon.tasks.methods import live_materials
-from rsibr.rsibr_addon.tasks.methods.latest_request_worker import Workshop
+from rsibr.rsibr_addon.tasks.methods.latest_request_worker import LatestRequestWorker
 from rsibr.rsibr_addon.tasks.methods.live_materials import KEPT, SLICES, LiveMaterials
-from rsibr.tests.core.test_workshop import wait_until_idle
+from rsibr.tests.core.test_latest_request_worker import wait_until_idle
 from rsibr.tests.glsl.test_preview_renderer import SPHERE
 
 CAMERA = Camera((0.4, -1.0, 0.5))
@@ -36,15 +36,15 @@ def filtered() -> FilteredBank:
 
 
 @pytest.fixture
-def shop(monkeypatch: pytest.MonkeyPatch) -> Iterator[Workshop]:
-    shop = Workshop()
-    monkeypatch.setattr(live_materials, "workshop", shop)
-    shop.open()
-    yield shop
-    shop.close()
+def worker(monkeypatch: pytest.MonkeyPatch) -> Iterator[LatestRequestWorker]:
+    worker = LatestRequestWorker()
+    monkeypatch.setattr(live_materials, "workshop", worker)
+    worker.open()
+    yield worker
+    worker.close()
 
 
-def picture(subject: LiveMaterials | LobeStackOnDevice, look: BankLook | StackLook) -> np.ndarray:
+def picture(subject: LiveMaterials | GpuLobeStack, look: BankLook | StackLook) -> np.ndarray:
     return PreviewRenderer(subject).draw(*SPHERE, CAMERA, PIXELS, look)
 
 
@@ -52,7 +52,7 @@ def test_a_look_is_drawn_as_the_stack_that_a_bake_makes(filtered: FilteredBank) 
     brdf = brdf_from_spec(LOOK.spec, lambda name, path: pytest.fail("nothing is measured"))
     fit = drain(layered_fit(brdf, elevation_slices(SLICES), 2, sharpest=filtered.sharpest))
     stack = drain(bake_stack(LIGHT, fit, "dual_paraboloid", 32)).stack
-    expected = picture(LobeStackOnDevice(stack), StackLook())
+    expected = picture(GpuLobeStack(stack), StackLook())
     drawn = picture(LiveMaterials(filtered), LOOK)
     # Both are half floats on the GPU, 2^-11 of each lobe's map, and signed lobes are louder than their sum
     np.testing.assert_allclose(drawn, expected, atol=8.0 * 2.0**-11 * expected.max())
@@ -94,7 +94,7 @@ def test_a_lobe_too_sharp_for_the_maps_is_told(filtered: FilteredBank) -> None:
         LiveMaterials(filtered).is_ready(BankLook("ggx:alpha=0.02,f0=0.5", lobe_count=1))
 
 
-def test_in_a_workshop_a_draft_comes_first(filtered: FilteredBank, shop: Workshop) -> None:
+def test_in_a_worker_a_draft_comes_first(filtered: FilteredBank, worker: LatestRequestWorker) -> None:
     materials, look = LiveMaterials(filtered), BankLook("ward:alpha=0.45,ks=0.6", lobe_count=2)
     empty = picture(materials, look)
     assert not empty.any()
@@ -102,39 +102,41 @@ def test_in_a_workshop_a_draft_comes_first(filtered: FilteredBank, shop: Worksho
     while not materials.is_ready(look) or not materials._shown[look].is_final:
         if look in materials._shown:
             drafts.append(materials._shown[look])
-    wait_until_idle(shop)
+    wait_until_idle(worker)
     assert len({id(draft) for draft in drafts}) <= 1
-    assert shop.take_news()
+    assert worker.take_news()
     final = picture(materials, look)
     assert final.any()
     monkey = LiveMaterials(filtered)
-    shop.close()
+    worker.close()
     assert np.array_equal(picture(monkey, look), final)
 
 
-def test_until_a_look_is_there_the_one_before_it_is_shown(filtered: FilteredBank, shop: Workshop) -> None:
+def test_until_a_look_is_there_the_one_before_it_is_shown(
+    filtered: FilteredBank, worker: LatestRequestWorker
+) -> None:
     materials = LiveMaterials(filtered)
     looks = [BankLook(f"ward:alpha={0.3 + 0.1 * n:g},ks=0.5", lobe_count=1) for n in range(4)]
     assert materials.newest(looks[:1]) is None
     while materials.newest(looks[:1]) is None:
-        wait_until_idle(shop)
+        wait_until_idle(worker)
     assert materials.newest(looks) == looks[0]
-    # Drawing what is shown wishes for nothing: the last look is made, those passed over are not
+    # Drawing what is shown requests nothing: the last look is made, those passed over are not
     assert picture(materials, looks[0]).any()
-    wait_until_idle(shop)
+    wait_until_idle(worker)
     assert materials.newest(looks) == looks[3]
     assert looks[1] not in materials._shown
     wrong = BankLook("gold")
     assert materials.newest([*looks, wrong]) == looks[3]
-    wait_until_idle(shop)
+    wait_until_idle(worker)
     with pytest.raises(RangeError, match="no BRDF model"):
         materials.newest([*looks, wrong])
     assert materials.newest([looks[3], wrong, looks[0]]) == looks[0]
 
 
-def test_errors_come_out_of_the_workshop(filtered: FilteredBank, shop: Workshop) -> None:
+def test_errors_come_out_of_the_worker(filtered: FilteredBank, worker: LatestRequestWorker) -> None:
     materials, look = LiveMaterials(filtered), BankLook("gold")
     assert not materials.is_ready(look)
-    wait_until_idle(shop)
+    wait_until_idle(worker)
     with pytest.raises(RangeError, match='There is no BRDF model "gold"'):
         materials.is_ready(look)

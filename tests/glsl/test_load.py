@@ -16,7 +16,7 @@ from mathutils import Matrix
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.host.map_sets import use_map_set
-from rsibr.rsibr_addon.host.viewport import View
+from rsibr.rsibr_addon.host.visible_surfaces import View
 from rsibr.rsibr_addon.tasks.methods import live_materials
 from rsibr.rsibr_addon.tasks.methods.latest_request_worker import workshop
 from rsibr.rsibr_addon.tasks.viewport.previews import Previews

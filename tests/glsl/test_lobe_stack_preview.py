@@ -12,7 +12,7 @@ from rsibr.rsibr_addon.core.lobes.bank import KernelBank
 from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.device.context import ensure_context
-from rsibr.rsibr_addon.device.kinds.lobe_stack import LobeStackOnDevice
+from rsibr.rsibr_addon.device.kinds.lobe_stack import GpuLobeStack
 from rsibr.rsibr_addon.device.preview import SAMPLES_PER_AXIS, PreviewRenderer
 from rsibr.tests.glsl.test_preview_renderer import BY_CAMERA, SIZE, SPHERE, sample_footprints, samples
 from rsibr.tests.lobe_stacks import random_fit, random_stack
@@ -31,7 +31,7 @@ def smooth_stack(layout: str, brightness: float = 1.0) -> LobeStack:
 def smooth(request: pytest.FixtureRequest) -> tuple[LobeStack, PreviewRenderer]:
     ensure_context()
     stack = smooth_stack(request.param)
-    return stack, PreviewRenderer(LobeStackOnDevice(stack))
+    return stack, PreviewRenderer(GpuLobeStack(stack))
 
 
 def reference(stack: LobeStack, camera: Camera, look: StackLook) -> tuple[np.ndarray, np.ndarray]:
@@ -62,14 +62,14 @@ def test_light_beyond_half_floats_is_kept() -> None:
     assert stack.maps.max() > 65504.0
     camera = Camera((0.0, -1.0, 0.2))
     expected, inside = reference(stack, camera, StackLook())
-    picture = PreviewRenderer(LobeStackOnDevice(stack)).draw(*SPHERE, camera, SIZE, StackLook())
+    picture = PreviewRenderer(GpuLobeStack(stack)).draw(*SPHERE, camera, SIZE, StackLook())
     assert np.abs(picture[..., :3] - expected)[inside].max() < 2e-3 * expected.max()
 
 
 def test_lobes_add_up_and_are_kept(smooth) -> None:
     stack, _ = smooth
-    on_device = LobeStackOnDevice(stack)
-    renderer = PreviewRenderer(on_device)
+    gpu_map_set = GpuLobeStack(stack)
+    renderer = PreviewRenderer(gpu_map_set)
     camera = Camera((0.3, -1.0, 0.2))
     looks = [StackLook(), StackLook(0), StackLook(1)]
     whole, *single = [renderer.draw(*SPHERE, camera, SIZE, look)[..., :3] for look in looks]
@@ -78,10 +78,10 @@ def test_lobes_add_up_and_are_kept(smooth) -> None:
     assert more.min() > -1e-5
     assert np.quantile(more, 0.5) < 1e-5
     assert whole.max() > 0.5
-    kept = dict(on_device._elevations)
+    kept = dict(gpu_map_set._elevations)
     for look in looks:
         renderer.draw(*SPHERE, camera, SIZE, look)
-    assert on_device._elevations == kept
+    assert gpu_map_set._elevations == kept
 
 
 def test_a_lobe_that_is_not_there_is_refused(smooth) -> None:
@@ -98,4 +98,4 @@ def test_too_many_maps_are_refused() -> None:
         for name in ("maps", "scale", "offsets", "taps", "albedo")
     }
     with pytest.raises(DeviceError, match="3000 maps do not fit into a texture of 2048: fit fewer"):
-        LobeStackOnDevice(LobeStack(layout=small.layout, mu=small.mu, **many))
+        GpuLobeStack(LobeStack(layout=small.layout, mu=small.mu, **many))

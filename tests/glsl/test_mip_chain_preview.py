@@ -10,7 +10,7 @@ from rsibr.rsibr_addon.core.kinds.mip_chain.shading import Borders, MipLook, mip
 from rsibr.rsibr_addon.core.kinds.mip_chain.texture_space import box_halved, filtered_mips, tent_halved
 from rsibr.rsibr_addon.core.maps.representation import representation
 from rsibr.rsibr_addon.device.context import ensure_context
-from rsibr.rsibr_addon.device.kinds.mip_chain import MipChainOnDevice, atlas_texels
+from rsibr.rsibr_addon.device.kinds.mip_chain import GpuMipChain, atlas_texels
 from rsibr.rsibr_addon.device.kinds.mip_chain_shaders import mip_chain_shader
 from rsibr.rsibr_addon.device.preview import SAMPLES_PER_AXIS, PreviewRenderer
 from rsibr.tests.glsl.test_preview_renderer import BY_CAMERA, SIZE, SPHERE, sample_footprints, samples
@@ -32,7 +32,7 @@ def smooth_chain(halved) -> MipChain:
 def smooth(request: pytest.FixtureRequest) -> tuple[MipChain, PreviewRenderer]:
     ensure_context()
     chain = smooth_chain(request.param)
-    return chain, PreviewRenderer(MipChainOnDevice(chain))
+    return chain, PreviewRenderer(GpuMipChain(chain))
 
 
 def reference(chain: MipChain, camera: Camera, look: MipLook) -> tuple[np.ndarray, np.ndarray]:
@@ -72,7 +72,7 @@ def test_clamped_borders_and_roughness(smooth, look: MipLook) -> None:
 def test_a_box_chain_knows_no_roughness() -> None:
     ensure_context()
     chain = smooth_chain(box_halved)
-    renderer = PreviewRenderer(MipChainOnDevice(MipChain(chain.mips, chain.harmonics)))
+    renderer = PreviewRenderer(GpuMipChain(MipChain(chain.mips, chain.harmonics)))
     with pytest.raises(RangeError, match="choose a bias instead"):
         renderer.draw(*SPHERE, Camera((0.0, -1.0, 0.0)), SIZE, MipLook(roughness=0.3))
     assert gpu.state.depth_test_get() == "NONE"

@@ -30,7 +30,7 @@ from rsibr.rsibr_addon.tasks.report.report import map_set_report
 from rsibr.tests.glsl.test_preview_renderer import BY_CAMERA, SIZE, SPHERE, samples
 from rsibr.tests.toys import disk_files, disk_method, means_format
 from rsibr.tests.toys.disk_core import Disk, DiskLook, disk_radiance
-from rsibr.tests.toys.toon_mode import ToonLook, ToonOnDevice, toon_radiance
+from rsibr.tests.toys.toon_mode import GpuToon, ToonLook, toon_radiance
 
 pytestmark = pytest.mark.needs("gl")
 
@@ -97,7 +97,7 @@ def test_a_mode_is_added_by_its_look_and_its_shader(
     path: Path, camera: Camera, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(STORED, "disk", replace(STORED["disk"], look=ToonLook))
-    monkeypatch.setitem(KINDS, "disk", replace(KINDS["disk"], on_device=ToonOnDevice))
+    monkeypatch.setitem(KINDS, "disk", replace(KINDS["disk"], upload=GpuToon))
     renderer, look = PreviewRenderer(open_map_set(path).upload()), look_types()["disk"](gain=2.0)
     picture = renderer.draw(*SPHERE, camera, SIZE, look)
     normal, view_dir, cosine = samples(camera)

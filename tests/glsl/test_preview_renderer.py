@@ -11,7 +11,7 @@ from rsibr.rsibr_addon.core.kinds.radiance_views import shading as shading
 from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, ViewsLook, Warping
 from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
 from rsibr.rsibr_addon.core.maps import sphere_map
-from rsibr.rsibr_addon.device.kinds.radiance_views import RadianceViewsOnDevice
+from rsibr.rsibr_addon.device.kinds.radiance_views import GpuRadianceViews
 from rsibr.rsibr_addon.device.preview import SAMPLES_PER_AXIS, PreviewRenderer
 from rsibr.tests.synthetic_views import random_views, smooth_views, with_random_albedo
 
@@ -87,13 +87,13 @@ def reference(
 @pytest.fixture(scope="module")
 def smooth() -> tuple[RadianceViews, PreviewRenderer]:
     views = smooth_views(12, 32)
-    return views, PreviewRenderer(RadianceViewsOnDevice(views))
+    return views, PreviewRenderer(GpuRadianceViews(views))
 
 
 @pytest.fixture(scope="module")
 def patternless() -> tuple[RadianceViews, PreviewRenderer]:
     views = with_random_albedo(random_views(42, 16))
-    return views, PreviewRenderer(RadianceViewsOnDevice(views))
+    return views, PreviewRenderer(GpuRadianceViews(views))
 
 
 @MODE
@@ -128,7 +128,7 @@ def test_every_lookup_finds_its_texel(patternless, mode: Mode, warping: Warping,
 @BY_CAMERA
 def test_coverage(mode: Mode, camera: Camera) -> None:
     maps = np.ones((12, 16, 16, 3), np.float32)
-    picture = PreviewRenderer(RadianceViewsOnDevice(RadianceViews(0.25 * maps, 0.5 * maps))).draw(
+    picture = PreviewRenderer(GpuRadianceViews(RadianceViews(0.25 * maps, 0.5 * maps))).draw(
         *SPHERE, camera, SIZE, ViewsLook(mode, Warping.ALBEDO)
     )
     alpha = picture[..., 3]

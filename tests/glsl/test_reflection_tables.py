@@ -8,7 +8,7 @@ from rsibr.rsibr_addon.core.kinds.reflection_tables.shading import TablesLook, r
 from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTables, Role
 from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.device.context import ensure_context
-from rsibr.rsibr_addon.device.kinds.reflection_tables import ReflectionTablesOnDevice
+from rsibr.rsibr_addon.device.kinds.reflection_tables import GpuReflectionTables
 from rsibr.rsibr_addon.device.preview import SAMPLES_PER_AXIS, PreviewRenderer
 from rsibr.tests.glsl.test_preview_renderer import BY_CAMERA, SIZE, SPHERE, sample_footprints, samples
 from rsibr.tests.synthetic_views import environment_radiance
@@ -42,7 +42,7 @@ LOOKS = {
 def test_a_picture_is_what_the_reference_says(name: str, eta: float, camera: Camera) -> None:
     ensure_context()
     tables, look = smooth_tables(eta), LOOKS[name]
-    picture = PreviewRenderer(ReflectionTablesOnDevice(tables)).draw(*SPHERE, camera, SIZE, look)
+    picture = PreviewRenderer(GpuReflectionTables(tables)).draw(*SPHERE, camera, SIZE, look)
     normal, view_dir, cosine = samples(camera)
     blocks = (SIZE, SAMPLES_PER_AXIS, SIZE, SAMPLES_PER_AXIS)
     expected = reflect_tables(tables, normal, view_dir, look).reshape(*blocks, 3).mean(axis=(1, 3))
@@ -61,7 +61,7 @@ def test_tables_that_are_not_there_are_black() -> None:
     ensure_context()
     tables = smooth_tables(1.5)
     alone = ReflectionTables({Role.RETRO: tables.maps[Role.RETRO]}, tables.weights)
-    renderer = PreviewRenderer(ReflectionTablesOnDevice(alone))
+    renderer = PreviewRenderer(GpuReflectionTables(alone))
     hidden = renderer.draw(*SPHERE, Camera((1.0, 0.0, 0.0)), 8, TablesLook((Role.DIFFUSE, Role.COAT)))
     np.testing.assert_array_equal(hidden[..., :3], 0.0)
     assert hidden[4, 4, 3] == 1.0
@@ -82,7 +82,7 @@ def lamp_pictures(look: TablesLook, turns: int) -> np.ndarray:
         table = np.full((TEXELS, 2 * TEXELS, 3), 1e-3, dtype=np.float32)
         table[70:73, TEXELS + 20 + turn : TEXELS + 23 + turn] = 1e4
         tables = ReflectionTables({Role.SPECULAR: table}, np.ones((len(Role), 2, 3), dtype=np.float32))
-        renderer = PreviewRenderer(ReflectionTablesOnDevice(tables))
+        renderer = PreviewRenderer(GpuReflectionTables(tables))
         pictures.append(renderer.draw(*SPHERE, Camera((1.0, 0.0, 0.0)), 8, look))
     return np.array(pictures)
 
@@ -105,7 +105,7 @@ def test_an_antialiased_picture_is_what_the_reference_says(camera: Camera) -> No
     ensure_context()
     tables = smooth_tables(1.5)
     look = TablesLook((Role.SPECULAR, Role.COAT), w_specular=1.3, w_coat=0.4, antialiased=True)
-    picture = PreviewRenderer(ReflectionTablesOnDevice(tables)).draw(*SPHERE, camera, SIZE, look)
+    picture = PreviewRenderer(GpuReflectionTables(tables)).draw(*SPHERE, camera, SIZE, look)
     normal, view_dir, cosine = samples(camera)
     blocks = (SIZE, SAMPLES_PER_AXIS, SIZE, SAMPLES_PER_AXIS)
     shown = reflect_tables(tables, normal, view_dir, look, sample_footprints(normal, view_dir))

@@ -18,14 +18,14 @@ from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, ViewsLook
 from rsibr.rsibr_addon.core.kinds.reflection_tables.shading import TablesLook
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.context import ensure_context
-from rsibr.rsibr_addon.device.drawing import MeshOnDevice, OnDevice
-from rsibr.rsibr_addon.device.kinds.environment import EnvironmentOnDevice
-from rsibr.rsibr_addon.device.kinds.live_environment import LiveEnvironmentOnDevice
-from rsibr.rsibr_addon.device.kinds.lobe_stack import LobeStackOnDevice
-from rsibr.rsibr_addon.device.kinds.mip_chain import MipChainOnDevice
-from rsibr.rsibr_addon.device.kinds.radiance_views import RadianceViewsOnDevice
-from rsibr.rsibr_addon.device.kinds.reflection_tables import ReflectionTablesOnDevice
-from rsibr.rsibr_addon.device.viewport import Stage, current_sight
+from rsibr.rsibr_addon.device.drawing import GpuMapSet, GpuMesh
+from rsibr.rsibr_addon.device.kinds.environment import GpuEnvironment
+from rsibr.rsibr_addon.device.kinds.live_environment import GpuLiveEnvironment
+from rsibr.rsibr_addon.device.kinds.lobe_stack import GpuLobeStack
+from rsibr.rsibr_addon.device.kinds.mip_chain import GpuMipChain
+from rsibr.rsibr_addon.device.kinds.radiance_views import GpuRadianceViews
+from rsibr.rsibr_addon.device.kinds.reflection_tables import GpuReflectionTables
+from rsibr.rsibr_addon.device.preview_stage import Stage, current_sight
 from rsibr.tests.glsl.test_mip_chain_preview import smooth_chain
 from rsibr.tests.glsl.test_reflection_tables import smooth_tables
 from rsibr.tests.lobe_stacks import random_stack
@@ -33,23 +33,23 @@ from rsibr.tests.synthetic_views import smooth_views
 
 ALLOCATED = ("GPUTexture", "GPUUniformBuf", "GPUFrameBuffer", "GPUBatch", "GPUVertBuf", "GPUIndexBuf")
 
-SUBJECTS: dict[str, Callable[[], tuple[OnDevice, Any]]] = {
+SUBJECTS: dict[str, Callable[[], tuple[GpuMapSet, Any]]] = {
     **{
-        mode.value: lambda mode=mode: (RadianceViewsOnDevice(smooth_views(12, 16)), ViewsLook(mode))
+        mode.value: lambda mode=mode: (GpuRadianceViews(smooth_views(12, 16)), ViewsLook(mode))
         for mode in Mode
     },
-    "mip chain": lambda: (MipChainOnDevice(smooth_chain(tent_halved)), MipLook()),
-    "tables": lambda: (ReflectionTablesOnDevice(smooth_tables(1.5)), TablesLook()),
+    "mip chain": lambda: (GpuMipChain(smooth_chain(tent_halved)), MipLook()),
+    "tables": lambda: (GpuReflectionTables(smooth_tables(1.5)), TablesLook()),
     "tables, antialiased": lambda: (
-        ReflectionTablesOnDevice(smooth_tables(1.5)),
+        GpuReflectionTables(smooth_tables(1.5)),
         TablesLook(antialiased=True),
     ),
-    "lobe stack": lambda: (LobeStackOnDevice(random_stack("dual_paraboloid")), StackLook()),
+    "lobe stack": lambda: (GpuLobeStack(random_stack("dual_paraboloid")), StackLook()),
     "environment": lambda: (
-        EnvironmentOnDevice(Environment(np.ones((8, 16, 3), np.float32), "even")),
+        GpuEnvironment(Environment(np.ones((8, 16, 3), np.float32), "even")),
         EnvironmentLook(),
     ),
-    "live light": lambda: (LiveEnvironmentOnDevice(8), MipLook()),
+    "live light": lambda: (GpuLiveEnvironment(8), MipLook()),
 }
 
 
@@ -76,7 +76,7 @@ def test_frames_after_the_first_few_allocate_nothing(name: str) -> None:
     ensure_context()
     subject, look = SUBJECTS[name]()
     corners, stage = np.eye(3), Stage()
-    mesh = MeshOnDevice(corners, corners, np.array([[0, 1, 2]]))
+    mesh = GpuMesh(corners, corners, np.array([[0, 1, 2]]))
     display = buffers.table_texture(np.ones((96, 96, 96, 3)))
     colour = gpu.types.GPUTexture((32, 32), format="RGBA32F")
     depth = gpu.types.GPUTexture((32, 32), format="DEPTH_COMPONENT32F")

@@ -14,9 +14,9 @@ from rsibr.rsibr_addon.core.pictures.display import TABLE_SIZE, displayed
 from rsibr.rsibr_addon.core.pictures.false_colour import heat
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.context import ensure_context
-from rsibr.rsibr_addon.device.drawing import MeshOnDevice
-from rsibr.rsibr_addon.device.kinds.radiance_views import RadianceViewsOnDevice
-from rsibr.rsibr_addon.device.viewport import Stage, current_sight, draw_occluder
+from rsibr.rsibr_addon.device.drawing import GpuMesh
+from rsibr.rsibr_addon.device.kinds.radiance_views import GpuRadianceViews
+from rsibr.rsibr_addon.device.preview_stage import Stage, current_sight, draw_occluder
 from rsibr.tests.synthetic_views import smooth_views, visible_points
 
 SIZE = 64
@@ -66,14 +66,14 @@ def shown(
     """A sphere, previewed; perhaps within another of radius `in_front`; shape (SIZE, SIZE, 4)."""
     with screen() as target:
         stage, sight = Stage(), current_sight()
-        subject = RadianceViewsOnDevice(VIEWS)
+        subject = GpuRadianceViews(VIEWS)
         if in_front is not None:
             gpu.state.depth_test_set("LESS_EQUAL")
             gpu.state.depth_mask_set(True)
-            draw_occluder(MeshOnDevice(*sphere(in_front)), sight.on(np.eye(4), STRAIGHT))
+            draw_occluder(GpuMesh(*sphere(in_front)), sight.on(np.eye(4), STRAIGHT))
             gpu.state.depth_test_set("NONE")
         with stage.drawing():
-            subject.draw(MeshOnDevice(*sphere()), sight.on(np.eye(4), turn), LOOK)
+            subject.draw(GpuMesh(*sphere()), sight.on(np.eye(4), turn), LOOK)
         stage.show(buffers.table_texture(table()), scale, span, among_others)
         return buffers.pixels(target, SIZE)
 
@@ -142,10 +142,10 @@ def test_a_difference_is_that_on_the_display() -> None:
         for turn in (STRAIGHT, QUARTER)
     )
     with screen() as target:
-        first, second, sight, subject = Stage(), Stage(), current_sight(), RadianceViewsOnDevice(VIEWS)
+        first, second, sight, subject = Stage(), Stage(), current_sight(), GpuRadianceViews(VIEWS)
         for stage, turn in ((first, STRAIGHT), (second, QUARTER)):
             with stage.drawing():
-                subject.draw(MeshOnDevice(*sphere()), sight.on(np.eye(4), turn), LOOK)
+                subject.draw(GpuMesh(*sphere()), sight.on(np.eye(4), turn), LOOK)
         first.show(buffers.table_texture(table()), 1.0, (0.0, 1.0), True, (second, 0.25))
         picture = buffers.pixels(target, SIZE)
     _, inside = expected(STRAIGHT, 1.0)
@@ -160,7 +160,7 @@ def test_a_difference_is_that_on_the_display() -> None:
 
 
 def test_one_mesh_is_drawn_where_each_draw_of_a_frame_says() -> None:
-    mesh, views = MeshOnDevice(*sphere(0.25)), RadianceViewsOnDevice(VIEWS)
+    mesh, views = GpuMesh(*sphere(0.25)), GpuRadianceViews(VIEWS)
 
     def covered(*places: float) -> np.ndarray:
         with screen() as target:

@@ -91,7 +91,7 @@ def drawn() -> Iterator[None]:
 
 def previews_wait() -> bool:
     """Whether previews are to be drawn once more; what waits for a render's end waits for long."""
-    module = importlib.import_module(ROOT + ".rsibr_addon.ui.viewport")
+    module = importlib.import_module(ROOT + ".rsibr_addon.ui.viewport_handlers")
     timers = [module._draw_again, module._show_news]
     if not bpy.app.is_job_running("RENDER"):
         timers.append(module._add_displays)

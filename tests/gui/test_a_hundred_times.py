@@ -24,7 +24,7 @@ DEVICE = tuple(kind for name, kind in vars(gpu.types).items() if name.startswith
 def previews():
     return importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport.previews").previews
 
-def on_device():
+def gpu_map_set():
     # How many objects of Blender's graphics Python holds: they are in no list, but whatever holds them is
     gc.collect()
     holders = gc.get_objects()
@@ -40,7 +40,7 @@ def traces():
     lists = [getattr(bpy.app.handlers, name) for name in dir(bpy.app.handlers)]
     timers = [
         function
-        for name in (".rsibr_addon.ui.viewport", ".operators.background")
+        for name in (".rsibr_addon.ui.viewport_handlers", ".operators.background")
         for function in vars(importlib.import_module(ROOT + name)).values()
         if callable(function) and bpy.app.timers.is_registered(function)
     ]
@@ -51,7 +51,7 @@ def traces():
         *(name for kind in kinds for name in ours(getattr(getattr(kind, "draw", None), "_draw_funcs", ()))),
         *ours(timers),
         *dir(bpy.ops.rsibr),
-        *map(str, on_device().items()),
+        *map(str, gpu_map_set().items()),
         *(f"process {number}" for number in children()),
         *(thread.name for thread in threading.enumerate() if thread is not threading.main_thread()),
     ]
@@ -85,7 +85,7 @@ def hundred(told, once):
         yield from drawn() if number % 10 == 0 else iter([None])
         told["memory"].append(megabytes())
         if number in (10, 100):
-            told[f"on the device, {number}"] = on_device()
+            told[f"on the device, {number}"] = gpu_map_set()
     told["trouble"] = [previews().trouble, *map(previews().fault, bpy.data.objects)]
 
 def drawn_by():
@@ -132,7 +132,7 @@ def scenario(told):
     told["draws"] = yield from drawn_by()
     with bpy.context.temp_override(window=window()):
         bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    told["of an empty file"] = {name: many for name, many in on_device().items() if name != "GPUShader"}
+    told["of an empty file"] = {name: many for name, many in gpu_map_set().items() if name != "GPUShader"}
     addon_utils.disable(ROOT)
     told["traces"] = traces()
 """

@@ -150,9 +150,9 @@ def scenario(told):
     told["left to Blender"] = int(own().sum())
     light = only_light()
     faces, updates = [], []
-    set_face, filtered = light.on_device.set_face, light.on_device.filter
-    light.on_device.set_face = lambda face, seen: (faces.append(face), set_face(face, seen))
-    light.on_device.filter = lambda: (updates.append(len(faces)), filtered())
+    set_face, filtered = light.gpu_map_set.set_face, light.gpu_map_set.filter
+    light.gpu_map_set.set_face = lambda face, seen: (faces.append(face), set_face(face, seen))
+    light.gpu_map_set.filter = lambda: (updates.append(len(faces)), filtered())
 
     def counted():
         faces.clear()
@@ -168,7 +168,7 @@ def scenario(told):
     told["kept"] = only_light() is light
     cube.rsibr.live.size = "64"
     yield from drawn()
-    told["another size"] = only_light().on_device.size
+    told["another size"] = only_light().gpu_map_set.size
     view().spaces.active.shading.type = "WIREFRAME"
     walls[0].color = (0.5, 0.0, 0.0, 1.0)
     told["wires"] = yield from counted()
@@ -210,7 +210,7 @@ def scenario(told):
         scene.frame_set(frame)
         yield from drawn()
         told["errors"].append(errors())
-    faces, updated_at = only_light().on_device, set()
+    faces, updated_at = only_light().gpu_map_set, set()
     filtered = faces.filter
     faces.filter = lambda: (updated_at.add(scene.frame_current), filtered())
     with bpy.context.temp_override(window=window(), area=view(), region=region(view())):

@@ -41,8 +41,8 @@ def stage():
 
 def radiances():
     # Of the middle of each face
-    size = only_light().on_device.size
-    strip = np.array(only_light().on_device._faces.texture.read()).reshape(size, 6, size, 4)
+    size = only_light().gpu_map_set.size
+    strip = np.array(only_light().gpu_map_set._faces.texture.read()).reshape(size, 6, size, 4)
     middle = slice(size // 2 - 2, size // 2 + 2)
     return strip[middle, :, middle, :3].mean(axis=(0, 2)).tolist()
 

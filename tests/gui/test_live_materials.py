@@ -54,7 +54,7 @@ def scenario(told):
     yield from drawn()
     told["workers"] = workers()
     before = pixels()
-    bank = module.previews._map_sets["/job/bank.rsibr.exr"].on_device
+    bank = module.previews._map_sets["/job/bank.rsibr.exr"].gpu_map_set
     module.open_map_set = lambda path: 1 / 0  # Nothing is read or uploaded anew
     material.brdf = "ggx:alpha=0.15,metal=copper"
     seen = [before]
@@ -75,7 +75,7 @@ def scenario(told):
     material.use_roughness = False
     yield from drawn()
     told["back"] = int(np.abs(pixels() - copper).max())
-    told["same bank"] = module.previews._map_sets["/job/bank.rsibr.exr"].on_device is bank
+    told["same bank"] = module.previews._map_sets["/job/bank.rsibr.exr"].gpu_map_set is bank
     told["trouble"] = module.previews.trouble
 """
 

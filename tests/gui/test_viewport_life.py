@@ -158,7 +158,7 @@ def scenario(told):
         told["draws"] = told.get("draws", 0) + 1
         raise OSError("the card is on fire")
 
-    module.previews._map_sets["/job/later.rsibr.exr"].on_device.draw = broken
+    module.previews._map_sets["/job/later.rsibr.exr"].gpu_map_set.draw = broken
     yield from drawn()
     told["broken"] = [purple(), module.previews.fault(cube)]
 """
@@ -238,14 +238,14 @@ def scenario(told):
     columns = np.flatnonzero(like(pixels(), (188, 0, 188)).any(axis=0))
     told["dragged"] = int(columns[-1] - (x - part.x))
     # The other side in another look
-    on_device = next(iter(module.previews._map_sets.values())).on_device
-    draw, looks = on_device.draw, []
+    gpu_map_set = next(iter(module.previews._map_sets.values())).gpu_map_set
+    draw, looks = gpu_map_set.draw, []
 
     def recorded(mesh, placed, look):
         looks.append(str(look.mode))
         draw(mesh, placed, look)
 
-    on_device.draw = recorded
+    gpu_map_set.draw = recorded
     settings.beyond = "other"
     bpy.data.objects["Cube"].rsibr.other.radiance_views.mode = "paper"
     yield from drawn()
@@ -328,14 +328,14 @@ def scenario(told):
     cube.modifiers.new("Smooth", "SUBSURF").levels = 2
     yield from drawn()
     before = uploaded()
-    seen, on_device = [], next(iter(module.previews._map_sets.values())).on_device
-    draw = on_device.draw
+    seen, gpu_map_set = [], next(iter(module.previews._map_sets.values())).gpu_map_set
+    draw = gpu_map_set.draw
 
     def recorded(mesh, placed, look):
         seen.append([look.mode, look.warping])
         draw(mesh, placed, look)
 
-    on_device.draw = recorded
+    gpu_map_set.draw = recorded
     settings = bpy.context.window_manager.rsibr_view
     for group, field, value in (
         (cube.rsibr.radiance_views, "mode", "texel"),

@@ -5,7 +5,7 @@ from pathlib import Path
 import gpu
 from rsibr.rsibr_addon.core.conventions import Array
 from rsibr.rsibr_addon.device import buffers
-from rsibr.rsibr_addon.device.drawing import Draw, MeshOnDevice
+from rsibr.rsibr_addon.device.drawing import Draw, GpuMesh
 from rsibr.rsibr_addon.device.shaders import build, kept_until_exit, mesh_interface
 from rsibr.tests.toys.disk_core import Disk, DiskLook
 
@@ -19,7 +19,7 @@ def disk_shader() -> gpu.types.GPUShader:
     return build("disk", info, "mesh_vert.glsl", FRAGMENT)
 
 
-class DiskOnDevice:
+class GpuDisk:
     """A disk, which a uniform block has room for."""
 
     def __init__(self, disk: Disk) -> None:
@@ -28,7 +28,7 @@ class DiskOnDevice:
     def fields(self, look: DiskLook) -> tuple[Array, ...]:
         return self._disk.middle, self._disk.rim, buffers.np.array([look.gain])
 
-    def draw(self, mesh: MeshOnDevice, draw: Draw, look: DiskLook) -> None:
+    def draw(self, mesh: GpuMesh, draw: Draw, look: DiskLook) -> None:
         shader = disk_shader()
         shader.bind()
         shader.uniform_block("look", self._look.filled(*self.fields(look)))

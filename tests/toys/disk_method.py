@@ -8,7 +8,7 @@ from rsibr.rsibr_addon.job import BakeJob
 from rsibr.rsibr_addon.tasks.methods.kind import Kind
 from rsibr.rsibr_addon.tasks.methods.method import Baked, Cost, Method, read_light, written
 from rsibr.tests.toys.disk_core import Disk
-from rsibr.tests.toys.disk_device import DiskOnDevice
+from rsibr.tests.toys.disk_device import GpuDisk
 from rsibr.tests.toys.disk_files import from_map_set, to_map_set
 from rsibr.tests.toys.disk_settings import DiskSettings
 from rsibr.tests.toys.disk_truth import TRUTH
@@ -27,4 +27,4 @@ def cost(settings: DiskSettings) -> Cost:
     return Cost(1.0, 1.0, 1.0)
 
 
-KIND = Kind(from_map_set, DiskOnDevice, Method(bake, cost), TRUTH)
+KIND = Kind(from_map_set, GpuDisk, Method(bake, cost), TRUTH)

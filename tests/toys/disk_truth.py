@@ -14,7 +14,7 @@ from rsibr.rsibr_addon.host.meshes import load_mesh
 from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, cameras_of, way_error
 from rsibr.rsibr_addon.tasks.compare.truth import Drawn, Truth
 from rsibr.tests.toys.disk_core import Disk, DiskLook
-from rsibr.tests.toys.disk_device import DiskOnDevice
+from rsibr.tests.toys.disk_device import GpuDisk
 from rsibr.tests.toys.disk_settings import DiskComparison
 
 
@@ -30,7 +30,7 @@ def draw(
     map_set: Path, disk: Disk, environment: Environment, material: dict[str, Any], settings: DiskComparison
 ) -> Steps[Drawn]:
     yield Progress(1, 2, "drawing")
-    mesh, renderer = load_mesh(settings.mesh), PreviewRenderer(DiskOnDevice(disk))
+    mesh, renderer = load_mesh(settings.mesh), PreviewRenderer(GpuDisk(disk))
     surface = mesh.positions, mesh.normals, mesh.triangles
     drawn, true = (
         [renderer.draw(*surface, camera, settings.size, DiskLook(gain)) for camera in cameras_of(settings)]

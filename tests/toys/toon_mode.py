@@ -8,10 +8,10 @@ import numpy as np
 from rsibr.rsibr_addon.core.conventions import Array
 from rsibr.rsibr_addon.core.geometry.directions import dot
 from rsibr.rsibr_addon.core.options import option
-from rsibr.rsibr_addon.device.drawing import Draw, MeshOnDevice
+from rsibr.rsibr_addon.device.drawing import Draw, GpuMesh
 from rsibr.rsibr_addon.device.shaders import build, kept_until_exit, mesh_interface
 from rsibr.tests.toys.disk_core import Disk, DiskLook
-from rsibr.tests.toys.disk_device import DiskOnDevice
+from rsibr.tests.toys.disk_device import GpuDisk
 
 FRAGMENT = str(Path(__file__).with_name("toon_frag.glsl"))
 
@@ -36,10 +36,10 @@ def toon_shader() -> gpu.types.GPUShader:
     return build("toon", info, "mesh_vert.glsl", FRAGMENT)
 
 
-class ToonOnDevice(DiskOnDevice):
+class GpuToon(GpuDisk):
     """A disk, drawn in two tones where the look asks for that."""
 
-    def draw(self, mesh: MeshOnDevice, draw: Draw, look: DiskLook) -> None:
+    def draw(self, mesh: GpuMesh, draw: Draw, look: DiskLook) -> None:
         if not isinstance(look, ToonLook):
             super().draw(mesh, draw, look)
             return

@@ -54,7 +54,7 @@ def chain_of_faces(faces: Array, halved: Callable[[Array], Array]) -> MipChain:
 
     Notes
     -----
-    GPU twin: `device.kinds.live_environment.LiveEnvironmentOnDevice`.
+    GPU twin: `device.kinds.live_environment.GpuLiveEnvironment`.
     """
     mips = filtered_mips(faces, halved)
     return MipChain(tuple(mip.astype(np.float32) for mip in mips), harmonics_of_faces(faces))

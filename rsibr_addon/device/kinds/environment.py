@@ -8,7 +8,7 @@ import numpy as np
 from ...core.environment import Environment
 from ...core.kinds.environment import EnvironmentLook
 from .. import buffers
-from ..drawing import Draw, MeshOnDevice
+from ..drawing import Draw, GpuMesh
 from ..equirect import Sums, map_sums, map_texture, no_sums
 from ..shaders import build, kept_until_exit, mesh_interface
 
@@ -34,7 +34,7 @@ def environment_shader() -> gpu.types.GPUShader:
     return build("environment", info, "mesh_vert.glsl", "environment_frag.glsl")
 
 
-class EnvironmentOnDevice:
+class GpuEnvironment:
     """An uploaded environment; its sums follow when the first antialiased look is drawn.
 
     Parameters
@@ -57,8 +57,8 @@ class EnvironmentOnDevice:
     def _sums(self) -> Sums:
         return map_sums(self._environment.radiance)
 
-    def draw(self, mesh: MeshOnDevice, draw: Draw, look: EnvironmentLook) -> None:
-        """See `OnDevice.draw`. Reference: core/kinds/environment.py."""
+    def draw(self, mesh: GpuMesh, draw: Draw, look: EnvironmentLook) -> None:
+        """See `GpuMapSet.draw`. Reference: core/kinds/environment.py."""
         sums = self._sums if look.antialiased else self._no_sums
         antialiased = np.array([float(look.antialiased)])
         shader = environment_shader()

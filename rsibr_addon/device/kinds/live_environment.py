@@ -16,7 +16,7 @@ from ...core.kinds.live_environment import FACE_COUNT, solid_angle_texels
 from ...core.kinds.mip_chain.chain import check_size
 from ...core.kinds.mip_chain.shading import MipLook
 from .. import buffers
-from ..drawing import Draw, MeshOnDevice
+from ..drawing import Draw, GpuMesh
 from .live_environment_shaders import (
     bordered_shader,
     box_shader,
@@ -31,7 +31,7 @@ from .mip_chain_shaders import look_fields
 _SCREEN_TRIANGLE = np.array([[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]])
 
 
-class LiveEnvironmentOnDevice:
+class GpuLiveEnvironment:
     """Six faces, black at first, with their mips and harmonics.
 
     Parameters
@@ -100,8 +100,8 @@ class LiveEnvironmentOnDevice:
         """Wait until the GPU has finished."""
         self._harmonics.framebuffer.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
 
-    def draw(self, mesh: MeshOnDevice, draw: Draw, look: MipLook) -> None:
-        """See `OnDevice.draw`. Reference: core/kinds/mip_chain/shading.py.
+    def draw(self, mesh: GpuMesh, draw: Draw, look: MipLook) -> None:
+        """See `GpuMapSet.draw`. Reference: core/kinds/mip_chain/shading.py.
 
         Raises
         ------

@@ -9,14 +9,14 @@ from ...core.half_floats import half_holds
 from ...core.kinds.lobe_stack.shading import StackLook
 from ...core.kinds.lobe_stack.stack import LAYOUTS, LobeStack
 from .. import buffers
-from ..drawing import Draw, MeshOnDevice
+from ..drawing import Draw, GpuMesh
 from .lobe_stack_shaders import lobe_stack_shader
 
 DEEPEST = 2048
 """Greatest number of slices of a 3D texture in every driver."""
 
 
-class LobeStackOnDevice:
+class GpuLobeStack:
     """A map set's lobe stack, uploaded.
 
     Parameters
@@ -46,8 +46,8 @@ class LobeStackOnDevice:
         ]
         self._elevations: dict[tuple[int, ...], gpu.types.GPUTexture] = {}
 
-    def draw(self, mesh: MeshOnDevice, draw: Draw, look: StackLook) -> None:
-        """See `OnDevice.draw`. Reference: core/kinds/lobe_stack/shading.py."""
+    def draw(self, mesh: GpuMesh, draw: Draw, look: StackLook) -> None:
+        """See `GpuMapSet.draw`. Reference: core/kinds/lobe_stack/shading.py."""
         shader = lobe_stack_shader()
         shader.bind()
         shader.uniform_block("stack", self._blocks[look.antialiased])

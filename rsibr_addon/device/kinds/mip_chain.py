@@ -12,11 +12,11 @@ from ...core.kinds.mip_chain.chain import MipChain
 from ...core.kinds.mip_chain.shading import MipLook
 from ...core.kinds.mip_chain.texture_space import with_borders
 from .. import buffers
-from ..drawing import Draw, MeshOnDevice
+from ..drawing import Draw, GpuMesh
 from .mip_chain_shaders import look_fields, mip_chain_shader
 
 
-class MipChainOnDevice:
+class GpuMipChain:
     """A map set's mip chain, uploaded.
 
     Parameters
@@ -30,8 +30,8 @@ class MipChainOnDevice:
         self._shading = buffers.KeptBlock()
         self._irradiance = irradiance_matrix(chain.harmonics)
 
-    def draw(self, mesh: MeshOnDevice, draw: Draw, look: MipLook) -> None:
-        """See `OnDevice.draw`. Reference: core/kinds/mip_chain/shading.py."""
+    def draw(self, mesh: GpuMesh, draw: Draw, look: MipLook) -> None:
+        """See `GpuMapSet.draw`. Reference: core/kinds/mip_chain/shading.py."""
         shading = self._shading.filled(
             *self._irradiance,
             *look_fields(look, look.level(self._chain), len(self._chain.mips)),

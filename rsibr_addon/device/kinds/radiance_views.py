@@ -13,12 +13,12 @@ from ...core.geometry.geodesic import GeodesicSphere
 from ...core.kinds.radiance_views.shading import LEAST_ALBEDO, Mode, ViewsLook, Warping
 from ...core.kinds.radiance_views.views import RadianceViews
 from .. import buffers, shaders
-from ..drawing import Draw, MeshOnDevice
+from ..drawing import Draw, GpuMesh
 
 _SCREEN_TRIANGLE = np.array([[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]])
 
 
-class RadianceViewsOnDevice:
+class GpuRadianceViews:
     """A map set's radiance views, uploaded.
 
     Parameters
@@ -53,8 +53,8 @@ class RadianceViewsOnDevice:
             shaders.views_texel_shader(), {"position": _SCREEN_TRIANGLE}, np.array([[0, 1, 2]])
         )
 
-    def draw(self, mesh: MeshOnDevice, draw: Draw, look: ViewsLook) -> None:
-        """See `OnDevice.draw`. Reference: core/kinds/radiance_views/shading.py."""
+    def draw(self, mesh: GpuMesh, draw: Draw, look: ViewsLook) -> None:
+        """See `GpuMapSet.draw`. Reference: core/kinds/radiance_views/shading.py."""
         if look.mode is Mode.FRAGMENT:
             shader = shaders.views_fragment_shader()
             shader.bind()

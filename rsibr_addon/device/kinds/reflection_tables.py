@@ -8,7 +8,7 @@ import numpy as np
 from ...core.kinds.reflection_tables.shading import MIRRORED, TablesLook
 from ...core.kinds.reflection_tables.tables import ReflectionTables, Role
 from .. import buffers
-from ..drawing import Draw, MeshOnDevice
+from ..drawing import Draw, GpuMesh
 from ..equirect import Sums, map_sums, map_texture, no_map, no_sums
 from ..shaders import build, kept_until_exit, mesh_interface
 
@@ -38,7 +38,7 @@ def reflection_tables_shader() -> gpu.types.GPUShader:
     return build("reflection_tables", info, "mesh_vert.glsl", "reflection_tables_frag.glsl")
 
 
-class ReflectionTablesOnDevice:
+class GpuReflectionTables:
     """A map set's reflection tables, uploaded.
 
     Parameters
@@ -68,8 +68,8 @@ class ReflectionTablesOnDevice:
         there = [role for role in MIRRORED if role in self._tables.maps]
         return {role: map_sums(self._tables.maps[role]) for role in there}
 
-    def draw(self, mesh: MeshOnDevice, draw: Draw, look: TablesLook) -> None:
-        """See `device.drawing.OnDevice`.
+    def draw(self, mesh: GpuMesh, draw: Draw, look: TablesLook) -> None:
+        """See `device.drawing.GpuMapSet`.
 
         Notes
         -----

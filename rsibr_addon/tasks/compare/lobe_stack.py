@@ -15,9 +15,9 @@ from ...core.kinds.lobe_stack.shading import StackLook
 from ...core.kinds.lobe_stack.stack import LobeStack
 from ...core.metrics import relative_rmse, unpremultiplied
 from ...core.progress import Steps
-from ...device.drawing import OnDevice
-from ...device.kinds.lobe_stack import LobeStackOnDevice
-from ...device.lit_sphere import LitSphereOnDevice
+from ...device.drawing import GpuMapSet
+from ...device.kinds.lobe_stack import GpuLobeStack
+from ...device.lit_sphere import GpuLitSphere
 from ...device.preview import PreviewRenderer
 from ...host.meshes import TriangleMesh, load_mesh
 from ...settings.lobe_stack import StackComparison
@@ -79,10 +79,10 @@ def draw(
     view_dirs = [camera.view_dir for camera in cameras]
     spheres = yield from lit_spheres(model, environment.radiance, view_dirs, rings)
     references = [
-        _picture(LitSphereOnDevice(sphere), None, mesh, camera, settings.size)
+        _picture(GpuLitSphere(sphere), None, mesh, camera, settings.size)
         for sphere, camera in zip(spheres, cameras, strict=True)
     ]
-    ours = LobeStackOnDevice(stack)
+    ours = GpuLobeStack(stack)
     drawn = [_picture(ours, StackLook(), mesh, camera, settings.size) for camera in cameras]
     way = StackWay(len(stack.maps), len(stack.mu), stack.taps.shape[2])
     pictures, true = np.stack(drawn), np.stack(references)
@@ -98,7 +98,7 @@ def draw(
 
 
 def _picture(
-    content: OnDevice, look: StackLook | None, mesh: TriangleMesh, camera: Camera, size: int
+    content: GpuMapSet, look: StackLook | None, mesh: TriangleMesh, camera: Camera, size: int
 ) -> Array:
     surface = mesh.positions, mesh.normals, mesh.triangles
     return PreviewRenderer(content).draw(*surface, camera, size, look)

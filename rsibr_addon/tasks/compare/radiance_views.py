@@ -16,7 +16,7 @@ from ...core.kinds.radiance_views.shading import Mode, ViewsLook, Warping
 from ...core.kinds.radiance_views.views import RadianceViews
 from ...core.metrics import relative_rmse, relative_rmse_beyond_noise, unpremultiplied
 from ...core.progress import Progress, Steps
-from ...device.kinds.radiance_views import RadianceViewsOnDevice
+from ...device.kinds.radiance_views import GpuRadianceViews
 from ...device.preview import PreviewRenderer
 from ...host.materials import names_other_file
 from ...host.meshes import load_mesh
@@ -95,9 +95,7 @@ class _Easel:
         self._mesh = load_mesh(settings.mesh)
         self._size = settings.size
         counts = settings.captured_views or (len(views.diffuse),)
-        self._renderers = {
-            count: PreviewRenderer(RadianceViewsOnDevice(views.coarser(count))) for count in counts
-        }
+        self._renderers = {count: PreviewRenderer(GpuRadianceViews(views.coarser(count))) for count in counts}
         self.ways = [
             ViewsWay(count, mode, warping)
             for count in counts

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ...device.drawing import OnDevice
+from ...device.drawing import GpuMapSet
 from ...files.map_set_data import MapSet
 from ..compare.truth import Truth
 
@@ -18,8 +18,8 @@ class Kind:
     ----------
     from_map_set : callable
         The file's path, for messages, and a `MapSet` to what it holds, its content.
-    on_device : callable
-        The content to an `OnDevice`.
+    upload : callable
+        The content to a `GpuMapSet`.
     method : Method or None
         What makes it; None for pictures of environments.
     truth : Truth or None
@@ -31,8 +31,8 @@ class Kind:
     """
 
     from_map_set: Callable[[Path, MapSet], Any]
-    on_device: Callable[[Any], OnDevice]
+    upload: Callable[[Any], GpuMapSet]
     method: Any = None
     truth: Truth | None = None
-    newest: Callable[[Any, list[Any]], Any] = lambda on_device, looks: looks[-1]
+    newest: Callable[[Any, list[Any]], Any] = lambda gpu_map_set, looks: looks[-1]
     menu: str = ""

@@ -7,8 +7,8 @@ from typing import Any
 from ...core.environment import Environment
 from ...core.errors import RangeError
 from ...device.context import ensure_context
-from ...device.drawing import OnDevice
-from ...device.kinds.environment import EnvironmentOnDevice
+from ...device.drawing import GpuMapSet
+from ...device.kinds.environment import GpuEnvironment
 from ...files.kinds import environment
 from ...files.map_set import read_map_set, read_map_set_header
 from . import kernel_bank, lobe_stack, mip_chain, radiance_views, reflection_tables
@@ -20,7 +20,7 @@ KINDS: dict[str, Kind] = {
     "reflection_tables": reflection_tables.KIND,
     "mip_chain": mip_chain.KIND,
     "kernel_bank": kernel_bank.KIND,
-    environment.KIND: Kind(environment.from_map_set, EnvironmentOnDevice),
+    environment.KIND: Kind(environment.from_map_set, GpuEnvironment),
 }
 """Kind of map sets, or `environment` for a picture -> what can be done with it."""
 
@@ -48,7 +48,7 @@ class OpenedMapSet:
     material: dict[str, Any]
     texels: int
 
-    def upload(self) -> OnDevice:
+    def upload(self) -> GpuMapSet:
         """Put the content on the GPU.
 
         Raises
@@ -57,7 +57,7 @@ class OpenedMapSet:
             There is no graphics driver, or it refuses a shader.
         """
         ensure_context()
-        return KINDS[self.kind].on_device(self.content)
+        return KINDS[self.kind].upload(self.content)
 
 
 def kind_of(path: Path) -> str:

@@ -1,4 +1,4 @@
-"""A thread that makes what viewports wish for, while they go on showing what they have."""
+"""A thread that makes what viewports request, while they go on showing what they have."""
 
 import threading
 from collections.abc import Hashable, Iterator
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 
 @dataclass
-class _Wish:
+class _Request:
     """Work to be done, and what for.
 
     Attributes
@@ -24,18 +24,17 @@ class _Wish:
     is_urgent: bool
 
 
-class Workshop:
-    """Works off wishes in a thread of its own.
+class LatestRequestWorker:
+    """Works off requests in a thread of its own.
 
-    A view wishes anew at every redraw, and so the last wish is the one that counts: one waits at most of
-    those that are urgent, and one of the others. What is being made makes room for an urgent wish once
-    it can be shown itself, and is wished for again.
+    A view requests anew at every redraw, so only the last request counts: at most one urgent request waits,
+    and one other. Work that can be shown already makes room for an urgent request, and is requested again.
     """
 
     def __init__(self) -> None:
         self._changed = threading.Condition()
-        self._waiting: dict[bool, _Wish] = {}
-        self._at_work: _Wish | None = None
+        self._waiting: dict[bool, _Request] = {}
+        self._at_work: _Request | None = None
         self._thread: threading.Thread | None = None
         self._has_news = False
 
@@ -52,11 +51,11 @@ class Workshop:
 
     def open(self) -> None:
         """Start the thread."""
-        self._thread = threading.Thread(target=self._work, name="rsibr workshop", daemon=True)
+        self._thread = threading.Thread(target=self._work, name="rsibr worker", daemon=True)
         self._thread.start()
 
     def close(self) -> None:
-        """Drop all wishes and end the thread, which takes as long as a step."""
+        """Drop all requests and end the thread, which takes as long as a step."""
         thread, self._thread = self._thread, None
         with self._changed:
             self._waiting.clear()
@@ -65,7 +64,7 @@ class Workshop:
         if thread is not None:
             thread.join()
 
-    def wish(self, key: Hashable, steps: Iterator[bool], is_urgent: bool) -> None:
+    def request(self, key: Hashable, steps: Iterator[bool], is_urgent: bool) -> None:
         """Have something made, unless it is being made.
 
         Parameters
@@ -78,7 +77,7 @@ class Workshop:
         """
         with self._changed:
             if self._at_work is None or self._at_work.key != key:
-                self._waiting[is_urgent] = _Wish(key, steps, is_urgent)
+                self._waiting[is_urgent] = _Request(key, steps, is_urgent)
                 self._changed.notify()
 
     def take_news(self) -> bool:
@@ -88,16 +87,16 @@ class Workshop:
         return news
 
     def _work(self) -> None:
-        while (wish := self._next()) is not None:
-            for can_be_shown in wish.steps:
+        while (request := self._next()) is not None:
+            for can_be_shown in request.steps:
                 with self._changed:
                     self._has_news |= can_be_shown
-                    wish.is_urgent &= not can_be_shown
-                    if self._thread is None or (True in self._waiting and not wish.is_urgent):
+                    request.is_urgent &= not can_be_shown
+                    if self._thread is None or (True in self._waiting and not request.is_urgent):
                         break
 
-    def _next(self) -> _Wish | None:
-        """The next wish; None when the workshop closes."""
+    def _next(self) -> _Request | None:
+        """The next request; None when the worker closes."""
         with self._changed:
             self._at_work = None
             self._changed.wait_for(lambda: self._waiting or self._thread is None)
@@ -107,5 +106,5 @@ class Workshop:
             return self._at_work
 
 
-workshop = Workshop()
+workshop = LatestRequestWorker()
 """Of this Blender; closed where there are no viewports."""

@@ -17,8 +17,8 @@ from ...core.lobes.fit import Fit
 from ...core.lobes.layers import layered_fit
 from ...core.lobes.target import elevation_slices, target_slices
 from ...core.progress import Steps
-from ...device.drawing import Draw, MeshOnDevice
-from ...device.kinds.lobe_stack import LobeStackOnDevice
+from ...device.drawing import Draw, GpuMesh
+from ...device.kinds.lobe_stack import GpuLobeStack
 from ...files.brdfs import read_measured
 from .latest_request_worker import workshop
 
@@ -59,7 +59,7 @@ class _Shown:
 
     Attributes
     ----------
-    on_device : LobeStackOnDevice or None
+    gpu_map_set : GpuLobeStack or None
     error : Exception or None
         Why there is none.
     is_final : bool
@@ -68,14 +68,14 @@ class _Shown:
         How many uploads there had been when it was needed last.
     """
 
-    on_device: LobeStackOnDevice | None
+    gpu_map_set: GpuLobeStack | None
     error: Exception | None
     is_final: bool
     used_at: int
 
 
 class LiveMaterials:
-    """A kernel bank, and the stacks of the looks that are drawn from it: an `OnDevice`.
+    """A kernel bank, and the stacks of the looks that are drawn from it: a `GpuMapSet`.
 
     Parameters
     ----------
@@ -140,12 +140,12 @@ class LiveMaterials:
             return looks[-1]
         return next(filter(self._can_be_drawn, reversed(looks)), None)
 
-    def draw(self, mesh: MeshOnDevice, draw: Draw, look: BankLook) -> None:
-        """See `OnDevice.draw`; a look that is not ready is not drawn."""
+    def draw(self, mesh: GpuMesh, draw: Draw, look: BankLook) -> None:
+        """See `GpuMapSet.draw`; a look that is not ready is not drawn."""
         if self._can_be_drawn(look) or self.is_ready(look):
-            on_device = self._shown[look].on_device
-            if on_device is not None:
-                on_device.draw(mesh, draw, StackLook())
+            gpu_map_set = self._shown[look].gpu_map_set
+            if gpu_map_set is not None:
+                gpu_map_set.draw(mesh, draw, StackLook())
 
     def _can_be_drawn(self, look: BankLook) -> bool:
         """The same as `is_ready`, but nothing is made, and nothing raised."""
@@ -158,7 +158,7 @@ class LiveMaterials:
     def _have_made(self, look: BankLook, is_urgent: bool) -> None:
         steps = self._making(look)
         if workshop.is_open:
-            workshop.wish((id(self), look), steps, is_urgent)
+            workshop.request((id(self), look), steps, is_urgent)
         else:
             for _ in steps:
                 pass
@@ -169,8 +169,8 @@ class LiveMaterials:
         if made is None:
             return None
         self._uploads += 1
-        on_device = None if made.stack is None else LobeStackOnDevice(made.stack)
-        self._shown[look] = _Shown(on_device, made.error, made.is_final, self._uploads)
+        gpu_map_set = None if made.stack is None else GpuLobeStack(made.stack)
+        self._shown[look] = _Shown(gpu_map_set, made.error, made.is_final, self._uploads)
         oldest = self._uploads - KEPT
         self._shown = {each: shown for each, shown in self._shown.items() if shown.used_at >= oldest}
         return self._shown[look]

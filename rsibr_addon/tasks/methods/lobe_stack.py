@@ -15,7 +15,7 @@ from ...core.lobes.accuracy import fit_errors
 from ...core.lobes.bake import SIZES, bake_stack, sharpest_resolved
 from ...core.lobes.fit import Fit
 from ...core.progress import Progress, Steps
-from ...device.kinds.lobe_stack import LobeStackOnDevice
+from ...device.kinds.lobe_stack import GpuLobeStack
 from ...files.fits import read_fit
 from ...files.kinds.lobe_stack import from_map_set, in_turn
 from ...host.version import software
@@ -155,4 +155,4 @@ def _resolved_fit(spec: str, settings: LobeStackSettings, light: Environment) ->
     return coarser
 
 
-KIND = Kind(from_map_set, LobeStackOnDevice, Method(bake, cost, material), TRUTH)
+KIND = Kind(from_map_set, GpuLobeStack, Method(bake, cost, material), TRUTH)

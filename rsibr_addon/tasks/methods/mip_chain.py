@@ -13,7 +13,7 @@ from ...core.maps.representation import representation
 from ...core.options import to_plain
 from ...core.progress import Progress, Steps
 from ...core.resample import resample
-from ...device.kinds.mip_chain import MipChainOnDevice
+from ...device.kinds.mip_chain import GpuMipChain
 from ...files.kinds.mip_chain import from_map_set, to_map_set
 from ...files.memory import check_memory
 from ...host.version import software
@@ -110,4 +110,4 @@ def _harmonics(light: Environment) -> Array:
     return analyse_environment(light.radiance, 2).real(2)
 
 
-KIND = Kind(from_map_set, MipChainOnDevice, Method(bake, cost))
+KIND = Kind(from_map_set, GpuMipChain, Method(bake, cost))

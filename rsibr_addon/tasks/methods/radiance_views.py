@@ -16,7 +16,7 @@ from ...core.geometry.geodesic import geodesic_sphere
 from ...core.maps.sphere_map import fill_rim
 from ...core.options import to_plain
 from ...core.progress import Progress, Steps
-from ...device.kinds.radiance_views import RadianceViewsOnDevice
+from ...device.kinds.radiance_views import GpuRadianceViews
 from ...files.atomic import check_target, written_aside
 from ...files.exr import Part, read_attributes, read_parts, write_parts
 from ...files.kinds.radiance_views import from_map_set
@@ -244,4 +244,4 @@ def _header(captured: _Captured, parts: list[dict[str, Any]], noise: float) -> d
     )
 
 
-KIND = Kind(from_map_set, RadianceViewsOnDevice, Method(bake, cost, material), TRUTH)
+KIND = Kind(from_map_set, GpuRadianceViews, Method(bake, cost, material), TRUTH)

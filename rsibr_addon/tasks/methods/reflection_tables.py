@@ -5,7 +5,7 @@ from ...core.kinds.reflection_tables.bake import bake_tables, largest_rows
 from ...core.kinds.reflection_tables.material import material_from_texts
 from ...core.kinds.reflection_tables.weights import warn_of_table_gain
 from ...core.progress import Steps
-from ...device.kinds.reflection_tables import ReflectionTablesOnDevice
+from ...device.kinds.reflection_tables import GpuReflectionTables
 from ...files.brdfs import read_measured
 from ...files.kinds.reflection_tables import from_map_set, to_map_set
 from ...files.memory import check_memory
@@ -84,4 +84,4 @@ def bake(job: BakeJob[ReflectionTablesSettings]) -> Steps[Baked]:
     return Baked(path, ", ".join(f"{part} {text}" for part, text in parts.items()))
 
 
-KIND = Kind(from_map_set, ReflectionTablesOnDevice, Method(bake, cost, material))
+KIND = Kind(from_map_set, GpuReflectionTables, Method(bake, cost, material))

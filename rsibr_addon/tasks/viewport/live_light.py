@@ -13,10 +13,10 @@ from ...core.kinds.live_environment import (
     faces_within,
     near_distances,
 )
-from ...device.kinds.live_environment import LiveEnvironmentOnDevice
+from ...device.kinds.live_environment import GpuLiveEnvironment
 from ...device.surroundings import SurroundingsCamera
 from ...host.live_light import appearance_of, bare, points_of
-from ...host.viewport import Surface, View
+from ...host.visible_surfaces import Surface, View
 
 UPDATES_JUDGED = 5
 """So many of the last say what the next one will take."""
@@ -32,12 +32,12 @@ class LiveLight:
 
     Attributes
     ----------
-    on_device : LiveEnvironmentOnDevice
+    gpu_map_set : GpuLiveEnvironment
         To be drawn with, once `is_ready`.
     """
 
     def __init__(self, size: int) -> None:
-        self.on_device = LiveEnvironmentOnDevice(size)
+        self.gpu_map_set = GpuLiveEnvironment(size)
         self._camera = SurroundingsCamera(size)
         self._missing = FACE_COUNT
         self._due = FACE_COUNT
@@ -76,8 +76,8 @@ class LiveLight:
         faces = faces_due(self._due, self._next_face, faces_within(budget, self._seconds_per_face))
         since = time.perf_counter()
         self._render(faces, view, surface)
-        self.on_device.filter()
-        self.on_device.finish()
+        self.gpu_map_set.filter()
+        self.gpu_map_set.finish()
         self._seconds_per_face.append((time.perf_counter() - since) / len(faces))
         self._next_face = (faces[-1] + 1) % FACE_COUNT
         self._due -= len(faces)
@@ -99,4 +99,4 @@ class LiveLight:
             for face in faces:
                 projection = face_projection(nearest[face], max(space.clip_end, 2.0 * nearest[face]))
                 seen = self._camera.see(view.scene, view.layer[1], space, face_view(face, centre), projection)
-                self.on_device.set_face(face, seen)
+                self.gpu_map_set.set_face(face, seen)

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from ...device.drawing import OnDevice
+from ...device.drawing import GpuMapSet
 from ..methods.kinds import open_map_set
 
 KEPT_BYTES = 512 * 2**20
@@ -24,7 +24,7 @@ class UploadedMapSet:
     ----------
     kind : str
         See `kinds.KINDS`.
-    on_device : OnDevice
+    gpu_map_set : GpuMapSet
     stamp : Stamp or None
         The file that it was read from, as it was then; None for light that is rendered.
     size : int
@@ -32,7 +32,7 @@ class UploadedMapSet:
     """
 
     kind: str
-    on_device: OnDevice
+    gpu_map_set: GpuMapSet
     stamp: Stamp | None = None
     size: int = 0
 

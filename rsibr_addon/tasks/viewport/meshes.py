@@ -2,9 +2,9 @@
 
 from typing import Any
 
-from ...device.drawing import MeshOnDevice
+from ...device.drawing import GpuMesh
 from ...host.meshes import content_of, evaluated_mesh, triangle_mesh
-from ...host.viewport import Surface
+from ...host.visible_surfaces import Surface
 
 
 class UploadedMeshes:
@@ -16,13 +16,13 @@ class UploadedMeshes:
 
     def __init__(self) -> None:
         self._contents: dict[int, bytes] = {}
-        self._uploaded: dict[bytes, MeshOnDevice] = {}
-        self._standing: dict[Surface, MeshOnDevice] = {}
+        self._uploaded: dict[bytes, GpuMesh] = {}
+        self._standing: dict[Surface, GpuMesh] = {}
 
     def __len__(self) -> int:
         return len(self._uploaded)
 
-    def __getitem__(self, surface: Surface) -> MeshOnDevice:
+    def __getitem__(self, surface: Surface) -> GpuMesh:
         """What a surface is drawn with, once it is `there`."""
         return self._standing[surface]
 
@@ -33,7 +33,7 @@ class UploadedMeshes:
         ----------
         surface : Surface
         evaluated : bpy.types.Object
-            As `host.viewport.surfaces` yields it with the surface.
+            As `host.visible_surfaces.surfaces` yields it with the surface.
         depsgraph : bpy.types.Depsgraph
         """
         if surface.mesh not in self._contents:
@@ -41,7 +41,7 @@ class UploadedMeshes:
                 content = content_of(mesh)
                 if content not in self._uploaded and mesh.polygons:
                     triangles = triangle_mesh(mesh, evaluated.name)
-                    self._uploaded[content] = MeshOnDevice(
+                    self._uploaded[content] = GpuMesh(
                         triangles.positions, triangles.normals, triangles.triangles
                     )
                 self._contents[surface.mesh] = content  # at last: what fails above is tried again

@@ -12,13 +12,13 @@ from ...core.errors import RsibrError
 from ...core.options import declared_options
 from ...core.pictures.display import table_radiance
 from ...device import buffers
-from ...device.viewport import Sight, Stage, current_sight, draw_occluder
+from ...device.preview_stage import Sight, Stage, current_sight, draw_occluder
 from ...files.kinds.registry import look_types
 from ...host.display import Display, display_of, displayed_colours, scale_before_display
 from ...host.live_light import is_live_name, shows_surroundings
 from ...host.map_sets import written_path
 from ...host.option_properties import options_of
-from ...host.viewport import Layer, Surface, View, is_wanted, map_set_of, shown_layers, surfaces
+from ...host.visible_surfaces import Layer, Surface, View, is_wanted, map_set_of, shown_layers, surfaces
 from ...host.world_light import AS_IT_IS
 from ..methods.kinds import KINDS
 from .live_light import LiveLight
@@ -279,7 +279,7 @@ class Previews:
     def _opened(self, preview: _Preview) -> UploadedMapSet:
         if is_live_name(preview.path):
             light = self._live[preview.path] = LiveLight(int(preview.surface.item.rsibr.live.size))
-            return UploadedMapSet("mip_chain", light.on_device)
+            return UploadedMapSet("mip_chain", light.gpu_map_set)
         path = written_path(preview.surface.item.rsibr)
         return self._unused.take(preview.path, path) or upload_map_set(path)
 
@@ -289,7 +289,7 @@ class Previews:
             look = self._look(preview, other)
             if look is not None:
                 placed = sight.on(surface.matrix, view.light_of(surface.item).turn)
-                map_set.on_device.draw(self._meshes[surface], placed, look)
+                map_set.gpu_map_set.draw(self._meshes[surface], placed, look)
 
     def _look(self, preview: _Preview, other: bool) -> Any:
         """How an object is shaded: as before, while a new look is being made; None before there is any."""
@@ -302,7 +302,7 @@ class Previews:
         if look in asked:
             asked.remove(look)
         asked.append(look)
-        newest = kind.newest(map_set.on_device, asked)
+        newest = kind.newest(map_set.gpu_map_set, asked)
         if newest is not None:
             del asked[: asked.index(newest)]
         return newest

@@ -14,8 +14,8 @@ import numpy as np
 
 from ..core.conventions import Array
 from . import buffers
-from .drawing import Draw, MeshOnDevice
-from .viewport_shaders import composite_shader, occluder_shader
+from .drawing import Draw, GpuMesh
+from .stage_shaders import composite_shader, occluder_shader
 
 _SCREEN_TRIANGLE = np.array([[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]])
 
@@ -63,12 +63,12 @@ def current_sight() -> Sight:
     return Sight(np.array(view), np.array(projection), np.array(eye))
 
 
-def draw_occluder(mesh: MeshOnDevice, draw: Draw) -> None:
+def draw_occluder(mesh: GpuMesh, draw: Draw) -> None:
     """Draw a surface that may hide previews.
 
     Parameters
     ----------
-    mesh : MeshOnDevice
+    mesh : GpuMesh
     draw : Draw
     """
     shader = occluder_shader()

@@ -8,7 +8,7 @@ RAYS = ("diffuse", "glossy", "transmission", "volume_scatter", "shadow")
 """Kinds of rays except the camera's, by their names in Blender."""
 
 
-def add_clear_shell(
+def add_camera_ray_shell(
     scene: bpy.types.Scene, point: ArrayLike = (0.0, 0.0, 0.0), half_width: float = 1.0
 ) -> bpy.types.Object:
     """Put a cube about a camera through which its rays go straight, but no longer as camera rays.

@@ -1,22 +1,22 @@
-"""What is wished for is made in a thread, the last wish first, and never more than is needed."""
+"""What is requested is made in a thread, the last request first, and never more than is needed."""
 
 import threading
 from collections.abc import Iterator
 
 import pytest
-from rsibr.rsibr_addon.tasks.methods.latest_request_worker import Workshop
+from rsibr.rsibr_addon.tasks.methods.latest_request_worker import LatestRequestWorker
 
 SECONDS = 20.0
 """After these a thread hangs."""
 
 
 @pytest.fixture
-def shop() -> Iterator[Workshop]:
-    shop = Workshop()
-    shop.open()
-    yield shop
-    shop.close()
-    assert not shop.is_open
+def worker() -> Iterator[LatestRequestWorker]:
+    worker = LatestRequestWorker()
+    worker.open()
+    yield worker
+    worker.close()
+    assert not worker.is_open
 
 
 class Work:
@@ -48,72 +48,72 @@ class Work:
         self._allowed.release()
 
 
-def wait_until_idle(shop: Workshop) -> None:
+def wait_until_idle(worker: LatestRequestWorker) -> None:
     waiting = threading.Event()
-    while shop.is_busy:
+    while worker.is_busy:
         waiting.wait(0.005)
 
 
-def test_news_come_with_what_can_be_shown(shop: Workshop) -> None:
+def test_news_come_with_what_can_be_shown(worker: LatestRequestWorker) -> None:
     work = Work(False, True, False)
-    shop.wish("a", work.steps(), is_urgent=True)
+    worker.request("a", work.steps(), is_urgent=True)
     work.allow()
-    assert shop.is_busy
-    assert not shop.take_news()
+    assert worker.is_busy
+    assert not worker.take_news()
     work.allow(2)
-    wait_until_idle(shop)
-    assert shop.take_news()
-    assert not shop.take_news()
+    wait_until_idle(worker)
+    assert worker.take_news()
+    assert not worker.take_news()
     assert work.done == [0, 1, 2]
 
 
-def test_an_urgent_wish_interrupts_what_can_be_shown_already(shop: Workshop) -> None:
+def test_an_urgent_request_interrupts_what_can_be_shown_already(worker: LatestRequestWorker) -> None:
     slow, urgent = Work(True, False, False, False), Work(True)
-    shop.wish("slow", slow.steps(), is_urgent=True)
+    worker.request("slow", slow.steps(), is_urgent=True)
     slow.allow()
-    shop.wish("urgent", urgent.steps(), is_urgent=True)
+    worker.request("urgent", urgent.steps(), is_urgent=True)
     slow.allow_unseen()  # it may be in its second step already
     urgent.allow()
     assert slow.closed.wait(SECONDS)
     assert len(slow.done) <= 2
-    wait_until_idle(shop)
+    wait_until_idle(worker)
     assert urgent.done == [0]
 
 
-def test_a_wish_that_can_wait_waits(shop: Workshop) -> None:
+def test_a_request_that_can_wait_waits(worker: LatestRequestWorker) -> None:
     first, second = Work(True, False), Work(True)
-    shop.wish("first", first.steps(), is_urgent=True)
+    worker.request("first", first.steps(), is_urgent=True)
     first.allow()
-    shop.wish("second", second.steps(), is_urgent=False)
+    worker.request("second", second.steps(), is_urgent=False)
     first.allow()
     second.allow()
-    wait_until_idle(shop)
+    wait_until_idle(worker)
     assert (first.done, second.done) == ([0, 1], [0])
 
 
-def test_of_several_wishes_the_last_is_made_and_none_twice(shop: Workshop) -> None:
+def test_of_several_requests_the_last_is_made_and_none_twice(worker: LatestRequestWorker) -> None:
     first, dropped, last, again = Work(False, True), Work(True), Work(True), Work(True)
-    shop.wish("first", first.steps(), is_urgent=True)
+    worker.request("first", first.steps(), is_urgent=True)
     first.allow()
-    shop.wish("dropped", dropped.steps(), is_urgent=True)
-    shop.wish("last", last.steps(), is_urgent=True)
-    shop.wish("first", again.steps(), is_urgent=True)  # is being made
+    worker.request("dropped", dropped.steps(), is_urgent=True)
+    worker.request("last", last.steps(), is_urgent=True)
+    worker.request("first", again.steps(), is_urgent=True)  # is being made
     first.allow()
     last.allow()
-    wait_until_idle(shop)
+    wait_until_idle(worker)
     assert dropped.done == again.done == []
 
 
 def test_closing_ends_the_thread_after_a_step() -> None:
-    shop, work = Workshop(), Work(False, False, False)
-    shop.open()
-    shop.wish("a", work.steps(), is_urgent=True)
+    worker, work = LatestRequestWorker(), Work(False, False, False)
+    worker.open()
+    worker.request("a", work.steps(), is_urgent=True)
     work.allow()
-    closing = threading.Thread(target=shop.close)
+    closing = threading.Thread(target=worker.close)
     closing.start()
     work.allow_unseen()
     closing.join(SECONDS)
     assert not closing.is_alive()
     assert work.closed.is_set()
     assert len(work.done) <= 2
-    assert not shop.is_busy
+    assert not worker.is_busy

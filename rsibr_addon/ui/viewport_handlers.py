@@ -8,7 +8,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..device.shaders import release_programs
-from ..host.viewport import current_view
+from ..host.visible_surfaces import current_view
 from ..tasks.methods.latest_request_worker import workshop
 from ..tasks.viewport.previews import previews
 

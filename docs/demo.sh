@@ -62,7 +62,7 @@ step "Filtering the environment with a bank of kernels" \
 for mesh in monkey sphere; do
     for map_set in plastic lobes tables mips bank; do
         case $map_set in
-            mips) look=(--k-d 0.05,0.2,0.1 --f-lambda 0.08 --roughness 0.2) ;;
+            mips) look=(--kd 0.05,0.2,0.1 --f0 0.08 --roughness 0.2) ;;
             bank) look=(--brdf ggx:alpha=0.15,metal=gold) ;;
             *) look=() ;;
         esac

@@ -10,7 +10,7 @@ void main()
   vec3 unit_normal = normalize(world_normal);
   vec3 view_dir = view_direction(draw.eye, world_position);
   vec3 mirror_dir = reflect_dir(view_dir, unit_normal);
-  vec3 fresnel = fresnel_schlick(clamp(dot(unit_normal, view_dir), 0.0, 1.0), look.f_lambda.rgb);
+  vec3 fresnel = fresnel_schlick(clamp(dot(unit_normal, view_dir), 0.0, 1.0), look.f0.rgb);
   vec3 across, up, corners[4];
   pixel_sides(mirror_dir, 1.0, across, up);
   parallelogram(mirror_dir, across, up, corners);

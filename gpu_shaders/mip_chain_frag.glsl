@@ -10,13 +10,13 @@ void main()
 {
   vec3 unit_normal = normalize(world_normal);
   vec3 view_dir = view_direction(draw.eye, world_position);
-  vec3 fresnel = fresnel_schlick(clamp(dot(unit_normal, view_dir), 0.0, 1.0), look.f_lambda.rgb);
+  vec3 fresnel = fresnel_schlick(clamp(dot(unit_normal, view_dir), 0.0, 1.0), look.f0.rgb);
 #ifdef LIVE
   vec3 light = irradiance_from_harmonics(harmonics, unit_normal);
 #else
   vec3 light = irradiance(look.irradiance_red, look.irradiance_green, look.irradiance_blue, unit_normal);
 #endif
-  vec3 diffuse = look.k_d.rgb / PI * max(light, 0.0);
+  vec3 diffuse = look.kd.rgb / PI * max(light, 0.0);
   vec3 mirror_dir = reflect_dir(view_dir, unit_normal);
   vec3 across, up;
   pixel_sides(mirror_dir, look.antialiased, across, up);

@@ -42,10 +42,9 @@ def add_option(parser: Any, declared: Declared, description: str) -> None:
     else:
         common["metavar"] = told.metavar or _METAVARS[declared.wanted]
     required = declared.default is MISSING
+    flags = filter(None, (declared.flag, told.old_flag))
     action = "extend" if declared.wanted is tuple and declared.count is None else "store"
-    parser.add_argument(
-        declared.flag, type=partial(_value, declared), required=required, action=action, **common
-    )
+    parser.add_argument(*flags, type=partial(_value, declared), required=required, action=action, **common)
 
 
 def given[Given: Options](arguments: argparse.Namespace, options: type[Given]) -> Given:

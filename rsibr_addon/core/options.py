@@ -93,8 +93,8 @@ class Option:
         The value for the quality of this name; None for the default.
     advanced : bool
         Whether most users never need it.
-    flag : str
-        Name on the command line; empty for the field's.
+    flag, old_flag : str
+        Name on the command line, empty for the field's; and its name in version 0.1, which goes with 0.3.
     metavar : str
         Stands for the value on the command line.
     subtype : str
@@ -122,6 +122,7 @@ class Option:
     final: Any = None
     advanced: bool = False
     flag: str = ""
+    old_flag: str = ""
     metavar: str = ""
     subtype: str = ""
     stored: str = ""

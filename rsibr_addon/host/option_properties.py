@@ -104,6 +104,25 @@ def options_of[Given: Options](options: type[Given], group: Any, own: str = "") 
     return options(**values)
 
 
+def said_by(options: type[Options], group: Any) -> tuple[Any, ...]:
+    """All that properties say, to tell whether anything has changed; never raises.
+
+    Parameters
+    ----------
+    options : type
+        What `properties_of` made the properties of.
+    group : bpy.types.PropertyGroup
+    """
+    values = []
+    for declared in declared_options(options):
+        name = property_name(declared)
+        value = getattr(group, name)
+        values.append(value if isinstance(value, str | float | int | set) else tuple(value))
+        if declared.option.switch is not None:
+            values.append(getattr(group, f"use_{name}"))
+    return tuple(values)
+
+
 def show_option(declared: Declared, group: Any, value: Any) -> None:
     """Have a property say the value of an option, which is no material."""
     name = property_name(declared)

@@ -13,8 +13,8 @@ from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError, RsibrError, SceneError
 from rsibr.rsibr_addon.files.kinds.registry import look_types
 from rsibr.rsibr_addon.host.bake_settings import baked_folder
+from rsibr.rsibr_addon.host.option_properties import options_of
 from rsibr.rsibr_addon.tasks.queue.bake_request import request_for
-from rsibr.rsibr_addon.tasks.viewport.previews import _look_settings
 from rsibr.tests.bake_jobs import run_job
 
 
@@ -59,7 +59,7 @@ def test_looks_of_a_newer_version_are_told_of_where_the_preview_would_be(
     group = getattr(looks, kind)
     group.bl_system_properties_get(do_create=True)[name] = 77
     with pytest.raises(RangeError, match=sentence):
-        look_types()[kind](**_look_settings(looks, kind))
+        options_of(look_types()[kind], group)
 
 
 def test_neither_camera_nor_lamp_is_needed(tmp_path: Path) -> None:

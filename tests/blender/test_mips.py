@@ -72,14 +72,14 @@ def test_texture_space_mips_keep_the_light(light: np.ndarray, name: str) -> None
 @pytest.mark.needs("gl")
 def test_a_chain_is_previewed_as_it_is_asked_for(light: np.ndarray) -> None:
     chain = bake("--size", "16", "--filter", "bordered")
-    look = ["--f-lambda", "1", "--bias", "9.4", "--size", "32"]
+    look = ["--f0", "1", "--mip", "9.4", "--size", "32"]
     assert run(["preview", "out.rsibr.exr", *look, "-o", "ball.exr"]) == 0
     picture = read_exr(Path("ball.exr"))
     shown = picture[picture[..., 3] == 1.0, :3]
     smallest = chain.mips[-1].reshape(-1, 3)
     assert np.all(shown > smallest.min(axis=0) - 1e-4)
     assert np.all(shown < smallest.max(axis=0) + 1e-4)
-    assert run(["preview", "out.rsibr.exr", "--k-d", "0.5,0,0", "--f-lambda", "0", "-o", "red.exr"]) == 0
+    assert run(["preview", "out.rsibr.exr", "--kd", "0.5,0,0", "--f0", "0", "-o", "red.exr"]) == 0
     red = read_exr(Path("red.exr"))
     middle = red[200:300, 200:300]
     assert middle[..., 0].min() > 10.0 * middle[..., 1].max()
@@ -93,7 +93,7 @@ def test_a_mirrored_sphere_shows_its_surroundings(
     monkeypatch.chdir(tmp_path)
     write_radiance(tmp_path / "light.exr", radiance_from(equirect.direction_from_uv(texel_centres(256, 128))))
     bake("--filter", name, "--size", "64")
-    view = ["--view", "0.3,-0.8,0.45", "--f-lambda", "1", "--size", "48"]
+    view = ["--view", "0.3,-0.8,0.45", "--f0", "1", "--size", "48"]
     assert run(["preview", "out.rsibr.exr", *view, "-o", "ball.exr"]) == 0
     camera = Camera((0.3, -0.8, 0.45))
     normals = sphere_map.normal_from_uv(texel_centres(48, 48)) @ camera.frame.T

@@ -7,9 +7,13 @@ import bpy
 import numpy as np
 import pytest
 import rsibr
+from rsibr.rsibr_addon.core.kinds.mip_chain.shading import MipLook
+from rsibr.rsibr_addon.core.kinds.reflection_tables.shading import TablesLook
+from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import Role
 from rsibr.rsibr_addon.files.kinds.registry import look_types
+from rsibr.rsibr_addon.host.option_properties import options_of
 from rsibr.rsibr_addon.host.visible_surfaces import is_wanted, map_set_of, surfaces
-from rsibr.rsibr_addon.tasks.viewport.previews import _look_settings, _settings
+from rsibr.rsibr_addon.tasks.viewport.previews import _settings
 
 
 @pytest.fixture(autouse=True)
@@ -19,14 +23,10 @@ def _registered() -> Iterator[None]:
     rsibr.unregister()
 
 
-def settings_of(group: bpy.types.PropertyGroup) -> set[str]:
-    return {prop.identifier for prop in group.bl_rna.properties} - {"rna_type", "name"}
-
-
 @pytest.mark.parametrize("kind", look_types())
 def test_an_untouched_object_is_shaded_by_its_kind_s_defaults(kind: str) -> None:
     cube = bpy.data.objects["Cube"]
-    look, default = look_types()[kind](**_look_settings(cube.rsibr, kind)), look_types()[kind]()
+    look, default = options_of(look_types()[kind], getattr(cube.rsibr, kind)), look_types()[kind]()
     for field in fields(default):
         found, expected = getattr(look, field.name), getattr(default, field.name)
         if isinstance(expected, tuple) and expected and isinstance(expected[0], float):
@@ -37,27 +37,18 @@ def test_an_untouched_object_is_shaded_by_its_kind_s_defaults(kind: str) -> None
             assert found == expected
 
 
-@pytest.mark.parametrize("kind", look_types())
-def test_every_setting_is_a_field_of_the_look(kind: str) -> None:
-    group = getattr(bpy.data.objects["Cube"].rsibr, kind, None)
-    if group is None:
-        return  # shaded by its defaults alone
-    names = {field.name for field in fields(look_types()[kind])}
-    assert {name.removeprefix("use_") for name in settings_of(group)} <= names
-
-
 def test_settings_reach_the_look_and_are_told_apart() -> None:
     cube = bpy.data.objects["Cube"]
     before = _settings(cube)
     assert _settings(cube) == before
-    cube.rsibr.mip_chain.k_d = (0.25, 0.5, 1.0)
-    assert _look_settings(cube.rsibr, "mip_chain")["k_d"] == (0.25, 0.5, 1.0)
+    cube.rsibr.mip_chain.k_d = (0.25, 0.5, 1.0)  # as files of version 0.1 hold it
+    assert options_of(MipLook, cube.rsibr.mip_chain).kd == (0.25, 0.5, 1.0)
     assert _settings(cube) != before
-    assert "roughness" not in _look_settings(cube.rsibr, "mip_chain")
+    assert options_of(MipLook, cube.rsibr.mip_chain).roughness is None
     cube.rsibr.mip_chain.use_roughness = True
-    assert _look_settings(cube.rsibr, "mip_chain")["roughness"] == pytest.approx(0.3)
+    assert options_of(MipLook, cube.rsibr.mip_chain).roughness == pytest.approx(0.3)
     cube.rsibr.reflection_tables.shown = {"retro"}
-    assert _look_settings(cube.rsibr, "reflection_tables")["shown"] == {"retro"}
+    assert options_of(TablesLook, cube.rsibr.reflection_tables).shown == (Role.RETRO,)
 
 
 def test_nothing_is_wanted_until_a_file_is_named_and_shown() -> None:

@@ -63,7 +63,7 @@ def test_a_small_footprint_is_interpolated() -> None:
 
 def test_reflectance_is_schlick_s() -> None:
     light = Environment(np.ones((4, 8, 3), np.float32), "even")
-    look = EnvironmentLook(f_lambda=(1.0, 0.5, 0.0), antialiased=False)
+    look = EnvironmentLook(f0=(1.0, 0.5, 0.0), antialiased=False)
     shown = mirrored_environment(light, NORMAL, VIEW, look)
     fifth = (1.0 - np.clip(dot(NORMAL, VIEW), 0.0, 1.0)) ** 5
     np.testing.assert_allclose(shown, np.stack([np.ones(500), 0.5 + 0.5 * fifth, fifth], axis=-1))
@@ -71,4 +71,4 @@ def test_reflectance_is_schlick_s() -> None:
 
 def test_what_cannot_be_shaded_is_refused() -> None:
     with pytest.raises(RangeError, match=r"Reflectance cannot be 1\.5"):
-        EnvironmentLook(f_lambda=(1.0, 1.0, 1.5))
+        EnvironmentLook(f0=(1.0, 1.0, 1.5))

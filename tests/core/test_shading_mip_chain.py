@@ -40,10 +40,10 @@ def random() -> MipChain:
 
 def test_white_surroundings_show_albedo_and_fresnel_alone() -> None:
     chain = chain_of(np.full((64, 128, 3), (1.0, 2.0, 3.0)), 8)
-    look = MipLook(f_lambda=(0.1, 0.2, 0.3), k_d=(0.5, 0.6, 0.7), bias=1.5)
+    look = MipLook(f0=(0.1, 0.2, 0.3), kd=(0.5, 0.6, 0.7), mip=1.5)
     cosine = np.einsum("ni,ni->n", NORMALS, VIEWS)[:, None]
-    fresnel = np.array(look.f_lambda) + (1.0 - np.array(look.f_lambda)) * (1.0 - cosine) ** 5
-    expected = ((1.0 - fresnel) * look.k_d + fresnel) * (1.0, 2.0, 3.0)
+    fresnel = np.array(look.f0) + (1.0 - np.array(look.f0)) * (1.0 - cosine) ** 5
+    expected = ((1.0 - fresnel) * look.kd + fresnel) * (1.0, 2.0, 3.0)
     # The sum of texels' harmonics for the integral: l (l + 1) / 24 times (pi / 64)^2 at degree 2.
     np.testing.assert_allclose(mip_chain_radiance(chain, NORMALS, VIEWS, look), expected, rtol=1e-3)
 
@@ -51,9 +51,9 @@ def test_white_surroundings_show_albedo_and_fresnel_alone() -> None:
 def test_at_grazing_angles_only_the_mirror_direction_counts(random: MipChain) -> None:
     view = np.cross(NORMALS, normalize(RNG.normal(size=NORMALS.shape)))
     view = normalize(view)
-    for bias in (0.0, 1.3):
-        found = mip_chain_radiance(random, NORMALS, view, MipLook(bias=bias))
-        glossy = glossy_radiance(random, reflect(view, NORMALS), bias, Borders.SEAMLESS)
+    for mip in (0.0, 1.3):
+        found = mip_chain_radiance(random, NORMALS, view, MipLook(mip=mip))
+        glossy = glossy_radiance(random, reflect(view, NORMALS), mip, Borders.SEAMLESS)
         np.testing.assert_allclose(found, glossy, rtol=1e-12)
 
 
@@ -83,8 +83,8 @@ def test_levels_between_mips_are_linear_and_end_at_the_last(random: MipChain) ->
         glossy_radiance(random, NORMALS, level, Borders.SEAMLESS) for level in (2.0, 3.0, 2.25)
     )
     np.testing.assert_allclose(between, 0.75 * one + 0.25 * other, rtol=1e-12)
-    assert MipLook(bias=9.4).level(random) == 4.0
-    assert MipLook(bias=2.3).level(random) == 2.3
+    assert MipLook(mip=9.4).level(random) == 4.0
+    assert MipLook(mip=2.3).level(random) == 2.3
 
 
 def test_the_border_problem_and_its_absence() -> None:
@@ -98,7 +98,7 @@ def test_the_border_problem_and_its_absence() -> None:
     across = np.stack([normalize(edge * (1.0 + step, 1.0, 1.0)) for step in (-5e-4, 5e-4)])
 
     def jump(chain: MipChain, borders: Borders) -> float:
-        one, other = glossy_radiance(chain, across, MipLook(bias=9.4).level(chain), borders)
+        one, other = glossy_radiance(chain, across, MipLook(mip=9.4).level(chain), borders)
         return float(np.abs(one - other).max())
 
     whole = float(box.mips[-1].max() - box.mips[-1].min())
@@ -115,19 +115,19 @@ def test_a_ggx_chain_is_looked_up_by_roughness(random: MipChain) -> None:
     assert MipLook(roughness=0.2).level(ggx) == pytest.approx(1.5)
     assert MipLook(roughness=1.0).level(ggx) == 4.0
     assert MipLook(roughness=0.05).level(replace(random, roughness=(0.1, 0.2, 0.3, 0.7, 1.0))) == 0.0
-    with pytest.raises(RangeError, match="has no roughness: choose a bias instead"):
+    with pytest.raises(RangeError, match="has no roughness: choose a mip instead"):
         MipLook(roughness=0.2).level(random)
 
 
 @pytest.mark.parametrize(
     ("values", "sentence"),
     [
-        ({"f_lambda": (0.1, 1.2, 0.0)}, "Reflectance cannot be 1.2: choose 0 to 1"),
-        ({"k_d": (0.1, -0.2, 0.0)}, "Diffuse cannot be -0.2: choose 0 to 1"),
-        ({"bias": -0.5}, "Mip cannot be -0.5: choose 0 to"),
-        ({"bias": np.nan}, "Mip cannot be nan"),
+        ({"f0": (0.1, 1.2, 0.0)}, "Reflectance cannot be 1.2: choose 0 to 1"),
+        ({"kd": (0.1, -0.2, 0.0)}, "Diffuse cannot be -0.2: choose 0 to 1"),
+        ({"mip": -0.5}, "Mip cannot be -0.5: choose 0 to"),
+        ({"mip": np.nan}, "Mip cannot be nan"),
         ({"roughness": 1.5}, "Roughness cannot be 1.5: choose 0 to 1"),
-        ({"roughness": 0.5, "bias": 1.0}, "give one of them"),
+        ({"roughness": 0.5, "mip": 1.0}, "give one of them"),
     ],
 )
 def test_bad_looks_are_refused(values: dict, sentence: str) -> None:

@@ -91,13 +91,13 @@ def test_what_is_no_radiance_is_black_or_bounded() -> None:
 
 
 @FILTERS
-@pytest.mark.parametrize("bias", [0.0, 1.6, 9.4])
-def test_a_picture_is_that_of_the_uploaded_chain(across_borders: bool, bias: float) -> None:
+@pytest.mark.parametrize("mip", [0.0, 1.6, 9.4])
+def test_a_picture_is_that_of_the_uploaded_chain(across_borders: bool, mip: float) -> None:
     ensure_context()
     faces = smooth_faces(32)
     live = GpuLiveEnvironment(32, across_borders)
     show(live, faces)
-    look = MipLook(f_lambda=(0.3, 0.5, 0.9), k_d=(0.9, 0.5, 0.1), bias=bias)
+    look = MipLook(f0=(0.3, 0.5, 0.9), kd=(0.9, 0.5, 0.1), mip=mip)
     camera = Camera((1.0, -0.7, 0.4), 0.6)
     uploaded = GpuMipChain(reference(faces, across_borders))
     pictures = [PreviewRenderer(subject).draw(*SPHERE, camera, SIZE, look) for subject in (live, uploaded)]
@@ -113,7 +113,7 @@ def test_black_at_first_and_bad_requests() -> None:
     picture = PreviewRenderer(live).draw(*SPHERE, camera, SIZE, MipLook())
     assert picture[..., 3].max() == 1.0
     assert picture[..., :3].max() == 0.0
-    with pytest.raises(RangeError, match=r"^Live light has no roughness: choose a bias instead\.$"):
+    with pytest.raises(RangeError, match=r"^Live light has no roughness: choose a mip instead\.$"):
         PreviewRenderer(live).draw(*SPHERE, camera, SIZE, MipLook(roughness=0.3))
     with pytest.raises(RangeError, match=r"^A mip chain cannot be 24 texels wide: choose a power of 2"):
         GpuLiveEnvironment(24)

@@ -15,7 +15,7 @@ from rsibr.rsibr_addon.device.kinds.mip_chain_shaders import mip_chain_shader
 from rsibr.rsibr_addon.device.preview import SAMPLES_PER_AXIS, PreviewRenderer
 from rsibr.tests.glsl.test_preview_renderer import BY_CAMERA, SIZE, SPHERE, sample_footprints, samples
 
-BIASES = pytest.mark.parametrize("bias", [0.0, 1.6, 9.4])
+MIPS = pytest.mark.parametrize("mip", [0.0, 1.6, 9.4])
 
 
 def smooth_chain(halved) -> MipChain:
@@ -44,11 +44,11 @@ def reference(chain: MipChain, camera: Camera, look: MipLook) -> tuple[np.ndarra
     return radiance.reshape(*blocks, 3).mean(axis=(1, 3)), inside
 
 
-@BIASES
+@MIPS
 @BY_CAMERA
-def test_a_picture_is_what_the_reference_says(smooth, bias: float, camera: Camera) -> None:
+def test_a_picture_is_what_the_reference_says(smooth, mip: float, camera: Camera) -> None:
     chain, renderer = smooth
-    look = MipLook(f_lambda=(0.3, 0.5, 0.9), k_d=(0.9, 0.5, 0.1), bias=bias)
+    look = MipLook(f0=(0.3, 0.5, 0.9), kd=(0.9, 0.5, 0.1), mip=mip)
     expected, inside = reference(chain, camera, look)
     picture = renderer.draw(*SPHERE, camera, SIZE, look)
     assert np.all(picture[inside, 3] == 1.0)
@@ -58,7 +58,7 @@ def test_a_picture_is_what_the_reference_says(smooth, bias: float, camera: Camer
     assert np.abs(picture[..., :3] - expected)[inside].max() < 2e-3 * expected.max()
 
 
-@pytest.mark.parametrize("look", [MipLook(borders=Borders.CLAMPED, bias=9.4), MipLook(roughness=0.25)])
+@pytest.mark.parametrize("look", [MipLook(borders=Borders.CLAMPED, mip=9.4), MipLook(roughness=0.25)])
 def test_clamped_borders_and_roughness(smooth, look: MipLook) -> None:
     chain, renderer = smooth
     camera = Camera((1.0, -0.7, 0.4))
@@ -73,7 +73,7 @@ def test_a_box_chain_knows_no_roughness() -> None:
     ensure_context()
     chain = smooth_chain(box_halved)
     renderer = PreviewRenderer(GpuMipChain(MipChain(chain.mips, chain.harmonics)))
-    with pytest.raises(RangeError, match="choose a bias instead"):
+    with pytest.raises(RangeError, match="choose a mip instead"):
         renderer.draw(*SPHERE, Camera((0.0, -1.0, 0.0)), SIZE, MipLook(roughness=0.3))
     assert gpu.state.depth_test_get() == "NONE"
 

@@ -94,7 +94,7 @@ def test_an_object_shows_its_surroundings_and_follows_them(told: Told) -> None:
     assert answer["overlays"] is True
     assert answer["idle"] == [0, 0]
     assert answer["faults"] == [None, None, "mip_chain"]
-    assert answer["roughness"] == "Live light has no roughness: choose a bias instead."
+    assert answer["roughness"] == "Live light has no roughness: choose a mip instead."
     assert answer["off"][0] > 2000
     assert answer["off"][1:] == [0, 0, None]
 

@@ -20,8 +20,8 @@ from .look_options import antialiased_option, colour_option
 class EnvironmentLook(Options):
     """How a mirror in an environment is shaded."""
 
-    f_lambda: tuple[float, float, float] = colour_option(
-        1.0, "Reflectance", "Reflectance of the mirror at normal incidence; 1 is a perfect mirror"
+    f0: tuple[float, float, float] = colour_option(
+        1.0, "Reflectance", "Reflectance of the mirror at normal incidence; 1 is a perfect mirror", "f_lambda"
     )
     antialiased: bool = antialiased_option("the light")
 
@@ -49,5 +49,5 @@ def mirrored_environment(
         light = footprint_mean(radiance, mirror_dir, footprint_or_point(mirror_footprint, mirror_dir))
     else:
         light = bilinear(radiance, equirect.uv_from_direction(mirror_dir), equirect.wrap)
-    shaded: Array = fresnel_schlick(cosine[..., None], look.f_lambda) * light
+    shaded: Array = fresnel_schlick(cosine[..., None], look.f0) * light
     return shaded

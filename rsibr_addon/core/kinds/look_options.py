@@ -5,10 +5,18 @@ from typing import Any
 from ..options import option
 
 
-def colour_option(default: float, label: str, help: str, metavar: str = "F|R,G,B") -> Any:
-    """A share of light, in [0, 1] for red, green and blue; `default` is of all three."""
+def colour_option(default: float, label: str, help: str, old_name: str, metavar: str = "F|R,G,B") -> Any:
+    """A share of light, in [0, 1] for red, green and blue; `default` is of all three, `old_name` of 0.1."""
     return option(
-        (default,) * 3, label=label, help=help, least=0.0, most=1.0, subtype="COLOR", metavar=metavar
+        (default,) * 3,
+        label=label,
+        help=help,
+        least=0.0,
+        most=1.0,
+        subtype="COLOR",
+        metavar=metavar,
+        old_flag=f"--{old_name.replace('_', '-')}",
+        stored=old_name,
     )
 
 

@@ -13,7 +13,7 @@ from ..equirect import Sums, map_sums, map_texture, no_sums
 from ..shaders import build, kept_until_exit, mesh_interface
 
 _LOOK_BLOCK = (
-    "struct EnvironmentLook { vec4 f_lambda; vec4 unit; "
+    "struct EnvironmentLook { vec4 f0; vec4 unit; "
     "float antialiased; float unused_0; float unused_1; float unused_2; };"
 )
 
@@ -63,7 +63,7 @@ class GpuEnvironment:
         antialiased = np.array([float(look.antialiased)])
         shader = environment_shader()
         shader.bind()
-        shader.uniform_block("look", self._look.filled(np.array(look.f_lambda), sums.unit, antialiased))
+        shader.uniform_block("look", self._look.filled(np.array(look.f0), sums.unit, antialiased))
         shader.uniform_sampler("environment", self._map)
         shader.uniform_sampler("sums", sums.texture)
         mesh.draw(shader, draw)

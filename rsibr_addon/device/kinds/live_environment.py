@@ -109,8 +109,8 @@ class GpuLiveEnvironment:
             The look has a roughness, which filters in texture space do not have.
         """
         if look.roughness is not None:
-            raise RangeError("Live light has no roughness: choose a bias instead.")
-        level = min(look.bias, self._mip_count - 1.0)
+            raise RangeError("Live light has no roughness: choose a mip instead.")
+        level = min(look.mip, self._mip_count - 1.0)
         shading = self._shading.filled(*look_fields(look, level, self._mip_count))
         shader = live_mip_chain_shader()
         shader.bind()

@@ -7,7 +7,7 @@ from ...core.conventions import Array
 from ...core.kinds.mip_chain.shading import Borders, MipLook
 from ..shaders import build, kept_until_exit, mesh_interface
 
-LOOK_FIELDS = "vec4 f_lambda; vec4 k_d; float level; float last_level; float clamped; float antialiased;"
+LOOK_FIELDS = "vec4 f0; vec4 kd; float level; float last_level; float clamped; float antialiased;"
 """Fields of a block that `look_fields` fills, also for harmonics on the GPU."""
 
 _LOOK_BLOCK = (
@@ -33,7 +33,7 @@ def look_fields(look: MipLook, level: float, mip_count: int) -> tuple[Array, ...
     """
     clamped = look.borders is Borders.CLAMPED
     numbers = np.array([level, mip_count - 1.0, float(clamped), float(look.antialiased)])
-    return np.array(look.f_lambda), np.array(look.k_d), numbers
+    return np.array(look.f0), np.array(look.kd), numbers
 
 
 @kept_until_exit

@@ -9,7 +9,6 @@ from typing import Any
 
 from ...core.conventions import Array
 from ...core.errors import RsibrError
-from ...core.options import declared_options
 from ...core.pictures.display import table_radiance
 from ...device import buffers
 from ...device.preview_stage import Sight, Stage, current_sight, draw_occluder
@@ -17,7 +16,7 @@ from ...files.kinds.registry import look_types
 from ...host.display import Display, display_of, displayed_colours, scale_before_display
 from ...host.live_light import is_live_name, shows_surroundings
 from ...host.map_sets import written_path
-from ...host.option_properties import options_of
+from ...host.option_properties import options_of, said_by
 from ...host.visible_surfaces import Layer, Surface, View, is_wanted, map_set_of, shown_layers, surfaces
 from ...host.world_light import AS_IT_IS
 from ..methods.kinds import KINDS
@@ -338,22 +337,8 @@ def _by_strength(previews: list[_Preview], view: View) -> dict[float, list[_Prev
 def _settings(item: Any) -> object:
     """All that an object says of its preview."""
     both = (item.rsibr, item.rsibr.other)
-    return map_set_of(item), [{kind: _look_settings(looks, kind) for kind in KINDS} for looks in both]
-
-
-def _look_settings(looks: Any, kind: str) -> dict[str, Any]:
-    """What an object says of how a kind of map set is shaded: fields of the kind's look.
-
-    A field `name` may have a switch `use_name`.
-    """
-    group = getattr(looks, kind, None)
-    names = [each.name for each in declared_options(look_types()[kind]) if hasattr(group, each.name)]
-    return {name: _plain(getattr(group, name)) for name in names if getattr(group, f"use_{name}", True)}
-
-
-def _plain(value: Any) -> Any:
-    """Colours as tuples, whose numbers stay when the property's change."""
-    return value if isinstance(value, str | float | int | set) else tuple(value)
+    said = [said_by(look, getattr(looks, kind)) for looks in both for kind, look in look_types().items()]
+    return map_set_of(item), said
 
 
 def _told(error: Exception) -> str:

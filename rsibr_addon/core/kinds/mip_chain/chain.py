@@ -76,7 +76,7 @@ class MipChain:
         mips = tuple(cube_map.turned(faces, rotation) for faces in self.mips)
         return MipChain(mips, turned_harmonics(self.harmonics, rotation), self.roughness)
 
-    def bias(self, roughness: float) -> float:
+    def mip_of(self, roughness: float) -> float:
         """The level of detail at which a GGX chain shows a roughness.
 
         Parameters
@@ -95,7 +95,7 @@ class MipChain:
             The mips were not filtered with GGX lobes.
         """
         if self.roughness is None:
-            raise RangeError("A box-filtered mip chain has no roughness: choose a bias instead.")
+            raise RangeError("A box-filtered mip chain has no roughness: choose a mip instead.")
         return float(np.interp(roughness, self.roughness, np.arange(len(self.roughness))))
 
 

@@ -43,14 +43,16 @@ class MipLook(Options):
     Raises
     ------
     RangeError
-        A value is out of range, or bias and roughness are both given.
+        A value is out of range, or mip and roughness are both given.
     """
 
-    f_lambda: tuple[float, float, float] = colour_option(
-        0.04, "Reflectance", "Reflectance of the glossy part at normal incidence"
+    f0: tuple[float, float, float] = colour_option(
+        0.04, "Reflectance", "Reflectance of the glossy part at normal incidence", "f_lambda"
     )
-    k_d: tuple[float, float, float] = colour_option(0.8, "Diffuse", "Albedo of the diffuse part", "K|R,G,B")
-    bias: float = option(
+    kd: tuple[float, float, float] = colour_option(
+        0.8, "Diffuse", "Albedo of the diffuse part", "k_d", "K|R,G,B"
+    )
+    mip: float = option(
         0.0,
         label="Mip",
         help="Mip that glossy light comes from, linear between two; beyond the last, that",
@@ -58,6 +60,8 @@ class MipLook(Options):
         most=1e3,
         soft_most=10.0,
         metavar="B",
+        old_flag="--bias",
+        stored="bias",
     )
     roughness: float | None = option(
         None,
@@ -86,8 +90,8 @@ class MipLook(Options):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.roughness is not None and self.bias > 0.0:
-            raise RangeError("A roughness and a bias say the same in two ways: give one of them.")
+        if self.roughness is not None and self.mip > 0.0:
+            raise RangeError("A roughness and a mip say the same in two ways: give one of them.")
 
     def level(self, chain: MipChain) -> float:
         """The level of detail to look glossy light up at.
@@ -112,8 +116,8 @@ class MipLook(Options):
         distance, and lookups are averaged over the region that a pixel reflects: see `glossy_mean`.
         """
         if self.roughness is not None:
-            return chain.bias(self.roughness)
-        return min(self.bias, len(chain.mips) - 1.0)
+            return chain.mip_of(self.roughness)
+        return min(self.mip, len(chain.mips) - 1.0)
 
 
 def mip_chain_radiance(
@@ -138,8 +142,8 @@ def mip_chain_radiance(
     """
     normal, view_dir = np.broadcast_arrays(np.asarray(normal, np.float64), np.asarray(view_dir, np.float64))
     cosine = np.clip(dot(normal, view_dir), 0.0, 1.0)
-    fresnel = fresnel_schlick(cosine[..., None], look.f_lambda)
-    diffuse = diffuse_radiance(chain, normal, look.k_d)
+    fresnel = fresnel_schlick(cosine[..., None], look.f0)
+    diffuse = diffuse_radiance(chain, normal, look.kd)
     mirror_dir = reflect(view_dir, normal)
     corners = footprint_or_point(mirror_footprint if look.antialiased else None, mirror_dir)
     glossy = glossy_mean(chain, mirror_dir, corners, look.level(chain), look.borders)
@@ -147,7 +151,7 @@ def mip_chain_radiance(
     return shaded
 
 
-def diffuse_radiance(chain: MipChain, normal: ArrayLike, k_d: ArrayLike) -> Array:
+def diffuse_radiance(chain: MipChain, normal: ArrayLike, kd: ArrayLike) -> Array:
     """Light that a Lambertian surface reflects: [Kautz2004] Eq. 12.
 
     Parameters
@@ -155,7 +159,7 @@ def diffuse_radiance(chain: MipChain, normal: ArrayLike, k_d: ArrayLike) -> Arra
     chain : MipChain
     normal : array_like, shape (..., 3)
         Unit vectors in world coordinates.
-    k_d : array_like, shape (3,)
+    kd : array_like, shape (3,)
         Albedo.
 
     Returns
@@ -169,7 +173,7 @@ def diffuse_radiance(chain: MipChain, normal: ArrayLike, k_d: ArrayLike) -> Arra
     """
     n = np.concatenate([normal, np.ones_like(np.asarray(normal)[..., :1])], axis=-1)
     irradiance = np.einsum("...i,cij,...j->...c", n, irradiance_matrix(chain.harmonics), n)
-    radiance: Array = np.asarray(k_d) / np.pi * np.maximum(irradiance, 0.0)
+    radiance: Array = np.asarray(kd) / np.pi * np.maximum(irradiance, 0.0)
     return radiance
 
 

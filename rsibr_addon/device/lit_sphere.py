@@ -1,14 +1,11 @@
 """An exactly lit sphere on the GPU, to shade any mesh as the sphere: the reference of pictures."""
 
-import gpu
 import numpy as np
 
 from ..core.geometry.lit_sphere import LitSphere
 from . import buffers
 from .drawing import Draw, GpuMesh
-from .shaders import build, kept_until_exit, mesh_interface
-
-_SPHERE_BLOCK = "struct Sphere { mat4 frame; };"
+from .shaders import mesh_program
 
 
 class GpuLitSphere:
@@ -37,16 +34,5 @@ class GpuLitSphere:
         mesh.draw(shader, draw)
 
 
-@kept_until_exit
-def lit_sphere_shader() -> gpu.types.GPUShader:
-    """Draws a mesh from a lit sphere.
-
-    Raises
-    ------
-    DeviceError
-        The driver refuses the program.
-    """
-    info = mesh_interface(_SPHERE_BLOCK)
-    info.uniform_buf(1, "Sphere", "sphere")
-    info.sampler(0, "FLOAT_2D", "rings")
-    return build("lit_sphere", info, "mesh_vert.glsl", "lit_sphere_frag.glsl")
+lit_sphere_shader = mesh_program("lit_sphere", "Sphere sphere", "mat4 frame;", {"rings": "FLOAT_2D"})
+"""Draws a mesh from a lit sphere."""

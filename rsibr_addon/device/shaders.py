@@ -1,7 +1,7 @@
 """Interfaces of the GPU programs; their sources are in `gpu_shaders`."""
 
 import atexit
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cache
 
 import gpu
@@ -105,6 +105,39 @@ def mesh_interface(blocks: str) -> gpu.types.GPUShaderCreateInfo:
     info.vertex_out(varyings)
     info.fragment_out(0, "VEC4", "radiance")
     return info
+
+
+def mesh_program(
+    name: str, block: str, fields: str, samplers: Mapping[str, str]
+) -> Callable[[], gpu.types.GPUShader]:
+    """A program that draws meshes with NAME_frag.glsl, from one uniform block and textures.
+
+    Parameters
+    ----------
+    name : str
+    block : str
+        Type and name of the block, as "MipLook look".
+    fields : str
+        The block's fields.
+    samplers : mapping of str to str
+        Name of each texture in the order of slots -> its type.
+
+    Returns
+    -------
+    callable
+        Gives the program, built on first use; raises a DeviceError if the driver refuses it.
+    """
+
+    @kept_until_exit
+    def program() -> gpu.types.GPUShader:
+        type_name, uniform = block.split()
+        info = mesh_interface(f"struct {type_name} {{ {fields} }};")
+        info.uniform_buf(1, type_name, uniform)
+        for slot, (sampler, sampler_type) in enumerate(samplers.items()):
+            info.sampler(slot, sampler_type, sampler)
+        return build(name, info, "mesh_vert.glsl", f"{name}_frag.glsl")
+
+    return program
 
 
 def _views_interface(more_blocks: str = "") -> gpu.types.GPUShaderCreateInfo:

@@ -7,15 +7,13 @@ from ..core.errors import RsibrError
 from ..tasks.queue.background import Bake, State
 from ..tasks.queue.bake_request import request_for
 from .sentences import amount, capital, duration, tell
+from .sidebar import InSidebar
 
 
-class RSIBR_PT_bake(bpy.types.Panel):
+class RSIBR_PT_bake(InSidebar, bpy.types.Panel):
     """Bake in the background"""  # noqa: D400  (a tooltip)
 
     bl_label = "Bake"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "RSIBR"
 
     def draw(self, context: bpy.types.Context) -> None:
         """Show what a bake would cost or what it lacks, the button, and every bake."""

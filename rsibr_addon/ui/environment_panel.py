@@ -9,6 +9,7 @@ from ..core.errors import RsibrError
 from ..host.bake_settings import chosen_environment
 from ..tasks.light.light_pictures import light_remarks
 from .sentences import tell
+from .sidebar import InSidebar
 
 THUMBNAIL_SCALE = 4.0
 """Of an environment's picture; a button is 1 high."""
@@ -27,13 +28,10 @@ class RSIBR_MT_pictures(bpy.types.Menu):
         self.layout.operator("rsibr.lift_painting", text="Lift Painting...").use = True
 
 
-class RSIBR_PT_environment(bpy.types.Panel):
+class RSIBR_PT_environment(InSidebar, bpy.types.Panel):
     """The light that is baked"""  # noqa: D400  (a tooltip)
 
     bl_label = "Environment"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "RSIBR"
 
     def draw(self, context: bpy.types.Context) -> None:
         """Show where light comes from, and of that source the rest."""

@@ -2,14 +2,13 @@
 
 import bpy
 
+from .sidebar import InSidebar
 
-class RSIBR_PT_live(bpy.types.Panel):
+
+class RSIBR_PT_live(InSidebar, bpy.types.Panel):
     """Shade the active object from its surroundings, as the viewport shows them"""  # noqa: D400  (a tooltip)
 
     bl_label = "Live Light"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "RSIBR"
     bl_parent_id = "RSIBR_PT_preview"
     bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012  (Blender reads the class)
 

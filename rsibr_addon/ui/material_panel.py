@@ -7,6 +7,7 @@ import bpy
 from ..core.brdf.gallery import GALLERY, gallery_name
 from ..files.kinds.registry import METHOD_SETTINGS
 from .sentences import tell
+from .sidebar import InSidebar
 
 
 class _Models:
@@ -40,13 +41,10 @@ class RSIBR_MT_live_models(_Models, bpy.types.Menu):
     data_path = "object.rsibr.kernel_bank.brdf"
 
 
-class RSIBR_PT_material(bpy.types.Panel):
+class RSIBR_PT_material(InSidebar, bpy.types.Panel):
     """The material that is baked"""  # noqa: D400  (a tooltip)
 
     bl_label = "Material"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "RSIBR"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

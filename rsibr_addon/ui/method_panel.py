@@ -5,15 +5,13 @@ import bpy
 from ..core.options import Declared, declared_options, quality_values
 from ..files.kinds.registry import METHOD_SETTINGS
 from ..host.option_properties import property_name, shown_value
+from .sidebar import InSidebar
 
 
-class RSIBR_PT_method(bpy.types.Panel):
+class RSIBR_PT_method(InSidebar, bpy.types.Panel):
     """How light and material become maps"""  # noqa: D400  (a tooltip)
 
     bl_label = "Method"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "RSIBR"
 
     def draw(self, context: bpy.types.Context) -> None:
         """Show the method, qualities for it, and its own settings."""
@@ -36,13 +34,10 @@ class RSIBR_PT_method(bpy.types.Panel):
         _draw_options(layout, chosen, [each for each in _shown(settings) if not each.option.advanced])
 
 
-class RSIBR_PT_method_advanced(bpy.types.Panel):
+class RSIBR_PT_method_advanced(InSidebar, bpy.types.Panel):
     """Settings of the method that most bakes leave alone"""  # noqa: D400  (a tooltip)
 
     bl_label = "Advanced"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "RSIBR"
     bl_parent_id = "RSIBR_PT_method"
     bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012  (Blender reads the class)
 

@@ -6,6 +6,7 @@ from ..host.world_light import world_light
 from ..tasks.methods.kinds import KINDS
 from ..tasks.viewport.previews import previews
 from .sentences import tell
+from .sidebar import InSidebar
 
 NOT_FOLLOWED = (
     "The world is more than a Background and an Environment Texture with a Mapping that rotates: bake in "
@@ -13,13 +14,10 @@ NOT_FOLLOWED = (
 )
 
 
-class RSIBR_PT_preview(bpy.types.Panel):
+class RSIBR_PT_preview(InSidebar, bpy.types.Panel):
     """Shade the active object from a map set"""  # noqa: D400  (a tooltip)
 
     bl_label = "Preview"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "RSIBR"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

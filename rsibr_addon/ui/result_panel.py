@@ -11,18 +11,16 @@ from ..tasks.report.facts import is_picture, map_set_facts, map_set_fit, map_set
 from .map_pictures import map_pictures
 from .map_set_file import draw_file, draw_remedies
 from .sentences import tell
+from .sidebar import InSidebar
 
 MAP_SCALE, LOBES_SCALE = 9.0, 9.0
 """Of pictures in panels; a button is 1 high."""
 
 
-class RSIBR_PT_result(bpy.types.Panel):
+class RSIBR_PT_result(InSidebar, bpy.types.Panel):
     """The active object's map set"""  # noqa: D400  (a tooltip)
 
     bl_label = "Result"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "RSIBR"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -57,13 +55,10 @@ class RSIBR_PT_result(bpy.types.Panel):
         row.operator("rsibr.compare", icon="MOD_DATA_TRANSFER")
 
 
-class RSIBR_PT_result_maps(bpy.types.Panel):
+class RSIBR_PT_result_maps(InSidebar, bpy.types.Panel):
     """The maps that the map set holds, as pictures"""  # noqa: D400  (a tooltip)
 
     bl_label = "Maps"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "RSIBR"
     bl_parent_id = "RSIBR_PT_result"
 
     @classmethod
@@ -89,13 +84,10 @@ class RSIBR_PT_result_maps(bpy.types.Panel):
         self.layout.prop(shown, "part", text="")
 
 
-class RSIBR_PT_result_lobes(bpy.types.Panel):
+class RSIBR_PT_result_lobes(InSidebar, bpy.types.Panel):
     """The lobes that the map set's reflectance was made of"""  # noqa: D400  (a tooltip)
 
     bl_label = "Lobes"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "RSIBR"
     bl_parent_id = "RSIBR_PT_result"
     bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012  (Blender reads the class)
 

@@ -14,7 +14,7 @@ from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.kinds import (
     environment,
     live_environment_shaders,
-    lobe_stack_shaders,
+    lobe_stack,
     mip_chain_shaders,
     reflection_tables,
 )
@@ -29,7 +29,7 @@ PROGRAMS = [
     mip_chain_shaders.mip_chain_shader,
     reflection_tables.reflection_tables_shader,
     environment.environment_shader,
-    lobe_stack_shaders.lobe_stack_shader,
+    lobe_stack.lobe_stack_shader,
     stage_shaders.composite_shader,
     stage_shaders.occluder_shader,
     live_environment_shaders.face_shader,

@@ -2,7 +2,6 @@
 
 from functools import cached_property
 
-import gpu
 import numpy as np
 
 from ...core.environment import Environment
@@ -10,28 +9,15 @@ from ...core.kinds.environment import EnvironmentLook
 from .. import buffers
 from ..drawing import Draw, GpuMesh
 from ..equirect import Sums, map_sums, map_texture, no_sums
-from ..shaders import build, kept_until_exit, mesh_interface
+from ..shaders import mesh_program
 
-_LOOK_BLOCK = (
-    "struct EnvironmentLook { vec4 f0; vec4 unit; "
-    "float antialiased; float unused_0; float unused_1; float unused_2; };"
+environment_shader = mesh_program(
+    "environment",
+    "EnvironmentLook look",
+    "vec4 f0; vec4 unit; float antialiased; float unused_0; float unused_1; float unused_2;",
+    {"environment": "FLOAT_2D", "sums": "FLOAT_2D_ARRAY"},
 )
-
-
-@kept_until_exit
-def environment_shader() -> gpu.types.GPUShader:
-    """Draws a mesh as a mirror.
-
-    Raises
-    ------
-    DeviceError
-        The driver refuses the program.
-    """
-    info = mesh_interface(_LOOK_BLOCK)
-    info.uniform_buf(1, "EnvironmentLook", "look")
-    info.sampler(0, "FLOAT_2D", "environment")
-    info.sampler(1, "FLOAT_2D_ARRAY", "sums")
-    return build("environment", info, "mesh_vert.glsl", "environment_frag.glsl")
+"""Draws a mesh as a mirror."""
 
 
 class GpuEnvironment:

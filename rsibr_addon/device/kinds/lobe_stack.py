@@ -10,10 +10,19 @@ from ...core.kinds.lobe_stack.shading import StackLook
 from ...core.kinds.lobe_stack.stack import LAYOUTS, LobeStack
 from .. import buffers
 from ..drawing import Draw, GpuMesh
-from .lobe_stack_shaders import lobe_stack_shader
+from ..shaders import mesh_program
 
 DEEPEST = 2048
 """Greatest number of slices of a 3D texture in every driver."""
+
+lobe_stack_shader = mesh_program(
+    "lobe_stack",
+    "Stack stack",
+    "float layout_number; float lobes; float taps; float slices; "
+    "float antialiased; float unused_0; float unused_1; float unused_2;",
+    {"elevations": "FLOAT_2D", "maps": "FLOAT_3D"},
+)
+"""Draws a mesh from a lobe stack."""
 
 
 class GpuLobeStack:

@@ -1,18 +1,21 @@
 """Interface of the GPU program of mip chains; its sources are in `gpu_shaders`."""
 
-import gpu
 import numpy as np
 
 from ...core.conventions import Array
 from ...core.kinds.mip_chain.shading import Borders, MipLook
-from ..shaders import build, kept_until_exit, mesh_interface
+from ..shaders import mesh_program
 
 LOOK_FIELDS = "vec4 f0; vec4 kd; float level; float last_level; float clamped; float antialiased;"
 """Fields of a block that `look_fields` fills, also for harmonics on the GPU."""
 
-_LOOK_BLOCK = (
-    f"struct MipLook {{ mat4 irradiance_red; mat4 irradiance_green; mat4 irradiance_blue; {LOOK_FIELDS} }};"
+mip_chain_shader = mesh_program(
+    "mip_chain",
+    "MipLook look",
+    f"mat4 irradiance_red; mat4 irradiance_green; mat4 irradiance_blue; {LOOK_FIELDS}",
+    {"atlas": "FLOAT_2D"},
 )
+"""Draws a mesh from a mip chain."""
 
 
 def look_fields(look: MipLook, level: float, mip_count: int) -> tuple[Array, ...]:
@@ -34,18 +37,3 @@ def look_fields(look: MipLook, level: float, mip_count: int) -> tuple[Array, ...
     clamped = look.borders is Borders.CLAMPED
     numbers = np.array([level, mip_count - 1.0, float(clamped), float(look.antialiased)])
     return np.array(look.f0), np.array(look.kd), numbers
-
-
-@kept_until_exit
-def mip_chain_shader() -> gpu.types.GPUShader:
-    """Draws a mesh from a mip chain.
-
-    Raises
-    ------
-    DeviceError
-        The driver refuses the program.
-    """
-    info = mesh_interface(_LOOK_BLOCK)
-    info.uniform_buf(1, "MipLook", "look")
-    info.sampler(0, "FLOAT_2D", "atlas")
-    return build("mip_chain", info, "mesh_vert.glsl", "mip_chain_frag.glsl")

@@ -2,7 +2,6 @@
 
 from functools import cached_property
 
-import gpu
 import numpy as np
 
 from ...core.kinds.reflection_tables.shading import MIRRORED, TablesLook
@@ -10,32 +9,21 @@ from ...core.kinds.reflection_tables.tables import ReflectionTables, Role
 from .. import buffers
 from ..drawing import Draw, GpuMesh
 from ..equirect import Sums, map_sums, map_texture, no_map, no_sums
-from ..shaders import build, kept_until_exit, mesh_interface
+from ..shaders import mesh_program
 
 # A factor for each table, in the order of `Role`; the index of refraction; factors for tables of `MIRRORED`
 # that count by their means over a pixel; and the units of these tables' sums.
 _FIELDS = (*(role.value for role in Role), "eta", *(f"{role}_mean" for role in MIRRORED))
 _UNITS = " ".join(f"vec4 {role}_unit;" for role in MIRRORED)
-_TABLES_BLOCK = f"struct Tables {{ {' '.join(f'float {field};' for field in _FIELDS)} {_UNITS} }};"
+_MAPS = dict.fromkeys([*(role.value for role in Role), "weights"], "FLOAT_2D")
 
-
-@kept_until_exit
-def reflection_tables_shader() -> gpu.types.GPUShader:
-    """Draws a mesh from reflection tables.
-
-    Raises
-    ------
-    DeviceError
-        The driver refuses the program.
-    """
-    info = mesh_interface(_TABLES_BLOCK)
-    info.uniform_buf(1, "Tables", "tables")
-    for slot, role in enumerate(Role):
-        info.sampler(slot, "FLOAT_2D", role.value)
-    info.sampler(len(Role), "FLOAT_2D", "weights")
-    for slot, role in enumerate(MIRRORED, start=len(Role) + 1):
-        info.sampler(slot, "FLOAT_2D_ARRAY", f"{role}_sums")
-    return build("reflection_tables", info, "mesh_vert.glsl", "reflection_tables_frag.glsl")
+reflection_tables_shader = mesh_program(
+    "reflection_tables",
+    "Tables tables",
+    f"{' '.join(f'float {field};' for field in _FIELDS)} {_UNITS}",
+    _MAPS | {f"{role}_sums": "FLOAT_2D_ARRAY" for role in MIRRORED},
+)
+"""Draws a mesh from reflection tables."""
 
 
 class GpuReflectionTables:

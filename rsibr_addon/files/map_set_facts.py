@@ -54,7 +54,7 @@ def told_making(header: dict[str, Any]) -> dict[str, str]:
 
 
 def in_words(name: str) -> str:
-    """A name for programs as one for people: radiance_views, Radiance views."""
+    """A name for programs as one for people: "sphere_map" as "Sphere map"."""
     words = name.replace("_", " ")
     return words[:1].upper() + words[1:]
 

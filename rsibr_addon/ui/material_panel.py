@@ -6,6 +6,7 @@ import bpy
 
 from ..core.brdf.gallery import GALLERY, gallery_name
 from ..files.kinds.registry import METHOD_SETTINGS
+from ..tasks.methods.kinds import KINDS
 from .sentences import tell
 from .sidebar import InSidebar
 
@@ -14,8 +15,11 @@ class _Models:
     """Choose a reflectance model"""  # noqa: D400  (a tooltip)
 
     bl_label = "Models"
-    data_path: str
     layout: bpy.types.UILayout
+
+    def data_path(self, context: bpy.types.Context) -> str:
+        """Where the text of the model that is chosen goes."""
+        raise NotImplementedError
 
     def draw(self, context: bpy.types.Context) -> None:
         """Show what comes with the extension, by groups."""
@@ -26,19 +30,24 @@ class _Models:
             column.separator()
             for name, spec in models.items():
                 choose = column.operator("wm.context_set_string", text=name)
-                choose.data_path, choose.value = self.data_path, spec
+                choose.data_path, choose.value = self.data_path(context), spec
 
 
 class RSIBR_MT_models(_Models, bpy.types.Menu):
     """Choose a reflectance model to bake"""  # noqa: D400  (a tooltip)
 
-    data_path = "scene.rsibr_bake.lobe_stack.brdf"
+    def data_path(self, context: bpy.types.Context) -> str:
+        """See `_Models`."""
+        return f"scene.rsibr_bake.{context.scene.rsibr_bake.kind}.brdf"
 
 
 class RSIBR_MT_live_models(_Models, bpy.types.Menu):
     """Choose a reflectance model to shade the object as"""  # noqa: D400  (a tooltip)
 
-    data_path = "object.rsibr.kernel_bank.brdf"
+    def data_path(self, context: bpy.types.Context) -> str:
+        """See `_Models`; of the kind whose preview offers this menu."""
+        (kind,) = (kind for kind, row in KINDS.items() if row.menu == type(self).__name__)
+        return f"object.rsibr.{kind}.brdf"
 
 
 class RSIBR_PT_material(InSidebar, bpy.types.Panel):

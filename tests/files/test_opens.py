@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.files.exr import read_parts
-from rsibr.rsibr_addon.files.map_set import is_map_set, read_map_set, read_map_set_header
+from rsibr.rsibr_addon.files.kinds.environment import is_environment
+from rsibr.rsibr_addon.files.map_set import read_map_set, read_map_set_header
 from rsibr.rsibr_addon.files.pictures import describe_exr, read_exr
 from rsibr.rsibr_addon.files.radiance_pictures import read_radiance, write_radiance
 from rsibr.tests.flat_capture import write_flat_capture
@@ -28,7 +29,7 @@ def opens(read: Callable[[Path], Any], path: Path, monkeypatch: pytest.MonkeyPat
     return seen.count(path)
 
 
-@pytest.mark.parametrize("read", [read_parts, is_map_set, read_map_set, read_map_set_header])
+@pytest.mark.parametrize("read", [read_parts, is_environment, read_map_set, read_map_set_header])
 def test_a_map_set(read: Callable[[Path], Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert opens(read, write_flat_capture(tmp_path / "a.rsibr.exr", (0.5, 0.5, 0.5)), monkeypatch) == 1
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from rsibr import rsibr_addon
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import MapSetError
@@ -45,6 +46,14 @@ def path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setitem(KINDS, disk_files.KIND, disk_method.KIND)
     write_map_set(tmp_path / "disk.rsibr.exr", disk_files.to_map_set(DISK, LIGHT, 0.5))
     return tmp_path / "disk.rsibr.exr"
+
+
+def test_every_kind_has_its_rows_and_its_modules() -> None:
+    assert list(KINDS) == list(look_types()) == [*STORED, "environment"]
+    package = Path(rsibr_addon.__file__).parent
+    for kind in STORED:
+        rooms = ("core/kinds", "files/kinds", "settings", "tasks/methods")
+        assert all([*package.glob(f"{room}/{kind}*")] for room in rooms)
 
 
 def test_it_is_baked_by_a_job(path: Path) -> None:

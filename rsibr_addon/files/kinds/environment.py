@@ -27,7 +27,7 @@ def is_environment(path: Path) -> bool:
         False also where it cannot be read; reading it as a map set then tells why.
     """
     with suppress(InputFileError):
-        return holds_radiance(path) and not is_map_set(split_layer(path)[0])
+        return not is_map_set(split_layer(path)[0]) and holds_radiance(path)
     return False
 
 

@@ -43,7 +43,9 @@ def add_option(parser: Any, declared: Declared, description: str) -> None:
         common["metavar"] = told.metavar or _METAVARS[declared.wanted]
     required = declared.default is MISSING
     flags = filter(None, (declared.flag, told.old_flag))
-    action = "extend" if declared.wanted is tuple and declared.count is None else "store"
+    # Several choices may be given one by one; numbers belong together, and a rule's name may stand for them
+    several = declared.wanted is tuple and declared.count is None and declared.members is not float
+    action = "extend" if several else "store"
     parser.add_argument(*flags, type=partial(_value, declared), required=required, action=action, **common)
 
 

@@ -71,7 +71,7 @@ def test_lobes_add_up_and_are_kept(smooth) -> None:
     gpu_map_set = GpuLobeStack(stack)
     renderer = PreviewRenderer(gpu_map_set)
     camera = Camera((0.3, -1.0, 0.2))
-    looks = [StackLook(), StackLook(0), StackLook(1)]
+    looks = [StackLook(), StackLook((0,)), StackLook((1,))]
     whole, *single = [renderer.draw(*SPHERE, camera, SIZE, look)[..., :3] for look in looks]
     more = sum(single) - whole
     # A signed lobe is cut off at 0 where it is alone, so that single lobes add up to the whole or to more.

@@ -19,11 +19,11 @@ class PreviewRenderer:
 
     Parameters
     ----------
-    subject : GpuMapSet
+    content : GpuMapSet
     """
 
-    def __init__(self, subject: GpuMapSet) -> None:
-        self._subject = subject
+    def __init__(self, content: GpuMapSet) -> None:
+        self._content = content
 
     def draw(
         self,
@@ -45,7 +45,7 @@ class PreviewRenderer:
         size : int
             Width and height of the picture in pixels.
         look : object
-            Look of the subject's kind: see `core.kinds`.
+            Look of the content's kind: see `core.kinds`.
 
         Returns
         -------
@@ -70,7 +70,7 @@ class PreviewRenderer:
             gpu.state.depth_test_set("LESS_EQUAL")
             gpu.state.depth_mask_set(True)
             try:
-                self._subject.draw(mesh, placed, look)
+                self._content.draw(mesh, placed, look)
             finally:
                 gpu.state.depth_test_set(depth_test)
                 gpu.state.depth_mask_set(depth_mask)

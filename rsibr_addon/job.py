@@ -27,7 +27,7 @@ class BakeJob[Settings: MethodSettings]:
     settings : MethodSettings
         Of one of `METHOD_SETTINGS`.
     output : str
-        The map set to write, by custom NAME.rsibr.exr.
+        The map set to write, NAME.rsibr.exr or NAME.exr.
     light : Light
     force : bool
         Whether `output` is replaced if it exists.

@@ -11,7 +11,7 @@ from .outputs import Output, not_written, outputs_now
 from .staging import clear_old_strays, clear_strays, staging_name
 
 
-def check_target(path: str | Path, force: bool = False) -> None:
+def check_target(path: str | Path, force: bool = False, endings: tuple[str, ...] = ()) -> None:
     """Refuse a name that cannot or must not be written, before long work begins.
 
     Files that killed processes left in its folder are removed.
@@ -22,14 +22,18 @@ def check_target(path: str | Path, force: bool = False) -> None:
         The file that will be written.
     force : bool
         Whether a file of that name may be replaced; a read-only one never is.
+    endings : tuple of str
+        Endings that a name may have, as ".exr"; any, where there are none.
 
     Raises
     ------
     OutputFileError
-        No file can have that name; `path` is a folder or a device, or exists and must not be replaced; or its
-        folder is missing or cannot be written to.
+        The name has another ending, or no file can have it; `path` is a folder or a device, or exists and
+        must not be replaced; or its folder is missing or cannot be written to.
     """
     path = Path(path)
+    if endings and not path.name.lower().endswith(endings):
+        raise OutputFileError(f"{path} does not end in {' or '.join(endings)}: give a name that does.")
     check_name(path)
     if path.is_dir():
         raise OutputFileError(f"{path} is a folder: give the name of a file in it.")

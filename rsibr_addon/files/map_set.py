@@ -47,6 +47,23 @@ DERIVED = ("size", "sha256")
 """Fields of a part that follow from its pixels."""
 
 
+def check_map_set_target(path: str | Path, force: bool = False) -> None:
+    """Refuse a name that `write_map_set` would refuse, before long work begins.
+
+    Parameters
+    ----------
+    path : str or Path
+    force : bool
+        Whether an existing file may be replaced.
+
+    Raises
+    ------
+    OutputFileError
+        The name does not end in .exr; or see `check_target`.
+    """
+    check_target(path, force, (".rsibr.exr", ".exr"))
+
+
 def write_map_set(
     path: str | Path, map_set: MapSet | MapsInTurn, force: bool = False, half: bool = False
 ) -> None:
@@ -55,7 +72,7 @@ def write_map_set(
     Parameters
     ----------
     path : str or Path
-        Usually NAME.rsibr.exr.
+        NAME.rsibr.exr, or NAME.exr.
     map_set : MapSet or MapsInTurn
     force : bool
         Whether an existing file is replaced.
@@ -66,7 +83,7 @@ def write_map_set(
     Raises
     ------
     OutputFileError
-        See `written_aside`; where possible, before anything is computed.
+        See `check_map_set_target` and `written_aside`; where possible, before anything is computed.
     MapSetError
         The header is not what the format demands.
     ShapeError
@@ -79,7 +96,7 @@ def write_map_set(
     RsibrWarning
         Maps are too bright or too dark for half floats; says how many.
     """
-    check_target(path, force)
+    check_map_set_target(path, force)
     if isinstance(map_set, MapSet):
         for name, pixels in map_set.maps.items():
             _check_shape(name, pixels)

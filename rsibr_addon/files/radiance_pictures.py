@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from ..core.conventions import Array
-from ..core.errors import InputFileError, OutputFileError
+from ..core.errors import InputFileError
 from . import exr, radiance_hdr
 from .atomic import check_target, written_aside
 from .picture_facts import PictureFacts
@@ -124,9 +124,7 @@ def check_radiance_target(path: str | Path, force: bool = False) -> None:
     OutputFileError
         The name ends neither in .exr nor in .hdr; or see `check_target`.
     """
-    if Path(path).suffix.lower() not in (".exr", ".hdr"):
-        raise OutputFileError(f"{path} would be of an unknown kind: give a name that ends in .exr or .hdr.")
-    check_target(path, force)
+    check_target(path, force, (".exr", ".hdr"))
 
 
 def write_radiance(path: str | Path, radiance: Array, force: bool = False) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..core.conventions import Array
-from ..core.errors import OutputFileError, RangeError
+from ..core.errors import RangeError
 from ..core.geometry.camera import Camera
 from ..core.progress import Progress, Steps
 from ..device.preview import PreviewRenderer
@@ -160,9 +160,7 @@ def _spaced(frame_count: int) -> set[int]:
 
 
 def _check_picture_target(path: Path, force: bool) -> None:
-    if path.suffix.lower() not in (".exr", ".png"):
-        raise OutputFileError(f"{path} would be of an unknown kind: give a name that ends in .exr or .png.")
-    check_target(path, force)
+    check_target(path, force, (".exr", ".png"))
 
 
 def _write_picture(path: Path, rgba: Array, force: bool) -> None:

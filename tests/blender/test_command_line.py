@@ -74,6 +74,31 @@ def test_a_missing_file_is_1_and_one_sentence_that_names_it(
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize("name", ["out", "out.png.txt", "exr"])
+@pytest.mark.parametrize(
+    ("argv", "endings"),
+    [
+        (["bake", "radiance-views", "--material", "copper"], ".rsibr.exr or .exr"),
+        (["bake", "lobe-stack", "--brdf", "ggx:alpha=0.3,f0=1"], ".rsibr.exr or .exr"),
+        (["bake", "reflection-tables", "--material", "matte"], ".rsibr.exr or .exr"),
+        (["bake", "mip-chain"], ".rsibr.exr or .exr"),
+        (["bake", "kernel-bank"], ".rsibr.exr or .exr"),
+        (["fit", "--brdf", "ggx:alpha=0.3,f0=1"], ".json"),
+        (["report", "missing.exr"], ".html"),
+        (["export", "missing.exr"], ".ktx2"),
+        (["convert", "missing.exr", "--from", "equirect", "--to", "equirect", "--size", "2"], ".exr or .hdr"),
+        (["illuminate", "painted", "missing.png", "--white", "9"], ".exr or .hdr"),
+    ],
+)
+def test_a_file_whose_name_ends_otherwise_is_not_made(
+    argv: list[str], endings: str, name: str, capfd: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    output = ["-o"] if argv[0] != "convert" else []
+    assert run([*argv, *output, str(tmp_path / name)]) == 1
+    assert f"{name} does not end in {endings}: give a name that does." in capfd.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
 @pytest.fixture
 def work(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[str]]:
     """Replace `rsibr info` by long work with every kind of noise; says how it was left."""

@@ -63,7 +63,7 @@ def test_files_are_not_replaced_unasked(map_set: Path, tmp_path: Path) -> None:
 
 
 def test_bad_names_are_told(map_set: Path, tmp_path: Path) -> None:
-    with pytest.raises(OutputFileError, match=r"report.txt would not open in a browser"):
+    with pytest.raises(OutputFileError, match=r"report.txt does not end in .html"):
         drain(map_set_report(map_set, tmp_path / "report.txt"))
     with pytest.raises(MapSetError, match="does not exist"):
         drain(map_set_report(tmp_path / "none.rsibr.exr", tmp_path / "report.html"))

@@ -68,7 +68,7 @@ def test_a_world(illuminate: Command) -> None:
             ["scene", "studio.blend", "--scene", "Bare", "-o", "out.exr"],
             "nothing to see in scene Bare: add a",
         ),
-        (["scene", "studio.blend", "-o", "out.png"], "out.png would be of an unknown kind"),
+        (["scene", "studio.blend", "-o", "out.png"], "out.png does not end in .exr or .hdr"),
         (["scene", "studio.blend", "-o", "no/out.exr"], "does not exist, so out.exr cannot be written"),
         (["scene", "studio.blend", "--size", "9", "-o", "out.exr"], "cannot be 9 texels wide"),
         (["world", "studio.blend", "--scene", "Bare", "-o", "out.exr"], "Scene Bare has no world: add one"),

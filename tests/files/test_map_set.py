@@ -94,16 +94,16 @@ def test_others_see_named_parts_with_the_top_row_first(tmp_path: Path, make_view
 
 
 def test_equal_sets_give_equal_bytes(tmp_path: Path, make_views: MakeViews) -> None:
-    for name in ("a", "b"):
+    for name in ("a.exr", "b.exr"):
         write_map_set(tmp_path / name, make_views(seed=3))
-    assert (tmp_path / "a").read_bytes() == (tmp_path / "b").read_bytes()
+    assert (tmp_path / "a.exr").read_bytes() == (tmp_path / "b.exr").read_bytes()
 
 
 def test_a_set_of_one_map_comes_back(tmp_path: Path, make_views: MakeViews) -> None:
     header = make_views().header | {"parts": [{"name": "environment", "role": "environment"}]}
     pixels = np.random.default_rng(0).random((12, 24, 3), dtype=np.float32)
-    write_map_set(tmp_path / "a", MapSet("reflection_tables", {"environment": pixels}, header))
-    back = read_map_set(tmp_path / "a", "reflection_tables")
+    write_map_set(tmp_path / "a.exr", MapSet("reflection_tables", {"environment": pixels}, header))
+    back = read_map_set(tmp_path / "a.exr", "reflection_tables")
     assert back.header == header
     np.testing.assert_array_equal(back.maps["environment"], pixels)
 
@@ -122,12 +122,12 @@ def test_the_kinds_state_what_their_maps_are(
     header = make_views().header | {"parts": [part], "material": {"brdf": "ggx", "method": "joint"}}
     header["environment"] = header["environment"] | {"part": None}
     prefiltered = MapSet(kind, {"first": np.ones((4, 4, 3), np.float32)}, header)
-    write_map_set(tmp_path / "a", prefiltered)
-    assert read_map_set(tmp_path / "a").header == header
+    write_map_set(tmp_path / "a.exr", prefiltered)
+    assert read_map_set(tmp_path / "a.exr").header == header
     for field in fields:
         lacking = header | {"parts": [{name: value for name, value in part.items() if name != field}]}
         with pytest.raises(MapSetError, match=rf"parts\[0\]\.{field} is missing"):
-            write_map_set(tmp_path / "b", replace(prefiltered, header=lacking))
+            write_map_set(tmp_path / "b.exr", replace(prefiltered, header=lacking))
 
 
 def test_existing_sets_are_kept_unless_forced(tmp_path: Path, make_views: MakeViews) -> None:
@@ -158,7 +158,7 @@ def test_maps_and_header_must_list_the_same(tmp_path: Path, make_views: MakeView
     views = make_views()
     fewer = {name: pixels for name, pixels in views.maps.items() if name != "view001.glossy"}
     with pytest.raises(ShapeError, match="its header lists"):
-        write_map_set(tmp_path / "a", replace(views, maps=fewer))
+        write_map_set(tmp_path / "a.exr", replace(views, maps=fewer))
     assert os.listdir(tmp_path) == []
 
 
@@ -167,7 +167,7 @@ def test_maps_are_pictures_in_three_colours(tmp_path: Path, make_views: MakeView
     views = make_views()
     views.maps["view000.glossy"] = np.ones(shape, np.float32)
     with pytest.raises(ShapeError, match=r"Map view000\.glossy must have the shape"):
-        write_map_set(tmp_path / "a", views)
+        write_map_set(tmp_path / "a.exr", views)
 
 
 @pytest.mark.parametrize(
@@ -183,7 +183,7 @@ def test_radiance_that_cannot_be_stored_is_counted_and_refused(
     views = make_views()
     views.maps["view000.glossy"][0, 0, :2] = value
     with pytest.raises(RangeError, match=rf"Map view000\.glossy holds {sentence}"):
-        write_map_set(tmp_path / "a", views, half=half)
+        write_map_set(tmp_path / "a.exr", views, half=half)
     assert os.listdir(tmp_path) == []
 
 

@@ -22,7 +22,7 @@ def format_of(output: Path) -> str:
         if output.suffix.lower() == each.suffix:
             return name
     known = " or ".join(each.suffix for each in FORMATS.values())
-    raise OutputFileError(f"{output} would not be known for an export: give a name that ends in {known}.")
+    raise OutputFileError(f"{output} does not end in {known}: give a name that does.")
 
 
 def export(map_set: Path, output: Path, settings: Any = None, force: bool = False) -> Steps[list[Path]]:

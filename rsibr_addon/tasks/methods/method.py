@@ -8,8 +8,7 @@ from typing import Any
 
 from ...core.environment import Environment
 from ...core.progress import Progress, Steps
-from ...files.atomic import check_target
-from ...files.map_set import write_map_set
+from ...files.map_set import check_map_set_target, write_map_set
 from ...files.memory import check_memory
 from ...job import BakeJob
 from ..light.environments import load_environment
@@ -102,7 +101,7 @@ def read_light(job: BakeJob[Any]) -> Steps[Environment]:
     InputFileError, SceneError, RenderError
         See `load_environment`.
     """
-    check_target(Path(job.output), job.force)
+    check_map_set_target(job.output, job.force)
     yield Progress(0, 1, "reading the environment")
     return load_environment(job.light.environment, job.light.clamp)
 

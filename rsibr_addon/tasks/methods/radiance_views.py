@@ -17,10 +17,10 @@ from ...core.maps.sphere_map import fill_rim
 from ...core.options import to_plain
 from ...core.progress import Progress, Steps
 from ...device.kinds.radiance_views import GpuRadianceViews
-from ...files.atomic import check_target, written_aside
+from ...files.atomic import written_aside
 from ...files.exr import Part, read_attributes, read_parts, write_parts
 from ...files.kinds.radiance_views import from_map_set
-from ...files.map_set import read_map_set_header, write_map_set
+from ...files.map_set import check_map_set_target, read_map_set_header, write_map_set
 from ...files.map_set_data import ENVIRONMENT, MapsInTurn
 from ...files.map_set_header import make_header
 from ...files.memory import check_memory
@@ -99,13 +99,13 @@ def bake(job: BakeJob[RadianceViewsSettings]) -> Steps[Baked]:
     done = Baked(output, f"{asked.views} views of {asked.size}x{asked.size}")
     # A capture that was killed at its very end has named its output, and its views are still there
     named = not job.force and output.is_file() and work_folder_beside(output).is_dir()
-    check_target(output, job.force or named)
+    check_map_set_target(output, job.force or named)
     yield Progress(0, asked.views, "reading the environment")
     captured = _Captured(asked, load_environment(job.light.environment, job.light.clamp))
     if named and captured.is_in(output):
         clear_work_folder(work_folder_beside(output))
         return done
-    check_target(output, job.force)
+    check_map_set_target(output, job.force)
     captured.check_memory(output)
     with work_folder(work_folder_beside(output), captured.identity(job.light)) as folder:
         paths = [folder / f"view{view:03d}.exr" for view in range(asked.views)]

@@ -65,7 +65,7 @@ def fit_lobes(
     ----------
     settings : FitSettings
     output : Path
-        By custom NAME.json.
+        NAME.json.
     force : bool
         Whether existing files are replaced.
     plots : Path, optional
@@ -90,7 +90,7 @@ def fit_lobes(
     RsibrWarning
         The error asked for takes more lobes; or see `load_brdf`.
     """
-    check_target(output, force)
+    check_target(output, force, (".json",))
     if plots is not None:
         check_plots(plots, force)
         if output.resolve().is_relative_to(plots.resolve()):

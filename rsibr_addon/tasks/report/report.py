@@ -11,7 +11,7 @@ import numpy as np
 
 from ...core.brdf.model import Brdf
 from ...core.conventions import Array
-from ...core.errors import DeviceError, OutputFileError, RsibrError, RsibrWarning
+from ...core.errors import DeviceError, RsibrError, RsibrWarning
 from ...core.geometry.camera import Camera
 from ...core.pictures.thumbnail import miniature
 from ...core.progress import Progress, Steps
@@ -81,9 +81,7 @@ def map_set_report(map_set: Path, output: Path, force: bool = False, brdf: str |
     RsibrWarning
         Nothing can draw, so the pictures of meshes are left out.
     """
-    if output.suffix.lower() != ".html":
-        raise OutputFileError(f"{output} would not open in a browser: give a name that ends in .html.")
-    check_target(output, force)
+    check_target(output, force, (".html",))
     yield Progress(0, 3, f"reading {map_set.name}")
     held = read_map_set(map_set)
     yield Progress(1, 3, "drawing with it")

@@ -9,7 +9,7 @@ from ..rsibr_addon.core.progress import Steps
 from ..rsibr_addon.tasks.light.scene import LARGEST, SMALLEST, SceneLight, illuminate_from_scene
 from ..rsibr_addon.tasks.light.world import illuminate_from_world
 from .stepwise import Stepwise
-from .taking import take_picture
+from .use_picture import take_picture
 
 
 class RSIBR_OT_capture_environment(Stepwise, bpy.types.Operator):

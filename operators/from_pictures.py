@@ -7,7 +7,7 @@ import bpy
 from ..rsibr_addon.core.errors import InputFileError
 from ..rsibr_addon.tasks.light.scene import LARGEST, SMALLEST
 from .stepwise import Stepwise
-from .taking import take_picture
+from .use_picture import take_picture
 
 
 class FromPictures(Stepwise):

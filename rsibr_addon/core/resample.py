@@ -8,7 +8,7 @@ from numpy.typing import DTypeLike, NDArray
 from .conventions import Array, ArrayLike, Indices
 from .errors import ShapeError
 from .maps.representation import Representation
-from .splat import BLOCK, Deposit
+from .splat import BLOCK, Splat
 
 type Wrap = Callable[[Indices, Indices, int, int], tuple[Indices, Indices]]
 """`wrap` of a map representation: from texel indices beyond the edge to the texels that are there."""
@@ -110,7 +110,7 @@ def resample(
     Notes
     -----
     A constant map stays constant to 1e-12. Of means, the total power is the old map's to 1e-12 unless
-    either has a blind spot: the deposit keeps it, but divides it by solid angles that are off by some
+    either has a blind spot: the splat keeps it, but divides it by solid angles that are off by some
     1e-4 of each, which one factor for each channel makes up for.
     """
     shape = target.shape(size)
@@ -121,13 +121,13 @@ def resample(
         made = np.empty((*shape, image.shape[-1]), dtype)
         _fill(made, None, image, source, target)
         return made
-    deposit = Deposit(target, size, image.shape[-1])
-    deposit.lay_down(image, source)
-    got = deposit.solid_angle > 0.0
-    made = (deposit.power / np.where(got, deposit.solid_angle, 1.0)).T.reshape(*shape, -1)
+    splat = Splat(target, size, image.shape[-1])
+    splat.lay_down(image, source)
+    got = splat.solid_angle > 0.0
+    made = (splat.power / np.where(got, splat.solid_angle, 1.0)).T.reshape(*shape, -1)
     _fill(made, ~got.reshape(shape), image, source, target)
     if source.blind_angle == target.blind_angle == 0.0:
-        _restore_power(made, after, deposit.power.sum(axis=1))
+        _restore_power(made, after, splat.power.sum(axis=1))
     if target.goes_on:
         _fill(made, after == 0.0, made, target, target)
     else:

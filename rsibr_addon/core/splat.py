@@ -47,7 +47,7 @@ class _Texels:
     radiance: Array
 
 
-class Deposit:
+class Splat:
     """A map that collects what is laid down on it.
 
     Parameters

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core import splat as deposit
+from rsibr.rsibr_addon.core import splat
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.errors import RangeError, ShapeError
 from rsibr.rsibr_addon.core.geometry.directions import normalize
@@ -132,7 +132,7 @@ def test_blocks_do_not_show(monkeypatch: pytest.MonkeyPatch) -> None:
     source, target = representation("cube_map"), representation("octahedral")
     image = sky(source, 32)
     whole = resample(image, source, target, 20)
-    monkeypatch.setattr(deposit, "BLOCK", 100)
+    monkeypatch.setattr(splat, "BLOCK", 100)
     np.testing.assert_allclose(resample(image, source, target, 20), whole, rtol=1e-12)
 
 

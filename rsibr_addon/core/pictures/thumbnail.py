@@ -8,7 +8,7 @@ COLUMNS = {2: 2, 6: 3}
 """Number of square sheets below each other in a map -> number of sheets side by side in its picture."""
 
 
-def miniature(radiance: Array, largest: int) -> Array:
+def thumbnail(radiance: Array, largest: int) -> Array:
     """A map as a small picture: its square sheets side by side, and means of whole blocks of texels.
 
     Parameters

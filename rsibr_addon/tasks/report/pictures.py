@@ -7,7 +7,7 @@ import numpy as np
 
 from ...core.conventions import Array
 from ...core.light.transfer_curve import srgb_from_linear
-from ...core.pictures.thumbnail import miniature
+from ...core.pictures.thumbnail import thumbnail
 from ...files.kinds.registry import STORED
 from ...files.map_set import read_map_set
 from ...files.map_set_data import ENVIRONMENT
@@ -66,6 +66,6 @@ def map_set_pictures(path: Path) -> list[MapPicture]:
 
 
 def _pixels(radiance: Array) -> Array:
-    small = miniature(radiance, SIZE)
+    small = thumbnail(radiance, SIZE)
     white = max(1.0, float(np.quantile(small.max(axis=-1), 1.0 - BRIGHTEST)))
     return srgb_from_linear(small / white).astype(np.float32)

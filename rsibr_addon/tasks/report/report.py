@@ -13,7 +13,7 @@ from ...core.brdf.model import Brdf
 from ...core.conventions import Array
 from ...core.errors import DeviceError, RsibrError, RsibrWarning
 from ...core.geometry.camera import Camera
-from ...core.pictures.thumbnail import miniature
+from ...core.pictures.thumbnail import thumbnail
 from ...core.progress import Progress, Steps
 from ...device.preview import PreviewRenderer
 from ...files.atomic import check_target, written_aside
@@ -156,7 +156,7 @@ def _roles(held: MapSet) -> list[str]:
 
 
 def _opaque(radiance: Array) -> Array:
-    small = miniature(radiance, MAP_SIZE)
+    small = thumbnail(radiance, MAP_SIZE)
     return np.concatenate([small, np.ones((*small.shape[:2], 1))], axis=-1)
 
 

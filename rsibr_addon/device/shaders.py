@@ -128,7 +128,6 @@ def mesh_program(
         Gives the program, built on first use; raises a DeviceError if the driver refuses it.
     """
 
-    @kept_until_exit
     def program() -> gpu.types.GPUShader:
         type_name, uniform = block.split()
         info = mesh_interface(f"struct {type_name} {{ {fields} }};")
@@ -137,7 +136,8 @@ def mesh_program(
             info.sampler(slot, sampler_type, sampler)
         return build(name, info, "mesh_vert.glsl", f"{name}_frag.glsl")
 
-    return program
+    program.__name__ = f"{name}_shader"
+    return kept_until_exit(program)
 
 
 def _views_interface(more_blocks: str = "") -> gpu.types.GPUShaderCreateInfo:

@@ -124,10 +124,9 @@ def test_a_program_is_built_once(program) -> None:
 
 
 def test_the_compiler_has_nothing_to_say(tmp_path: Path) -> None:
-    imports = "".join(f"from {program.__module__} import {program.__name__}\n" for program in PROGRAMS)
-    calls = "; ".join(f"{program.__name__}()" for program in PROGRAMS)
     script = (
-        f"from rsibr.rsibr_addon.device.context import ensure_context\n{imports}ensure_context(); {calls}\n"
+        "from rsibr.tests.glsl.test_shaders import PROGRAMS, ensure_context\n"
+        "ensure_context()\nfor program in PROGRAMS: program()\n"
     )
     # Mesa writes each shader with what its compiler says about it to a file in the working folder.
     environment = os.environ | {"MESA_GLSL": "log", "MESA_SHADER_CACHE_DISABLE": "true"}

@@ -35,6 +35,18 @@ FEWEST_STORED = 1000
 LARGEST_TILE = 2048
 """Width or height of a tile that reaches beyond its picture."""
 
+LEAST_OF_SAMPLE = {
+    **dict.fromkeys((OpenEXR.NO_COMPRESSION, OpenEXR.RLE_COMPRESSION), 2.0 / 128.0),
+    **dict.fromkeys((OpenEXR.ZIP_COMPRESSION, OpenEXR.ZIPS_COMPRESSION), 2.0 / 1032.0),
+    **dict.fromkeys((OpenEXR.PIZ_COMPRESSION, OpenEXR.PXR24_COMPRESSION), 2.0 / 1032.0),
+    **dict.fromkeys((OpenEXR.B44_COMPRESSION, OpenEXR.B44A_COMPRESSION), 2.0 / 1032.0),
+    **dict.fromkeys((OpenEXR.DWAA_COMPRESSION, OpenEXR.DWAB_COMPRESSION), 2.0 / 1032.0 / 64.0),
+}
+"""Compression -> least bytes of the file for each number of a channel: of half floats that are all 0.
+
+Deflate makes one byte of 1032; DWA stores one number for 64 before that.
+"""
+
 BYTES_OF_SAMPLE = 8
 """Bytes of memory for each number of a channel: a float, and as much again for the picture made of it."""
 
@@ -121,6 +133,7 @@ class OpenExr:
         for header, size in zip(headers, sizes, strict=True):
             if header["type"] == OpenEXR.tiledimage:
                 _check_tiles(path, header["tiles"], size)
+        self._check_length(sizes)
         texels = sum(
             width * height * len(header["channels"])
             for header, (width, height) in zip(headers, sizes, strict=True)
@@ -144,6 +157,18 @@ class OpenExr:
                 )
                 for part in file.parts
             ]
+
+    def _check_length(self, sizes: list[tuple[int, int]]) -> None:
+        """Refuse a file that cannot hold what it states: the package takes memory for all of it at once."""
+        least = sum(
+            LEAST_OF_SAMPLE.get(header["compression"], 0.0)
+            * sum(width * height / (each.xSampling * each.ySampling) for each in header["channels"])
+            for header, (width, height) in zip(self.headers, sizes, strict=True)
+        )
+        if least > self._stream.seek(0, os.SEEK_END):
+            raise InputFileError(
+                f"{self._path} is truncated or damaged (it states more than it holds): make it again."
+            )
 
     @contextlib.contextmanager
     def _package_file(self, **options: bool) -> Iterator[Any]:

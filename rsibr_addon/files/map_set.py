@@ -161,9 +161,14 @@ def read_map_set(path: str | Path, kind: str | None = None) -> MapSet:
             )
         found = {part.name: part for part in file.parts()}
     # Most of the time goes into checksums and copies, during which Python lets other threads run
-    with ThreadPoolExecutor() as threads:
-        checked = threads.map(lambda part: _checked_pixels(path, part, found[part["name"]]), header["parts"])
-        maps = {part["name"]: pixels for part, pixels in zip(header["parts"], checked, strict=True)}
+    try:
+        with ThreadPoolExecutor() as threads:
+            checked = threads.map(
+                lambda part: _checked_pixels(path, part, found[part["name"]]), header["parts"]
+            )
+            maps = {part["name"]: pixels for part, pixels in zip(header["parts"], checked, strict=True)}
+    except RuntimeError as error:  # which Python raises where a thread finds no memory
+        raise MemoryError(str(error)) from error
     kept = {field: value for field, value in header.items() if field not in ("format", "kind")}
     kept["parts"] = [
         {field: value for field, value in part.items() if field not in DERIVED} for part in header["parts"]

@@ -2,6 +2,7 @@
 
 import re
 import struct
+import threading
 from collections.abc import Callable
 from pathlib import Path
 
@@ -80,3 +81,12 @@ def test_a_flipped_bit_is_found_or_does_no_harm(path: Path, make_views: Callable
                 np.testing.assert_array_equal(back.maps[name], pixels)
     # Compressed pixels are nearly the whole file; what is left is padding and fields that mean nothing here
     assert refused > 250
+
+
+def test_a_thread_that_finds_no_memory_is_want_of_memory(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(thread: threading.Thread) -> None:
+        raise RuntimeError("can't start new thread")
+
+    monkeypatch.setattr(threading.Thread, "start", fail)
+    with pytest.raises(MemoryError):
+        read_map_set(path)

@@ -112,6 +112,26 @@ def test_tiles_that_no_program_writes_are_refused(
         read_exr(path)
 
 
+@pytest.mark.parametrize(
+    "compression", ["NO", "RLE", "ZIPS", "ZIP", "PIZ", "PXR24", "B44", "B44A", "DWAA", "DWAB"]
+)
+def test_a_picture_that_the_file_cannot_hold_is_refused_before_it_takes_memory(
+    tmp_path: Path, compression: str
+) -> None:
+    header = {"compression": getattr(OpenEXR, f"{compression}_COMPRESSION"), "type": OpenEXR.scanlineimage}
+    black = np.zeros((512, 512, 3), np.float16)
+    path = write(tmp_path / "a.exr", (header, channels(black)))
+    # What packs best is read
+    np.testing.assert_array_equal(read_exr(path), black)
+    attribute = b"dataWindow\0box2i\0" + struct.pack("<i", 16)
+    data = path.read_bytes()
+    start = data.index(attribute) + len(attribute)
+    stated = struct.pack("<4i", 0, 0, 2**24 - 1, 511)
+    path.write_bytes(data[:start] + stated + data[start + 16 :])
+    with pytest.raises(InputFileError, match="it states more than it holds"):
+        read_exr(path)
+
+
 def test_bottom_row_first_files_read_the_same(tmp_path: Path, rgb: np.ndarray) -> None:
     path = write(tmp_path / "a.exr", (SCANLINES | {"lineOrder": OpenEXR.DECREASING_Y}, channels(rgb)))
     np.testing.assert_array_equal(read_exr(path), rgb[::-1])

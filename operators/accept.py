@@ -4,22 +4,21 @@ import bpy
 
 from ..rsibr_addon.host.map_sets import remember_content
 from ..rsibr_addon.tasks.viewport.previews import previews
+from .at_once import Undoable
 
 
-class RSIBR_OT_accept(bpy.types.Operator):
+class RSIBR_OT_accept(Undoable, bpy.types.Operator):
     """Shade the object from what the file holds now"""  # noqa: D400  (a tooltip)
 
     bl_idname = "rsibr.accept"
     bl_label = "Accept"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  (Blender reads the class)
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Whether there is an object that may be changed."""
         return context.object is not None and context.object.is_editable
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def work(self, context: bpy.types.Context) -> None:
         """Accept it; how it was baked is not known."""
         remember_content(context.object.rsibr)
         previews.reload()
-        return {"FINISHED"}

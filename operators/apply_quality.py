@@ -5,14 +5,14 @@ import bpy
 from ..rsibr_addon.core.options import declared_options, quality_values
 from ..rsibr_addon.files.kinds.registry import METHOD_SETTINGS
 from ..rsibr_addon.host.option_properties import show_option
+from .at_once import Undoable
 
 
-class RSIBR_OT_apply_quality(bpy.types.Operator):
+class RSIBR_OT_apply_quality(Undoable, bpy.types.Operator):
     """Set this method's settings"""  # noqa: D400  (a tooltip)
 
     bl_idname = "rsibr.apply_quality"
     bl_label = "Quality"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  (Blender reads the class)
 
     quality = bpy.props.EnumProperty(
         name="Quality",
@@ -23,7 +23,7 @@ class RSIBR_OT_apply_quality(bpy.types.Operator):
         ],
     )
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def work(self, context: bpy.types.Context) -> None:
         """Set them."""
         kind = context.scene.rsibr_bake.kind
         chosen = getattr(context.scene.rsibr_bake, kind)
@@ -31,4 +31,3 @@ class RSIBR_OT_apply_quality(bpy.types.Operator):
         for declared in declared_options(METHOD_SETTINGS[kind]):
             if declared.name in values:
                 show_option(declared, chosen, values[declared.name])
-        return {"FINISHED"}

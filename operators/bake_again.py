@@ -3,16 +3,15 @@
 import bpy
 
 from ..rsibr_addon.host.bake_settings import apply_settings, plain_settings
+from .at_once import Undoable
 from .bake_in_background import queue_bake
-from .reporting import reporting
 
 
-class RSIBR_OT_bake_again(bpy.types.Operator):
+class RSIBR_OT_bake_again(Undoable, bpy.types.Operator):
     """Bake this object's map set with the settings that it was baked with, which the panels then show"""  # noqa: D400  (a tooltip)
 
     bl_idname = "rsibr.bake_again"
     bl_label = "Bake Again"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  (Blender reads the class)
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -22,10 +21,7 @@ class RSIBR_OT_bake_again(bpy.types.Operator):
             cls.poll_message_set("It was not baked here: choose settings, and press Bake")
         return known
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def work(self, context: bpy.types.Context) -> None:
         """Choose the settings and queue the bake; a file that holds what it did is taken at once."""
-        with reporting(self):
-            apply_settings(context.scene.rsibr_bake, plain_settings(context.object.rsibr_baked))
-            self.report({"INFO"}, queue_bake(context, context.object.rsibr.content))
-            return {"FINISHED"}
-        return {"CANCELLED"}
+        apply_settings(context.scene.rsibr_bake, plain_settings(context.object.rsibr_baked))
+        self.report({"INFO"}, queue_bake(context, context.object.rsibr.content))

@@ -7,15 +7,14 @@ from ..rsibr_addon.host.bake_settings import assign
 from ..rsibr_addon.tasks.queue.bake_request import bake_of, is_baked, output_for, request_for
 from ..rsibr_addon.tasks.report.facts import map_set_content
 from . import background
-from .reporting import reporting
+from .at_once import Undoable
 
 
-class RSIBR_OT_bake(bpy.types.Operator):
+class RSIBR_OT_bake(Undoable, bpy.types.Operator):
     """Bake a map set for the active object in the background, and shade the object from it when it is done"""  # noqa: D400  (a tooltip)
 
     bl_idname = "rsibr.bake"
     bl_label = "Bake"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  (Blender reads the class)
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -27,12 +26,9 @@ class RSIBR_OT_bake(bpy.types.Operator):
             return False
         return True
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def work(self, context: bpy.types.Context) -> None:
         """Queue the bake; where the same was baked before, its file is taken at once."""
-        with reporting(self):
-            self.report({"INFO"}, queue_bake(context))
-            return {"FINISHED"}
-        return {"CANCELLED"}
+        self.report({"INFO"}, queue_bake(context))
 
 
 def queue_bake(context: bpy.types.Context, content: str = "") -> str:

@@ -14,6 +14,7 @@ from ..rsibr_addon.settings.light import Light
 from ..rsibr_addon.settings.method import MethodSettings
 from ..rsibr_addon.tasks.methods.bake import bake
 from ..rsibr_addon.tasks.methods.method import Baked
+from .file_properties import file_path
 from .stepwise import Stepwise
 
 
@@ -24,13 +25,7 @@ class _BakeKind(Stepwise):
     interrupted = "Bake interrupted; started again, a capture goes on"
     SETTINGS: ClassVar[type[MethodSettings]]
 
-    filepath = bpy.props.StringProperty(
-        name="Map Set",
-        description="File to write",
-        subtype="FILE_PATH",
-        options={"SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
-    )
-    force = bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
+    filepath = file_path("Map Set")
 
     def work(self, context: bpy.types.Context) -> Steps[Baked]:
         """See `Stepwise`."""

@@ -8,6 +8,7 @@ from ..rsibr_addon.core.errors import SceneError
 from ..rsibr_addon.core.progress import Steps
 from ..rsibr_addon.tasks.light.scene import LARGEST, SMALLEST, SceneLight, illuminate_from_scene
 from ..rsibr_addon.tasks.light.world import illuminate_from_world
+from .file_properties import file_path
 from .stepwise import Stepwise
 from .use_picture import take_picture
 
@@ -19,12 +20,7 @@ class RSIBR_OT_capture_environment(Stepwise, bpy.types.Operator):
     bl_label = "Capture Environment"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  (Blender reads the class)
 
-    filepath = bpy.props.StringProperty(
-        name="Picture",
-        description="File to write, OpenEXR or Radiance HDR by its name",
-        subtype="FILE_PATH",
-        options={"SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
-    )
+    filepath = file_path("Picture", "File to write, OpenEXR or Radiance HDR by its name")
     source = bpy.props.EnumProperty(
         name="Light",
         description="What light is captured",
@@ -54,7 +50,6 @@ class RSIBR_OT_capture_environment(Stepwise, bpy.types.Operator):
     )
     denoise = bpy.props.BoolProperty(name="Denoise", description="Denoise what is rendered")
     seed = bpy.props.IntProperty(name="Seed", description="Seed of Cycles' noise", min=0)
-    force = bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
     load_image = bpy.props.BoolProperty(
         name="Load", description="Load the picture into this file afterwards", default=True
     )

@@ -7,10 +7,10 @@ from ..rsibr_addon.host.map_sets import written_path
 from ..rsibr_addon.tasks.compare.compare import truth_of
 from ..rsibr_addon.tasks.queue.bake_request import comparison_of
 from . import background
-from .reporting import reporting
+from .at_once import AtOnce
 
 
-class RSIBR_OT_compare(bpy.types.Operator):
+class RSIBR_OT_compare(AtOnce, bpy.types.Operator):
     """Measure in the background how far the preview is from what Cycles shows, and open a report"""  # noqa: D400  (a tooltip)
 
     bl_idname = "rsibr.compare"
@@ -28,10 +28,7 @@ class RSIBR_OT_compare(bpy.types.Operator):
             return False
         return True
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def work(self, context: bpy.types.Context) -> None:
         """Queue the comparison."""
-        with reporting(self):
-            item = context.object
-            background.submit(comparison_of(item, written_path(item.rsibr)))
-            return {"FINISHED"}
-        return {"CANCELLED"}
+        item = context.object
+        background.submit(comparison_of(item, written_path(item.rsibr)))

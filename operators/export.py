@@ -11,6 +11,7 @@ from ..rsibr_addon.host.option_properties import options_of, properties_of
 from ..rsibr_addon.tasks.export.export import export
 from ..rsibr_addon.tasks.export.format import Format
 from ..rsibr_addon.tasks.export.formats import FORMATS
+from .file_properties import file_path
 from .reporting import reporting
 
 
@@ -20,12 +21,7 @@ class _Export:
     bl_label = "Export Reflection Maps"
     exported: Format
 
-    filepath = bpy.props.StringProperty(
-        name="File",
-        description="File to write",
-        subtype="FILE_PATH",
-        options={"SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
-    )
+    filepath = file_path("File")
     check_existing = bpy.props.BoolProperty(default=True, options={"HIDDEN"})
 
     @classmethod

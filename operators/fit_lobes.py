@@ -10,6 +10,7 @@ from ..rsibr_addon.core.progress import Steps
 from ..rsibr_addon.host.option_properties import options_of, properties_of
 from ..rsibr_addon.settings.fit import FitSettings
 from ..rsibr_addon.tasks.reflectance.fit_lobes import fit_lobes
+from .file_properties import file_path
 from .stepwise import Stepwise
 
 
@@ -21,13 +22,7 @@ class RSIBR_OT_fit_lobes(Stepwise, bpy.types.Operator):
     bl_options = {"REGISTER"}  # noqa: RUF012  (Blender reads the class)
     interrupted = "Fit interrupted; nothing was written"
 
-    filepath = bpy.props.StringProperty(
-        name="Fit",
-        description="File to write",
-        subtype="FILE_PATH",
-        options={"SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
-    )
-    force = bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
+    filepath = file_path("Fit")
 
     def work(self, context: bpy.types.Context) -> Steps[Any]:
         """See `Stepwise`."""

@@ -6,6 +6,7 @@ import bpy
 
 from ..rsibr_addon.core.errors import InputFileError
 from ..rsibr_addon.tasks.light.scene import LARGEST, SMALLEST
+from .file_properties import file_path
 from .stepwise import Stepwise
 from .use_picture import take_picture
 
@@ -13,12 +14,7 @@ from .use_picture import take_picture
 class FromPictures(Stepwise):
     """Of a picture of light; `work` is to return its path."""
 
-    filepath = bpy.props.StringProperty(
-        name="Picture",
-        description="Picture to work on",
-        subtype="FILE_PATH",
-        options={"SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
-    )
+    filepath = file_path("Picture", "Picture to work on")
     filter_image = bpy.props.BoolProperty(default=True, options={"HIDDEN", "SKIP_SAVE"})
     filter_folder = bpy.props.BoolProperty(default=True, options={"HIDDEN", "SKIP_SAVE"})
     output = bpy.props.StringProperty(
@@ -27,7 +23,6 @@ class FromPictures(Stepwise):
         "from unless it names another; empty for that one's name with -light.exr",
         options={"SKIP_SAVE"},
     )
-    force = bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
     load_image = bpy.props.BoolProperty(
         name="Load", description="Load the result into this file afterwards", default=True
     )

@@ -7,10 +7,10 @@ from ..rsibr_addon.core.progress import drain
 from ..rsibr_addon.files.output_paths import report_beside
 from ..rsibr_addon.host.map_sets import written_path
 from ..rsibr_addon.tasks.report.report import map_set_report
-from .reporting import reporting
+from .at_once import AtOnce
 
 
-class RSIBR_OT_open_report(bpy.types.Operator):
+class RSIBR_OT_open_report(AtOnce, bpy.types.Operator):
     """Show all that the active object's map set holds: its maps, its settings and the error it promises"""  # noqa: D400  (a tooltip)
 
     bl_idname = "rsibr.open_report"
@@ -25,15 +25,12 @@ class RSIBR_OT_open_report(bpy.types.Operator):
         """Whether there is a map set."""
         return context.object is not None and bool(context.object.rsibr.map_set)
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def work(self, context: bpy.types.Context) -> None:
         """Write it beside the map set, in place of an earlier one."""
-        with reporting(self):
-            path = written_path(context.object.rsibr)
-            if not path.is_file():
-                raise SceneError(f"There is no map set {path}: bake it again, or choose another.")
-            written = drain(map_set_report(path, report_beside(path), force=True))
-            self.report({"INFO"}, f"Wrote {written}")
-            if self.open_browser:
-                bpy.ops.wm.url_open(url=written.resolve().as_uri())
-            return {"FINISHED"}
-        return {"CANCELLED"}
+        path = written_path(context.object.rsibr)
+        if not path.is_file():
+            raise SceneError(f"There is no map set {path}: bake it again, or choose another.")
+        written = drain(map_set_report(path, report_beside(path), force=True))
+        self.report({"INFO"}, f"Wrote {written}")
+        if self.open_browser:
+            bpy.ops.wm.url_open(url=written.resolve().as_uri())

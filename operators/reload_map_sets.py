@@ -3,19 +3,19 @@
 import bpy
 
 from ..rsibr_addon.tasks.viewport.previews import previews
+from .at_once import AtOnce
 
 
-class RSIBR_OT_reload_map_sets(bpy.types.Operator):
+class RSIBR_OT_reload_map_sets(AtOnce, bpy.types.Operator):
     """Read the map sets' files again, and try again what failed"""  # noqa: D400  (a tooltip)
 
     bl_idname = "rsibr.reload_map_sets"
     bl_label = "Reload Map Sets"
     bl_options = {"REGISTER"}  # noqa: RUF012  (Blender reads the class)
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def work(self, context: bpy.types.Context) -> None:
         """Let go of what is uploaded; the next redraw reads it."""
         previews.reload()
         for window in context.window_manager.windows:
             for area in window.screen.areas:
                 area.tag_redraw()
-        return {"FINISHED"}

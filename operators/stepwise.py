@@ -23,6 +23,7 @@ class Stepwise:
 
     interrupted: str
     filepath: str
+    force = bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
     report: Callable[[set[str], str], None]
     _asks = False
     _steps: Steps[Any] | None = None

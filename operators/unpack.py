@@ -4,15 +4,14 @@ import bpy
 
 from ..rsibr_addon.host.bake_settings import baked_folder
 from ..rsibr_addon.host.map_sets import is_packed, unpack
-from .reporting import reporting
+from .at_once import Undoable
 
 
-class RSIBR_OT_unpack(bpy.types.Operator):
+class RSIBR_OT_unpack(Undoable, bpy.types.Operator):
     """Write the active object's packed map set to where baked files go, and shade from that file"""  # noqa: D400  (a tooltip)
 
     bl_idname = "rsibr.unpack"
     bl_label = "Unpack"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  (Blender reads the class)
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -23,10 +22,7 @@ class RSIBR_OT_unpack(bpy.types.Operator):
             and settings.image.is_editable
         )
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def work(self, context: bpy.types.Context) -> None:
         """Write it; nothing that is there is replaced."""
-        with reporting(self):
-            path = unpack(context.object.rsibr, baked_folder())
-            self.report({"INFO"}, f"Wrote {path}")
-            return {"FINISHED"}
-        return {"CANCELLED"}
+        path = unpack(context.object.rsibr, baked_folder())
+        self.report({"INFO"}, f"Wrote {path}")

@@ -1,6 +1,7 @@
 """What the panel tells of a comparison is what its file says, while it is of this map set."""
 
 import json
+import math
 from pathlib import Path
 from typing import Any
 
@@ -81,3 +82,15 @@ def test_a_comparison_of_another_version_is_told(path: Path, change: dict[str, A
     assert measured_facts(path) == {
         "Measured": f"{file} is no comparison of this version ({why}): compare again."
     }
+
+
+def test_comparisons_of_version_0_1_are_read(path: Path) -> None:
+    write_comparison(path, facts.map_set_content(path))
+    file = path.parent / "flat-compared" / "comparison.json"
+    told = json.loads(file.read_text())
+    fields = ("views", "seed", "mesh", "size", "samples", "modes", "warpings", "captured_views")
+    told["settings"] = {name: told["settings"][name] for name in fields} | {"field_of_view": math.pi / 3.0}
+    file.write_text(json.dumps(told))
+    read = Comparison.from_json(told, ViewsComparison, ViewsWay)
+    assert read.settings.perspective == pytest.approx(60.0)
+    assert measured_facts(path)["Against"] == "Cycles, 2 views"

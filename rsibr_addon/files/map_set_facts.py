@@ -64,13 +64,14 @@ def _size(size: list[int]) -> str:
 
 
 def _settings(header: dict[str, Any]) -> dict[str, str]:
-    """The settings by their labels, but for what facts tell already."""
+    """Material and settings by their labels, but for what facts tell already and what is for programs."""
     options = {each.name: each.option for each in declared_options(STORED[header["kind"]].settings)}
     known, told = told_facts(header), {}
-    for name, value in header["settings"].items():
+    for name, value in (header["material"] | header["settings"]).items():
         option = options.get(name)
         label = option.label if option else in_words(name)
-        if value is None or label in known:
+        for_programs = name == "fingerprint" or isinstance(value, dict | None)
+        if for_programs or label in known or value in known.values():
             continue
         if option and isinstance(value, str | int) and value in option.choices:
             told[label] = option.choices[value].label

@@ -8,7 +8,6 @@ from typing import Annotated, Any, TypedDict
 
 import numpy as np
 
-from ...core.brdf.gallery import gallery_name
 from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.errors import MapSetError, RangeError, SchemaError, ShapeError
@@ -306,14 +305,8 @@ def _array(
 
 def _facts(header: dict[str, Any]) -> dict[str, str]:
     lobes = [part for part in header["parts"] if part["role"] in STORED.roles]
-    elevations = [elevation for part in lobes for elevation in part["elevations"]]
-    count, brdf = len({part["lobe"] for part in lobes}), header["material"]["brdf"]
-    return {
-        **({} if gallery_name(brdf) == brdf else {"Model": brdf}),
-        "Fit": header["material"]["method"],
-        "Lobes": f"{count}, for {len({elevation['mu'] for elevation in elevations})} view elevations",
-        "Lookups": f"{count * max((len(elevation['taps']) for elevation in elevations), default=0)}",
-    }
+    elevations = {elevation["mu"] for part in lobes for elevation in part["elevations"]}
+    return {"Lobes": f"{len({part['lobe'] for part in lobes})}, {len(elevations)} view elevations"}
 
 
 def _part_title(part: dict[str, Any]) -> str:

@@ -131,7 +131,7 @@ def _faces(strip: Array) -> Array:
 
 def _facts(header: dict[str, Any]) -> dict[str, str]:
     mips = sum(part["role"] == "prefiltered" for part in header["parts"])
-    return {"Mips": f"{mips}", "Filter": str(header["material"].get("filter", "not told"))}
+    return {"Mips": f"{mips}"}
 
 
 def _part_title(part: dict[str, Any]) -> str:

@@ -118,15 +118,9 @@ def from_map_set(path: Path, map_set: MapSet) -> ReflectionTables:
         raise MapSetError(f"{path} holds no reflection tables. {error}") from error
 
 
-def _facts(header: dict[str, Any]) -> dict[str, str]:
-    """The text of each part of the material."""
-    return {name.capitalize(): text for name, text in header["material"].items() if isinstance(text, str)}
-
-
 STORED = StoredKind(
     settings=ReflectionTablesSettings,
     look=TablesLook,
     roles={WEIGHTS: _Weights, Role.REFRACTION: _Refraction},
     numbers=(WEIGHTS,),
-    facts=_facts,
 )

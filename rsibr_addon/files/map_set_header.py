@@ -155,34 +155,28 @@ class StoredKind:
     lobes: Callable[[Path, dict[str, Any]], Fit | None] = _no_lobes
 
 
-def make_header(
-    layout: str,
-    size: tuple[int, int],
-    environment: Environment,
-    embedded: bool,
-    material: dict[str, Any],
-    parts: list[dict[str, Any]],
-    error_bound: dict[str, Any] | None,
-    settings: dict[str, Any],
-    software: str,
-) -> dict[str, Any]:
-    """The description of a map set, as `MapSet.header` takes it.
+@dataclass(frozen=True, eq=False)
+class Origin:
+    """What a map set was made of, and how; the fields are those of docs/map-set-format.md.
 
-    Parameters
+    Attributes
     ----------
-    layout : str
-    size : tuple of two int
-        Width and height of the maps.
     environment : Environment
-    embedded : bool
-        Whether one of `parts` is the environment, under the name `ENVIRONMENT`.
-    material, parts, error_bound, settings, software
-        See docs/map-set-format.md.
-
-    Returns
-    -------
-    dict
+        Embedded under the name `ENVIRONMENT`.
     """
+
+    environment: Environment
+    settings: dict[str, Any]
+    software: str
+    material: dict[str, Any] = field(default_factory=dict)
+    error_bound: dict[str, Any] | None = None
+
+
+def make_header(
+    layout: str, size: tuple[int, int], parts: list[dict[str, Any]], origin: Origin
+) -> dict[str, Any]:
+    """The description of a map set, as `MapSet.header` takes it; `size` is width and height of its maps."""
+    environment = origin.environment
     height, width = environment.radiance.shape[:2]
     return {
         "layout": layout,
@@ -192,14 +186,14 @@ def make_header(
             "name": environment.name,
             "sha256": environment.sha256,
             "size": [width, height],
-            "part": ENVIRONMENT if embedded else None,
+            "part": ENVIRONMENT,
             **({} if environment.clamp is None else {"clamp": environment.clamp}),
         },
-        "material": material,
+        "material": origin.material,
         "parts": parts,
-        "error_bound": error_bound,
-        "settings": settings,
-        "software": software,
+        "error_bound": origin.error_bound,
+        "settings": origin.settings,
+        "software": origin.software,
     }
 
 

@@ -19,6 +19,7 @@ from rsibr.rsibr_addon.files import brdfs as readers
 from rsibr.rsibr_addon.files.kinds.lobe_stack import PROFILES, profiles, to_map_set
 from rsibr.rsibr_addon.files.map_set import read_map_set, write_map_set
 from rsibr.rsibr_addon.files.map_set_data import MapSet
+from rsibr.rsibr_addon.files.map_set_header import Origin
 from rsibr.rsibr_addon.host import materials
 from rsibr.rsibr_addon.job import read_job
 from rsibr.rsibr_addon.settings.lobe_stack import StackComparison
@@ -52,7 +53,7 @@ def write_stack(path: Path, brdf: str) -> Path:
     stack = LobeStack("octahedral", fit.mu, maps, fit.scale, fit.offsets, fit.taps, fit.albedo)
     light = Environment(np.ones((8, 16, 3), dtype=np.float32), "light")
     material = {"brdf": brdf, "method": "joint", PROFILES: profiles(fit)}
-    write_map_set(path, to_map_set(stack, light, material, None, {}, "test"))
+    write_map_set(path, to_map_set(stack, Origin(light, {}, "test", material)))
     return path
 
 

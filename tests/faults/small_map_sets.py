@@ -15,6 +15,7 @@ from rsibr.rsibr_addon.core.lobes.bank import KernelBank
 from rsibr.rsibr_addon.files.fits import write_fit
 from rsibr.rsibr_addon.files.kinds import kernel_bank, lobe_stack, mip_chain, reflection_tables
 from rsibr.rsibr_addon.files.map_set_data import MapSet
+from rsibr.rsibr_addon.files.map_set_header import Origin
 from rsibr.rsibr_addon.job import CommandJob
 from rsibr.rsibr_addon.settings.comparison import ComparisonOptions
 from rsibr.rsibr_addon.settings.lobe_stack import StackComparison
@@ -59,24 +60,25 @@ def _lobe_stack() -> MapSet:
     stack = LobeStack("octahedral", fit.mu, maps, fit.scale, fit.offsets, fit.taps, fit.albedo)
     material = {"brdf": BRDF, "method": "joint", lobe_stack.PROFILES: lobe_stack.profiles(fit)}
     bound = {"filter": [1e-5] * 3, "interpolation": 1e-3}
-    return lobe_stack.to_map_set(stack, LIGHT, material, bound, {"half": False}, "test")
+    return lobe_stack.to_map_set(stack, Origin(LIGHT, {"half": False}, "test", material, bound))
 
 
 def _kernel_bank() -> MapSet:
     maps = RNG.random((2, *stack_representation("dual_paraboloid", 4).shape(4), 3), dtype=np.float32)
     filtered = FilteredBank("dual_paraboloid", KernelBank((0.5, 1.0)), maps, RNG.random((2, 3)))
-    return kernel_bank.to_map_set(BakedBank(filtered, (0.001, 0.002)), LIGHT, {"size": 4}, "test")
+    return kernel_bank.to_map_set(BakedBank(filtered, (0.001, 0.002)), Origin(LIGHT, {"size": 4}, "test"))
 
 
 def _reflection_tables() -> MapSet:
     maps = {role: RNG.random((2 + i, 4 + 2 * i, 3), dtype=np.float32) for i, role in enumerate(Role)}
     tables = ReflectionTables(maps, RNG.random((len(Role), 4, 3), dtype=np.float32), 1.5)
     material, bound = {"diffuse": "lambert:kd=1"}, {"specular": [1e-5] * 3}
-    return reflection_tables.to_map_set(tables, LIGHT, material, bound, {"exact": False}, "test")
+    return reflection_tables.to_map_set(tables, Origin(LIGHT, {"exact": False}, "test", material, bound))
 
 
 def _mip_chain() -> MapSet:
     mips = tuple(RNG.random((6, n, n, 3), dtype=np.float32) for n in (4, 2, 1))
     chain = MipChain(mips, RNG.normal(size=(9, 3)), (0.0, 0.5, 1.0))
     settings = {"filter": "ggx", "size": 4, "roughness": "linear"}
-    return mip_chain.to_map_set(chain, LIGHT, {"filter": "ggx"}, {"relative_to_peak": 1e-3}, settings, "test")
+    origin = Origin(LIGHT, settings, "test", {"filter": "ggx"}, {"relative_to_peak": 1e-3})
+    return mip_chain.to_map_set(chain, origin)

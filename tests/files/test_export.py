@@ -19,6 +19,7 @@ from rsibr.rsibr_addon.core.resample import lookup
 from rsibr.rsibr_addon.files.kinds import mip_chain, reflection_tables
 from rsibr.rsibr_addon.files.ktx2 import write_ktx2
 from rsibr.rsibr_addon.files.map_set import write_map_set
+from rsibr.rsibr_addon.files.map_set_header import Origin
 from rsibr.rsibr_addon.files.textures import Texture, Up
 from rsibr.rsibr_addon.tasks.export.export import export
 from rsibr.rsibr_addon.tasks.export.ktx2 import Ktx2Settings
@@ -85,7 +86,7 @@ def read(path: Path) -> Read:
 
 def chain_file(folder: Path) -> Path:
     path = folder / "sky.rsibr.exr"
-    write_map_set(path, mip_chain.to_map_set(CHAIN, SKY, {"filter": "ggx"}, None, {}, "a test"))
+    write_map_set(path, mip_chain.to_map_set(CHAIN, Origin(SKY, {}, "a test", {"filter": "ggx"})))
     return path
 
 
@@ -124,7 +125,7 @@ def test_tables_of_several_sizes_are_several_textures(tmp_path: Path) -> None:
     single = {role: values.astype(np.float32) for role, values in maps.items()}
     tables = ReflectionTables(single, np.ones((len(Role), 3, 3), dtype=np.float32))
     source = tmp_path / "tables.rsibr.exr"
-    write_map_set(source, reflection_tables.to_map_set(tables, SKY, {}, None, {}, "a test"))
+    write_map_set(source, reflection_tables.to_map_set(tables, Origin(SKY, {}, "a test")))
     textures = drain(export(source, tmp_path / "out.ktx2"))
     assert [path.name for path in textures] == ["out-diffuse.ktx2", "out-specular.ktx2"]
     for path, (role, values) in zip(textures, maps.items(), strict=True):

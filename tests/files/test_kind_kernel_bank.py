@@ -14,6 +14,7 @@ from rsibr.rsibr_addon.core.lobes.bank import KernelBank
 from rsibr.rsibr_addon.files.kinds.kernel_bank import from_map_set, to_map_set
 from rsibr.rsibr_addon.files.map_set import read_map_set, write_map_set
 from rsibr.rsibr_addon.files.map_set_data import MapSet
+from rsibr.rsibr_addon.files.map_set_header import Origin
 
 RNG = np.random.default_rng(4)
 LIGHT = Environment(RNG.random((8, 16, 3), dtype=np.float32), "light")
@@ -22,7 +23,9 @@ LIGHT = Environment(RNG.random((8, 16, 3), dtype=np.float32), "light")
 def make_map_set(layout: str = "dual_paraboloid") -> tuple[FilteredBank, MapSet]:
     maps = RNG.random((3, *stack_representation(layout, 8).shape(8), 3), dtype=np.float32)
     filtered = FilteredBank(layout, KernelBank((0.5, 1.0, 2.0)), maps, RNG.random((3, 3)))
-    return filtered, to_map_set(BakedBank(filtered, (0.001, 0.002, 0.003)), LIGHT, {"size": 8}, "a test")
+    return filtered, to_map_set(
+        BakedBank(filtered, (0.001, 0.002, 0.003)), Origin(LIGHT, {"size": 8}, "a test")
+    )
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)

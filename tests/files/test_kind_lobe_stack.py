@@ -16,6 +16,7 @@ from rsibr.rsibr_addon.core.maps.representation import FRONT
 from rsibr.rsibr_addon.files.kinds.lobe_stack import PROFILES, fit_of, from_map_set, profiles, to_map_set
 from rsibr.rsibr_addon.files.map_set import read_map_set, read_map_set_header, write_map_set
 from rsibr.rsibr_addon.files.map_set_data import MapSet
+from rsibr.rsibr_addon.files.map_set_header import Origin
 from rsibr.tests.lobe_stacks import random_fit, random_stack
 
 LIGHT = Environment(np.random.default_rng(1).random((8, 16, 3), dtype=np.float32), "light")
@@ -23,7 +24,7 @@ MATERIAL = {"brdf": "ward:alpha=0.04,ks=0.8", "method": "joint"}
 
 
 def map_set_of(stack: LobeStack) -> MapSet:
-    return to_map_set(stack, LIGHT, MATERIAL, {"filter": [1e-5] * 3}, {}, "test")
+    return to_map_set(stack, Origin(LIGHT, {}, "test", MATERIAL, {"filter": [1e-5] * 3}))
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)
@@ -139,7 +140,7 @@ def map_set_of_fit(shared: bool = False) -> tuple[Fit, MapSet]:
     maps = random_stack("octahedral").maps[:, : fit.weights.shape[1]]
     stack = LobeStack("octahedral", fit.mu, maps, fit.scale, fit.offsets, fit.taps, fit.albedo)
     material = {"brdf": fit.brdf, "method": fit.method, PROFILES: profiles(fit)}
-    return fit, to_map_set(stack, LIGHT, material, None, {}, "test")
+    return fit, to_map_set(stack, Origin(LIGHT, {}, "test", material))
 
 
 @pytest.mark.parametrize("shared", [False, True])

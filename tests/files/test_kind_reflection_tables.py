@@ -13,6 +13,7 @@ from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTabl
 from rsibr.rsibr_addon.files.kinds.reflection_tables import KIND, from_map_set, to_map_set
 from rsibr.rsibr_addon.files.map_set import read_map_set, write_map_set
 from rsibr.rsibr_addon.files.map_set_data import MapSet
+from rsibr.rsibr_addon.files.map_set_header import Origin
 
 PATH = Path("a.rsibr.exr")
 
@@ -29,7 +30,8 @@ def random_tables(roles: tuple[Role, ...] = tuple(Role), eta: float = 1.5) -> Re
 def map_set_of(tables: ReflectionTables) -> MapSet:
     environment = Environment(np.ones((4, 8, 3), np.float32), "grey.exr")
     bound = {"specular": [1e-5, 2e-5, 3e-5]}
-    return to_map_set(tables, environment, {"diffuse": "lambert:kd=1"}, bound, {"exact": False}, "tests")
+    origin = Origin(environment, {"exact": False}, "tests", {"diffuse": "lambert:kd=1"}, bound)
+    return to_map_set(tables, origin)
 
 
 @pytest.mark.parametrize("roles", [tuple(Role), (Role.DIFFUSE,), (Role.RETRO, Role.REFRACTION)])

@@ -11,6 +11,7 @@ from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
 from rsibr.rsibr_addon.files.kinds.mip_chain import from_map_set, to_map_set
 from rsibr.rsibr_addon.files.map_set import read_map_set, write_map_set
 from rsibr.rsibr_addon.files.map_set_data import MapSet
+from rsibr.rsibr_addon.files.map_set_header import Origin
 
 RNG = np.random.default_rng(41)
 
@@ -22,9 +23,8 @@ def make_chain(roughness: tuple[float, ...] | None = None) -> MipChain:
 
 def make_map_set(chain: MipChain) -> MapSet:
     environment = Environment(RNG.random((8, 16, 3), dtype=np.float32), "somewhere")
-    return to_map_set(
-        chain, environment, {"filter": "ggx"}, {"relative_to_peak": 1e-3}, {"size": 4}, "a test"
-    )
+    bound = {"relative_to_peak": 1e-3}
+    return to_map_set(chain, Origin(environment, {"size": 4}, "a test", {"filter": "ggx"}, bound))
 
 
 @pytest.mark.parametrize("roughness", [None, (0.0, 0.25, 1.0)])

@@ -16,6 +16,7 @@ from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.kinds.lobe_stack import to_map_set
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.files.map_set_data import MapSet
+from rsibr.rsibr_addon.files.map_set_header import Origin
 from rsibr.rsibr_addon.settings.lobe_stack import StackComparison
 from rsibr.rsibr_addon.tasks.compare.compare import compare
 from rsibr.rsibr_addon.tasks.compare.comparison import Comparison
@@ -52,9 +53,8 @@ def map_set(brightness: float = 1.0) -> MapSet:
     fit = lambert_fit()
     stack = drain(bake_stack(LIGHT, fit, "octahedral", 32)).stack
     stack.maps[:] *= brightness
-    return to_map_set(
-        stack, Environment(LIGHT, "noise"), {"brdf": fit.brdf, "method": fit.method}, None, {}, "test"
-    )
+    material = {"brdf": fit.brdf, "method": fit.method}
+    return to_map_set(stack, Origin(Environment(LIGHT, "noise"), {}, "test", material))
 
 
 @pytest.fixture

@@ -10,6 +10,7 @@ from rsibr.rsibr_addon.core.lobes.bake import bake_bank
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.kinds.kernel_bank import to_map_set
 from rsibr.rsibr_addon.files.map_set import write_map_set
+from rsibr.rsibr_addon.files.map_set_header import Origin
 
 type Told = Callable[[str], dict]
 
@@ -19,7 +20,7 @@ def _bank(job: Path) -> None:
     light = np.full((64, 128, 3), 0.2, dtype=np.float32)
     light[40:50, 20:40] = 6.0
     baked = drain(bake_bank(light, "dual_paraboloid", 64))
-    map_set = to_map_set(baked, Environment(light, "a lamp"), {}, "a test")
+    map_set = to_map_set(baked, Origin(Environment(light, "a lamp"), {}, "a test"))
     write_map_set(job / "bank.rsibr.exr", map_set, force=True)
 
 

@@ -6,7 +6,7 @@ from typing import Any, TypedDict
 import numpy as np
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.files.map_set_data import ENVIRONMENT, MapSet
-from rsibr.rsibr_addon.files.map_set_header import StoredKind, make_header
+from rsibr.rsibr_addon.files.map_set_header import Origin, StoredKind, make_header
 from rsibr.tests.toys.disk_core import Disk, DiskLook
 from rsibr.tests.toys.disk_settings import DiskComparison, DiskSettings
 
@@ -29,7 +29,7 @@ def to_map_set(disk: Disk, environment: Environment, shine: float) -> MapSet:
         maps[f"colour{cosine}"] = np.full((2, 2, 3), colour, dtype=np.float32)
         parts.append({"name": f"colour{cosine}", "role": "colour", "cosine": cosine})
     material = {"name": "paper", "shine": shine}
-    header = make_header("octahedral", (2, 2), environment, True, material, parts, None, {}, "a test")
+    header = make_header("octahedral", (2, 2), parts, Origin(environment, {}, "a test", material))
     return MapSet(KIND, maps, header)
 
 

@@ -56,18 +56,7 @@ def read_as_map_set(path: Path, clamp: float | None = None) -> MapSet:
 
 
 def from_map_set(path: Path, map_set: MapSet) -> Environment:
-    """The environment that a map set was made in.
-
-    Parameters
-    ----------
-    path : Path
-        The map set's file, for messages.
-    map_set : MapSet
-        A map set of any kind.
-
-    Returns
-    -------
-    Environment
+    """The environment that a map set of any kind was made in.
 
     Raises
     ------

@@ -1,11 +1,11 @@
 """Map sets of kind `kernel_bank`."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypedDict
 
 import numpy as np
 
-from ...core.environment import Environment
 from ...core.errors import MapSetError, RangeError, ShapeError
 from ...core.kinds.kernel_bank.filtered_bank import FilteredBank
 from ...core.kinds.kernel_bank.shading import BankLook
@@ -14,7 +14,7 @@ from ...core.lobes.bake import BakedBank
 from ...core.lobes.bank import KernelBank
 from ...settings.kernel_bank import KernelBankSettings
 from ..map_set_data import ENVIRONMENT, MapSet
-from ..map_set_header import Colour, StoredKind, make_header, role_in_words
+from ..map_set_header import Colour, Origin, StoredKind, make_header, role_in_words
 from .sheets import sheets_from_strip, strip_from_sheets
 
 KIND = "kernel_bank"
@@ -26,23 +26,10 @@ class _Kernel(TypedDict):
     interpolation: float
 
 
-def to_map_set(baked: BakedBank, environment: Environment, settings: dict[str, Any], software: str) -> MapSet:
-    """A kernel bank as a map set holds it.
-
-    Parameters
-    ----------
-    baked : BakedBank
-    environment : Environment
-        Its environment; embedded.
-    settings, software
-        See docs/map-set-format.md.
-
-    Returns
-    -------
-    MapSet
-    """
+def to_map_set(baked: BakedBank, origin: Origin) -> MapSet:
+    """A kernel bank as a map set holds it; the bounds are the bank's own, not those of `origin`."""
     filtered = baked.filtered
-    maps = {ENVIRONMENT: environment.radiance}
+    maps = {ENVIRONMENT: origin.environment.radiance}
     parts: list[dict[str, Any]] = [{"name": ENVIRONMENT, "role": ENVIRONMENT}]
     for number, sheets in enumerate(filtered.maps.astype(np.float32)):
         name = f"kernel{number:02d}"
@@ -56,36 +43,14 @@ def to_map_set(baked: BakedBank, environment: Environment, settings: dict[str, A
                 "interpolation": baked.interpolation[number],
             }
         )
-    header = make_header(
-        layout=filtered.layout,
-        size=(filtered.size, filtered.size * filtered.maps.shape[1]),
-        environment=environment,
-        embedded=True,
-        material={},
-        parts=parts,
-        error_bound={
-            "filter": filtered.bound.max(axis=0).tolist(),
-            "interpolation": max(baked.interpolation),
-        },
-        settings=settings,
-        software=software,
-    )
+    bound = {"filter": filtered.bound.max(axis=0).tolist(), "interpolation": max(baked.interpolation)}
+    size = filtered.size, filtered.size * filtered.maps.shape[1]
+    header = make_header(filtered.layout, size, parts, replace(origin, error_bound=bound))
     return MapSet(KIND, maps, header)
 
 
 def from_map_set(path: Path, map_set: MapSet) -> FilteredBank:
     """A kernel bank as a map set holds it.
-
-    Parameters
-    ----------
-    path : Path
-        The map set's file, for messages.
-    map_set : MapSet
-        A map set of this kind.
-
-    Returns
-    -------
-    FilteredBank
 
     Raises
     ------

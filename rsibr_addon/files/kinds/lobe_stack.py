@@ -2,6 +2,7 @@
 
 from collections import defaultdict
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 from typing import Annotated, Any, TypedDict
@@ -20,7 +21,7 @@ from ...core.lobes.fit import Fit
 from ...core.schema import array, between, decode, length
 from ...settings.lobe_stack import LobeStackSettings, StackComparison
 from ..map_set_data import ENVIRONMENT, MapSet, MapsInTurn
-from ..map_set_header import MOST_KERNELS, Colour, Model, StoredKind, make_header, role_in_words
+from ..map_set_header import MOST_KERNELS, Colour, Model, Origin, StoredKind, make_header, role_in_words
 from .sheets import sheets_from_strip, strip_from_sheets
 
 KIND = "lobe_stack"
@@ -63,76 +64,30 @@ class _Profiles(TypedDict):
     weights: list[list[list[Colour]]]
 
 
-def to_map_set(
-    stack: LobeStack,
-    environment: Environment,
-    material: dict[str, Any],
-    error_bound: dict[str, Any] | None,
-    settings: dict[str, Any],
-    software: str,
-) -> MapSet:
-    """A lobe stack as a map set holds it.
-
-    Parameters
-    ----------
-    stack : LobeStack
-    environment : Environment
-        Its environment; embedded.
-    material, error_bound, settings, software
-        See docs/map-set-format.md.
-
-    Returns
-    -------
-    MapSet
-    """
-    header = make_header(
-        layout=stack.layout,
-        size=(stack.size, stack.size * stack.maps.shape[2]),
-        environment=environment,
-        embedded=True,
-        material=material,
-        parts=_parts(stack, stack.maps.shape[1]),
-        error_bound=error_bound,
-        settings=settings,
-        software=software,
-    )
-    maps = _maps(environment, (sheets for lobe in stack.maps for sheets in lobe))
+def to_map_set(stack: LobeStack, origin: Origin) -> MapSet:
+    """A lobe stack as a map set holds it."""
+    size = stack.size, stack.size * stack.maps.shape[2]
+    header = make_header(stack.layout, size, _parts(stack, stack.maps.shape[1]), origin)
+    maps = _maps(origin.environment, (sheets for lobe in stack.maps for sheets in lobe))
     return MapSet(KIND, dict(zip((part["name"] for part in header["parts"]), maps, strict=True)), header)
 
 
-def in_turn(
-    baked: BakedStack, environment: Environment, settings: dict[str, Any], software: str
-) -> MapsInTurn:
+def in_turn(baked: BakedStack, origin: Origin) -> MapsInTurn:
     """A baked stack as a map set holds it, with its maps summed one after another.
 
-    Parameters
-    ----------
-    baked : BakedStack
-    environment : Environment
-        Its environment; embedded.
-    settings, software
-        See docs/map-set-format.md.
-
-    Returns
-    -------
-    MapsInTurn
+    Material and bounds are the stack's own, not those of `origin`.
     """
     fit, filtered = baked.fit, baked.filtered
     size = filtered.size, filtered.size * filtered.maps.shape[1]
-    header = make_header(
-        layout=filtered.layout,
-        size=size,
-        environment=environment,
-        embedded=True,
+    made = replace(
+        origin,
         material={"brdf": fit.brdf, "method": fit.method, PROFILES: profiles(fit)},
-        parts=_parts(fit, fit.weights.shape[1]),
         error_bound={"filter": baked.bound.tolist(), "interpolation": baked.interpolation},
-        settings=settings,
-        software=software,
     )
+    header = make_header(filtered.layout, size, _parts(fit, fit.weights.shape[1]), made)
     shapes = {part["name"]: size[::-1] for part in header["parts"]}
-    shapes[ENVIRONMENT] = environment.radiance.shape[:2]
-    return MapsInTurn(KIND, shapes, _maps(environment, maps_from_bank(filtered, fit)), header)
+    shapes[ENVIRONMENT] = origin.environment.radiance.shape[:2]
+    return MapsInTurn(KIND, shapes, _maps(origin.environment, maps_from_bank(filtered, fit)), header)
 
 
 def _parts(lobes: Fit | LobeStack, map_count: int) -> list[dict[str, Any]]:
@@ -204,17 +159,6 @@ def fit_of(path: Path, header: dict[str, Any]) -> Fit | None:
 
 def from_map_set(path: Path, map_set: MapSet) -> LobeStack:
     """A lobe stack as a map set holds it.
-
-    Parameters
-    ----------
-    path : Path
-        The map set's file, for messages.
-    map_set : MapSet
-        A map set of this kind.
-
-    Returns
-    -------
-    LobeStack
 
     Raises
     ------

@@ -6,14 +6,13 @@ from typing import Annotated, Any, TypedDict
 import numpy as np
 
 from ...core.conventions import WORLD_AXES, Array
-from ...core.environment import Environment
 from ...core.errors import MapSetError, RangeError, ShapeError
 from ...core.kinds.mip_chain.chain import MipChain
 from ...core.kinds.mip_chain.shading import MipLook
 from ...core.schema import between
 from ...settings.mip_chain import MipChainSettings
 from ..map_set_data import ENVIRONMENT, MapSet
-from ..map_set_header import StoredKind, make_header, role_in_words
+from ..map_set_header import Origin, StoredKind, make_header, role_in_words
 from ..textures import Texture, Up
 
 KIND = "mip_chain"
@@ -31,62 +30,21 @@ class _Mip(TypedDict):
     roughness: Annotated[float, between(0.0, 1.0)] | None
 
 
-def to_map_set(
-    chain: MipChain,
-    environment: Environment,
-    material: dict[str, Any],
-    error_bound: dict[str, Any] | None,
-    settings: dict[str, Any],
-    software: str,
-) -> MapSet:
-    """A mip chain as a map set holds it.
-
-    Parameters
-    ----------
-    chain : MipChain
-    environment : Environment
-        Its environment; embedded.
-    material, error_bound, settings, software
-        See docs/map-set-format.md.
-
-    Returns
-    -------
-    MapSet
-    """
-    maps = {ENVIRONMENT: environment.radiance, HARMONICS: chain.harmonics[None].astype(np.float32)}
+def to_map_set(chain: MipChain, origin: Origin) -> MapSet:
+    """A mip chain as a map set holds it."""
+    maps = {ENVIRONMENT: origin.environment.radiance, HARMONICS: chain.harmonics[None].astype(np.float32)}
     parts: list[dict[str, Any]] = [{"name": name, "role": name} for name in maps]
     for mip, faces in enumerate(chain.mips):
         name = f"mip{mip:02d}"
         roughness = None if chain.roughness is None else chain.roughness[mip]
         maps[name] = _strip(faces)
         parts.append({"name": name, "role": "prefiltered", "mip": mip, "roughness": roughness})
-    header = make_header(
-        layout="cube_map",
-        size=(chain.size, 6 * chain.size),
-        environment=environment,
-        embedded=True,
-        material=material,
-        parts=parts,
-        error_bound=error_bound,
-        settings=settings,
-        software=software,
-    )
+    header = make_header("cube_map", (chain.size, 6 * chain.size), parts, origin)
     return MapSet(KIND, maps, header)
 
 
 def from_map_set(path: Path, map_set: MapSet) -> MipChain:
     """A mip chain as a map set holds it.
-
-    Parameters
-    ----------
-    path : Path
-        The map set's file, for messages.
-    map_set : MapSet
-        A map set of this kind.
-
-    Returns
-    -------
-    MipChain
 
     Raises
     ------

@@ -33,17 +33,6 @@ class _View(TypedDict):
 def from_map_set(path: Path, map_set: MapSet) -> RadianceViews:
     """Radiance views as a map set holds them.
 
-    Parameters
-    ----------
-    path : Path
-        The map set's file, for messages.
-    map_set : MapSet
-        A map set of this kind.
-
-    Returns
-    -------
-    RadianceViews
-
     Raises
     ------
     MapSetError

@@ -5,13 +5,12 @@ from typing import Any, TypedDict
 
 import numpy as np
 
-from ...core.environment import Environment
 from ...core.errors import MapSetError, RangeError, ShapeError
 from ...core.kinds.reflection_tables.shading import TablesLook
 from ...core.kinds.reflection_tables.tables import ReflectionTables, Role
 from ...settings.reflection_tables import ReflectionTablesSettings
 from ..map_set_data import ENVIRONMENT, MapSet
-from ..map_set_header import StoredKind, make_header
+from ..map_set_header import Origin, StoredKind, make_header
 
 KIND = "reflection_tables"
 WEIGHTS = "weights"
@@ -26,29 +25,9 @@ class _Refraction(TypedDict):
     eta: float
 
 
-def to_map_set(
-    tables: ReflectionTables,
-    environment: Environment,
-    material: dict[str, Any],
-    error_bound: dict[str, Any] | None,
-    settings: dict[str, Any],
-    software: str,
-) -> MapSet:
-    """Reflection tables as a map set holds them.
-
-    Parameters
-    ----------
-    tables : ReflectionTables
-    environment : Environment
-        The environment of the tables; embedded.
-    material, error_bound, settings, software
-        See docs/map-set-format.md.
-
-    Returns
-    -------
-    MapSet
-    """
-    maps = {ENVIRONMENT: environment.radiance, WEIGHTS: tables.weights}
+def to_map_set(tables: ReflectionTables, origin: Origin) -> MapSet:
+    """Reflection tables as a map set holds them."""
+    maps = {ENVIRONMENT: origin.environment.radiance, WEIGHTS: tables.weights}
     maps |= {role.value: image for role, image in tables.maps.items()}
     parts: list[dict[str, Any]] = [{"name": name, "role": name} for name in maps]
     for part in parts:
@@ -57,33 +36,12 @@ def to_map_set(
         elif part["role"] == Role.REFRACTION:
             part["eta"] = tables.eta
     height = max(len(image) for image in tables.maps.values())
-    header = make_header(
-        layout="equirect",
-        size=(2 * height, height),
-        environment=environment,
-        embedded=True,
-        material=material,
-        parts=parts,
-        error_bound=error_bound,
-        settings=settings,
-        software=software,
-    )
+    header = make_header("equirect", (2 * height, height), parts, origin)
     return MapSet(KIND, maps, header)
 
 
 def from_map_set(path: Path, map_set: MapSet) -> ReflectionTables:
     """Reflection tables as a map set holds them.
-
-    Parameters
-    ----------
-    path : Path
-        The map set's file, for messages.
-    map_set : MapSet
-        A map set of this kind.
-
-    Returns
-    -------
-    ReflectionTables
 
     Raises
     ------

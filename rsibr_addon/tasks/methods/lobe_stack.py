@@ -18,26 +18,16 @@ from ...core.progress import Progress, Steps
 from ...device.kinds.lobe_stack import GpuLobeStack
 from ...files.fits import read_fit
 from ...files.kinds.lobe_stack import from_map_set, in_turn
+from ...files.map_set_header import Origin
 from ...host.version import software
 from ...job import BakeJob
 from ...settings.lobe_stack import LobeStackSettings
 from ..compare.lobe_stack import TRUTH
 from ..reflectance.brdfs import MATERIAL, load_brdf
 from ..reflectance.fit_lobes import fitted
+from . import method
 from .kind import Kind
-from .method import (
-    BLENDER_MEMORY,
-    BLENDER_SECONDS,
-    ENVIRONMENT_TEXELS,
-    RGB,
-    STORED,
-    Baked,
-    Cost,
-    Method,
-    afforded_by,
-    read_light,
-    written,
-)
+from .method import RGB, STORED, Baked, Cost, Method, cost_in_blender
 
 TOLD_INTERPOLATION = 0.01
 """Relative error that lookups may be expected to cost before somebody is told."""
@@ -73,12 +63,9 @@ def cost(settings: LobeStackSettings) -> Cost:
     measuring = 12.0 * (settings.brdf or "").startswith(MATERIAL)
     fitting = 0.01 * layers * settings.lobes * settings.slices
     filtering = 1.0 + 4e-8 * maps
+    memory = BYTES_BESIDES + bytes_needed(KERNELS, 2 * (settings.size or size) ** 2)
     stored = 0.2 if settings.half else STORED
-    return Cost(
-        BLENDER_SECONDS + measuring + fitting + filtering,
-        BLENDER_MEMORY + BYTES_BESIDES + bytes_needed(KERNELS, 2 * (settings.size or size) ** 2),
-        stored * maps + STORED * ENVIRONMENT_TEXELS * RGB,
-    )
+    return cost_in_blender(measuring + fitting + filtering, memory, stored * maps)
 
 
 def _layers_and_size(spec: str) -> tuple[int, int]:
@@ -95,7 +82,6 @@ def bake(job: BakeJob[LobeStackSettings]) -> Steps[Baked]:
 
     Raises
     ------
-    InputFileError, OutputFileError, SceneError, RenderError
     RangeError
         The text describes no model; the environment resolves no kernel at all, or a fit's lobe is narrower
         than it resolves; light is too bright for half floats, or the maps are too large for this machine's
@@ -108,12 +94,12 @@ def bake(job: BakeJob[LobeStackSettings]) -> Steps[Baked]:
         coarse for the sharpest kernels, which are left out.
     """
     settings = job.settings
-    light = yield from read_light(job)
+    light = yield from method.read_light(job)
     if settings.brdf is None:
         fit = read_fit(Path(settings.fit or ""))
     else:
         fit = yield from _resolved_fit(settings.brdf, settings, light)
-    afford = afforded_by(job, BYTES_BESIDES)
+    afford = method.afforded_by(job, BYTES_BESIDES)
     baked = yield from bake_stack(light.radiance, fit, settings.layout, settings.size, afford)
     size, interpolation = baked.filtered.size, baked.interpolation
     if interpolation > TOLD_INTERPOLATION:
@@ -124,7 +110,7 @@ def bake(job: BakeJob[LobeStackSettings]) -> Steps[Baked]:
             stacklevel=2,
         )
     stated = {"layout": settings.layout, "size": size, "half": settings.half}
-    path = yield from written(job, in_turn(baked, light, stated, software()), settings.half)
+    path = yield from method.written(job, in_turn(baked, Origin(light, stated, software())), settings.half)
     lobes, maps = baked.fit.weights.shape[:2]
     return Baked(
         path,

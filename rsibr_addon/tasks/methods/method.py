@@ -53,6 +53,15 @@ class Cost:
         return self.processor_seconds / (os.cpu_count() or 1)
 
 
+ENVIRONMENT_MEMORY = ENVIRONMENT_TEXELS * RGB
+"""Bytes of such an environment."""
+
+
+def cost_in_blender(seconds: float, memory: float, disk: float) -> Cost:
+    """What a method takes, with the Blender that it runs in and the environment that its file holds."""
+    return Cost(BLENDER_SECONDS + seconds, BLENDER_MEMORY + memory, disk + STORED * ENVIRONMENT_MEMORY)
+
+
 @dataclass(frozen=True)
 class Baked:
     """What a method has made.
@@ -79,7 +88,8 @@ class Method:
     Attributes
     ----------
     bake : callable
-        A `BakeJob`, whose output can be written, to `Steps` that end with a `Baked`.
+        A `BakeJob`, whose output can be written, to `Steps` that end with a `Baked`. Raises what `read_light`
+        does, and warns of what `core.environment.usable_radiance` does.
     cost : callable
         Settings to what they cost in an environment as large as those of Blender.
     material : callable

@@ -15,23 +15,13 @@ from ...core.progress import Progress, Steps
 from ...core.resample import resample
 from ...device.kinds.mip_chain import GpuMipChain
 from ...files.kinds.mip_chain import from_map_set, to_map_set
+from ...files.map_set_header import Origin
 from ...files.memory import check_memory
 from ...host.version import software
 from ...job import BakeJob
 from ...settings.mip_chain import MipChainSettings
 from .kind import Kind
-from .method import (
-    BLENDER_MEMORY,
-    BLENDER_SECONDS,
-    ENVIRONMENT_TEXELS,
-    RGB,
-    STORED,
-    Baked,
-    Cost,
-    Method,
-    read_light,
-    written,
-)
+from .method import RGB, STORED, Baked, Cost, Method, cost_in_blender, read_light, written
 
 TEXTURE_SPACE = {"box": box_halved, "bordered": tent_halved}
 """Name of a filter that knows texels only -> how it halves a cube map."""
@@ -44,27 +34,18 @@ def cost(settings: MipChainSettings) -> Cost:
     """See `Method`; all mips together are a third more than the first."""
     maps = 6 * settings.size**2 * RGB * 4 / 3
     filtering = 1.0 + 5e-8 * maps if settings.filter == "ggx" else 0.5
-    return Cost(
-        BLENDER_SECONDS + filtering,
-        BLENDER_MEMORY + BYTES_BESIDES + bytes_needed(1, 6 * settings.size**2) + maps,
-        STORED * (maps + ENVIRONMENT_TEXELS * RGB),
-    )
+    memory = BYTES_BESIDES + bytes_needed(1, 6 * settings.size**2) + maps
+    return cost_in_blender(filtering, memory, STORED * maps)
 
 
 def bake(job: BakeJob[MipChainSettings]) -> Steps[Baked]:
-    """Filter an environment.
+    """Filter an environment: see `Method`.
 
     Raises
     ------
-    InputFileError, OutputFileError, SceneError, RenderError
     RangeError
         A mip's lobe is narrower than the environment resolves, or the mips are too large for this machine's
         memory.
-
-    Warns
-    -----
-    RsibrWarning
-        See `core.environment.usable_radiance`.
     """
     settings = job.settings
     texels = 6 * settings.size**2
@@ -79,7 +60,7 @@ def bake(job: BakeJob[MipChainSettings]) -> Steps[Baked]:
         del stated["roughness"]
         yield Progress(1, 2, "filtering")
         chain = _texture_space(light, settings)
-    map_set = to_map_set(chain, light, {"filter": settings.filter}, bound, stated, software())
+    map_set = to_map_set(chain, Origin(light, stated, software(), {"filter": settings.filter}, bound))
     path = yield from written(job, map_set)
     return Baked(path, f"{settings.filter} mips from {settings.size}x{settings.size}")
 

@@ -22,7 +22,7 @@ from ...files.exr import Part, read_attributes, read_parts, write_parts
 from ...files.kinds.radiance_views import from_map_set
 from ...files.map_set import check_map_set_target, read_map_set_header, write_map_set
 from ...files.map_set_data import ENVIRONMENT, MapsInTurn
-from ...files.map_set_header import make_header
+from ...files.map_set_header import Origin, make_header
 from ...files.memory import check_memory
 from ...files.work_folder import clear_work_folder, work_folder, work_folder_beside
 from ...host.cameras import add_camera
@@ -40,7 +40,7 @@ from ...settings.radiance_views import RadianceViewsSettings
 from ..compare.radiance_views import TRUTH
 from ..light.environments import load_environment
 from .kind import Kind
-from .method import BLENDER_MEMORY, BLENDER_SECONDS, ENVIRONMENT_TEXELS, RGB, STORED, Baked, Cost, Method
+from .method import ENVIRONMENT_MEMORY, RGB, STORED, Baked, Cost, Method, cost_in_blender
 
 ALBEDO = "albedo"
 """Name and role of the part that holds the material's directional albedo."""
@@ -59,13 +59,8 @@ def cost(settings: RadianceViewsSettings) -> Cost:
     texels = settings.views * settings.size**2
     rendering = settings.views * (0.5 + 1.5 * settings.denoise) + 2.5e-6 * texels * settings.samples
     maps = 2 * texels * RGB
-    environment = ENVIRONMENT_TEXELS * RGB
     albedo = 4.0
-    return Cost(
-        BLENDER_SECONDS + albedo + rendering,
-        BLENDER_MEMORY + 2 * maps + 8 * environment,
-        STORED * (maps + environment),
-    )
+    return cost_in_blender(albedo + rendering, 2 * maps + 8 * ENVIRONMENT_MEMORY, STORED * maps)
 
 
 def bake(job: BakeJob[RadianceViewsSettings]) -> Steps[Baked]:
@@ -227,21 +222,18 @@ def _map_set(captured: _Captured, paths: list[Path]) -> MapsInTurn:
 
 def _header(captured: _Captured, parts: list[dict[str, Any]], noise: float) -> dict[str, Any]:
     settings = captured.settings
-    return make_header(
-        layout="sphere_map",
-        size=(settings.size, settings.size),
-        environment=captured.environment,
-        embedded=True,
-        material={
+    origin = Origin(
+        captured.environment,
+        {name: value for name, value in to_plain(settings).items() if name != "material"},
+        software(),
+        {
             "spec": lasting_spec(settings.material),
             "name": material_name(settings.material),
             "fingerprint": captured.fingerprint,
         },
-        parts=parts,
-        error_bound={"relative_noise": noise},
-        settings={name: value for name, value in to_plain(settings).items() if name != "material"},
-        software=software(),
+        {"relative_noise": noise},
     )
+    return make_header("sphere_map", (settings.size, settings.size), parts, origin)
 
 
 KIND = Kind(from_map_set, GpuRadianceViews, Method(bake, cost, material), TRUTH)

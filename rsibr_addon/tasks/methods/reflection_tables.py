@@ -8,23 +8,13 @@ from ...core.progress import Steps
 from ...device.kinds.reflection_tables import GpuReflectionTables
 from ...files.brdfs import read_measured
 from ...files.kinds.reflection_tables import from_map_set, to_map_set
+from ...files.map_set_header import Origin
 from ...files.memory import check_memory
 from ...host.version import software
 from ...job import BakeJob
 from ...settings.reflection_tables import ReflectionTablesSettings
 from .kind import Kind
-from .method import (
-    BLENDER_MEMORY,
-    BLENDER_SECONDS,
-    ENVIRONMENT_TEXELS,
-    RGB,
-    STORED,
-    Baked,
-    Cost,
-    Method,
-    read_light,
-    written,
-)
+from .method import RGB, STORED, Baked, Cost, Method, cost_in_blender, read_light, written
 
 TABLE_OF_TEXEL = 12
 """Bytes of memory for each texel of a table in single precision."""
@@ -40,19 +30,15 @@ def cost(settings: ReflectionTablesSettings) -> Cost:
     rows = settings.rows or 512
     maps = (2 * settings.diffuse_rows**2 + 2 * rows**2) * RGB
     diffuse = 3e-4 * settings.diffuse_rows**2
-    return Cost(
-        BLENDER_SECONDS + 0.5 + diffuse + 1.5e-7 * maps,
-        BLENDER_MEMORY + BYTES_BESIDES + bytes_needed(1, 2 * rows**2) + maps,
-        STORED * (maps + ENVIRONMENT_TEXELS * RGB),
-    )
+    memory = BYTES_BESIDES + bytes_needed(1, 2 * rows**2) + maps
+    return cost_in_blender(0.5 + diffuse + 1.5e-7 * maps, memory, STORED * maps)
 
 
 def bake(job: BakeJob[ReflectionTablesSettings]) -> Steps[Baked]:
-    """Make the tables of a material.
+    """Make the tables of a material: see `Method`.
 
     Raises
     ------
-    InputFileError, OutputFileError, SceneError
     RangeError
         The material is none, a lobe narrower than the environment resolves, or a table too large for this
         machine's memory.
@@ -60,7 +46,7 @@ def bake(job: BakeJob[ReflectionTablesSettings]) -> Steps[Baked]:
     Warns
     -----
     RsibrWarning
-        Negative values of the environment were set to 0; the material reflects more light than it gets.
+        The material reflects more light than it gets.
     """
     settings = job.settings
     parts = settings.parts
@@ -72,15 +58,9 @@ def bake(job: BakeJob[ReflectionTablesSettings]) -> Steps[Baked]:
     needed = bytes_needed(1, texels) + TABLE_OF_TEXEL * len(material.roles) * texels
     check_memory(needed, job.output, (2 * rows, rows), BYTES_BESIDES)
     baked = yield from bake_tables(light.radiance, material, settings.sizes, settings.exact)
-    map_set = to_map_set(
-        baked.tables,
-        light,
-        dict(parts),
-        {role.value: bound.tolist() for role, bound in baked.bounds.items()} or None,
-        {"exact": settings.exact},
-        software(),
-    )
-    path = yield from written(job, map_set)
+    bounds = {role.value: bound.tolist() for role, bound in baked.bounds.items()} or None
+    origin = Origin(light, {"exact": settings.exact}, software(), dict(parts), bounds)
+    path = yield from written(job, to_map_set(baked.tables, origin))
     return Baked(path, ", ".join(f"{part} {text}" for part, text in parts.items()))
 
 

@@ -93,21 +93,9 @@ class Header(TypedDict):
     software: str
 
 
-def _no_problems(header: dict[str, Any]) -> Iterator[str]:
-    return iter(())
-
-
-def _no_facts(header: dict[str, Any]) -> dict[str, str]:
-    return {}
-
-
 def role_in_words(part: dict[str, Any]) -> str:
     """The title of a map by its role alone."""
     return str(part["role"]).capitalize()
-
-
-def _no_lobes(path: Path, header: dict[str, Any]) -> Fit | None:
-    return None
 
 
 @dataclass(frozen=True)
@@ -148,11 +136,11 @@ class StoredKind:
     material: Any = Material
     roles: Mapping[str, Any] = field(default_factory=dict)
     numbers: tuple[str, ...] = ()
-    problems: Callable[[dict[str, Any]], Iterator[str]] = _no_problems
-    facts: Callable[[dict[str, Any]], dict[str, str]] = _no_facts
+    problems: Callable[[dict[str, Any]], Iterator[str]] = lambda header: iter(())
+    facts: Callable[[dict[str, Any]], dict[str, str]] = lambda header: {}
     part_title: Callable[[dict[str, Any]], str] = role_in_words
     textures: Callable[[Path, MapSet, Up], list[Texture]] | None = None
-    lobes: Callable[[Path, dict[str, Any]], Fit | None] = _no_lobes
+    lobes: Callable[[Path, dict[str, Any]], Fit | None] = lambda path, header: None
 
 
 @dataclass(frozen=True, eq=False)

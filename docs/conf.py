@@ -33,7 +33,7 @@ suppress_warnings = ["misc.highlighting_failure"]  # JSON that is shortened with
 
 # Docstrings
 autodoc_member_order = "bysource"
-autodoc_typehints = "none"  # numpydoc sections tell types, with shapes and units
+autodoc_typehints = "signature"  # docstrings tell what annotations cannot: shapes, units, ranges, errors
 autodoc_default_options = {"members": True}
 default_role = "code"
 napoleon_google_docstring = False

@@ -68,10 +68,6 @@ def texture_3d(images: Array, texel_format: str) -> gpu.types.GPUTexture:
     images : ndarray, shape (slices, height, width, 4)
     texel_format : str
         "RGBA16F" or "RGBA32F".
-
-    Returns
-    -------
-    GPUTexture
     """
     slices, height, width = images.shape[:3]
     uploaded = gpu.types.GPUTexture((width, height, slices), format=texel_format, data=_buffer(images))
@@ -109,10 +105,6 @@ def uniform_block(*fields: Array) -> gpu.types.GPUUniformBuf:
     *fields : ndarray
         In the block's order: vectors of up to 4 numbers, filled up with 0; matrices of shape
         (4, 4) for column vectors; arrays of vectors of shape (n, 3) or (n, 4).
-
-    Returns
-    -------
-    GPUUniformBuf
     """
     return gpu.types.GPUUniformBuf(_block(fields))
 
@@ -139,10 +131,6 @@ class KeptBlock:
         ----------
         *fields : ndarray
             As for `uniform_block`.
-
-        Returns
-        -------
-        GPUUniformBuf
         """
         values = _block(fields).tobytes()
         block = self._uploaded.pop(values, None)
@@ -172,10 +160,6 @@ def triangles(
         A program with these vertex attributes.
     attributes : dict of str to ndarray, shape (V, n)
     indices : ndarray of int, shape (F, 3)
-
-    Returns
-    -------
-    GPUBatch
     """
     contiguous = {name: np.ascontiguousarray(values, np.float32) for name, values in attributes.items()}
     return batch_for_shader(shader, "TRIS", contiguous, indices=np.ascontiguousarray(indices, np.int32))

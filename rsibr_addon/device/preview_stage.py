@@ -44,10 +44,6 @@ class Sight:
             World from object coordinates.
         turn : ndarray, shape (3, 3)
             As in `Draw`.
-
-        Returns
-        -------
-        Draw
         """
         to_eye = turn @ (self.eye[:3] - self.eye[3] * model[:3, 3])
         view_dir = to_eye / np.linalg.norm(to_eye)
@@ -64,13 +60,7 @@ def current_sight() -> Sight:
 
 
 def draw_occluder(mesh: GpuMesh, draw: Draw) -> None:
-    """Draw a surface that may hide previews.
-
-    Parameters
-    ----------
-    mesh : GpuMesh
-    draw : Draw
-    """
+    """Draw a surface that may hide previews."""
     shader = occluder_shader()
     shader.bind()
     mesh.draw(shader, draw)

@@ -176,10 +176,6 @@ def build(name: str, info: gpu.types.GPUShaderCreateInfo, vertex: str, fragment:
     vertex, fragment : str
         Its sources, as `shader_source` takes them.
 
-    Returns
-    -------
-    GPUShader
-
     Raises
     ------
     DeviceError

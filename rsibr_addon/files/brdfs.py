@@ -21,10 +21,6 @@ def brdf_from_spec(spec: str) -> Brdf:
     spec : str
         See `core/brdf/spec.py`.
 
-    Returns
-    -------
-    Brdf
-
     Raises
     ------
     RangeError
@@ -51,10 +47,6 @@ def read_measured(name: str, path: str) -> Brdf:
         Its format, one of `READERS`.
     path : str
         Its file.
-
-    Returns
-    -------
-    Brdf
 
     Raises
     ------

@@ -70,10 +70,6 @@ def named_encoding(name: str) -> Encoding:
     name : str
         TRANSFER_PRIMARIES and perhaps more, as in srgb_p3d65_scene: the Color Interop Forum's names.
 
-    Returns
-    -------
-    Encoding
-
     Raises
     ------
     KeyError
@@ -86,14 +82,6 @@ def named_encoding(name: str) -> Encoding:
 
 def profile_encoding(profile: bytes) -> Encoding:
     """The encoding that an ICC profile describes.
-
-    Parameters
-    ----------
-    profile : bytes
-
-    Returns
-    -------
-    Encoding
 
     Raises
     ------

@@ -187,10 +187,6 @@ class OpenExr:
 def open_exr(path: str | Path) -> Iterator[OpenExr]:
     """Open a file to read its headers, or all of it.
 
-    Parameters
-    ----------
-    path : str or Path
-
     Yields
     ------
     OpenExr
@@ -212,10 +208,6 @@ def read_attributes(path: str | Path) -> list[dict[str, Any]]:
 
 def read_parts(path: str | Path) -> list[Part]:
     """Read a file whole.
-
-    Parameters
-    ----------
-    path : str or Path
 
     Returns
     -------

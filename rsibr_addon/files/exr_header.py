@@ -74,10 +74,6 @@ def meaning(header: dict[str, Any]) -> Meaning:
     ----------
     header : dict
         One of `exr.OpenExr.headers`.
-
-    Returns
-    -------
-    Meaning
     """
     primaries, colours, remarks = _primaries(header)
     return Meaning(primaries, colours, (*remarks, *_ignored(header, primaries), *_unknown(header)))

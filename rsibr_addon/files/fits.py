@@ -61,10 +61,6 @@ def write_fit(path: str | Path, fit: Fit, report: dict[str, Any], force: bool = 
 def read_fit(path: str | Path) -> Fit:
     """Read a fit.
 
-    Parameters
-    ----------
-    path : str or Path
-
     Returns
     -------
     Fit

@@ -179,10 +179,6 @@ def read_map_set(path: str | Path, kind: str | None = None) -> MapSet:
 def is_map_set(path: str | Path) -> bool:
     """Whether a file describes itself as a map set, even with a bad description.
 
-    Parameters
-    ----------
-    path : str or Path
-
     Returns
     -------
     bool
@@ -199,10 +195,6 @@ def is_map_set(path: str | Path) -> bool:
 
 def read_map_set_header(path: str | Path) -> dict[str, Any]:
     """Read a map set's description, without its pixels.
-
-    Parameters
-    ----------
-    path : str or Path
 
     Returns
     -------

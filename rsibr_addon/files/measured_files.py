@@ -11,10 +11,6 @@ MEASURED_FORMATS = {".binary": "merl", ".brdf": "cornell", ".bsdf": "rgl"}
 def measured_spec(path: str) -> str:
     """The text of a measured material's file.
 
-    Parameters
-    ----------
-    path : str
-
     Returns
     -------
     str

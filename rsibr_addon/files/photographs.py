@@ -117,10 +117,6 @@ def read_photograph(path: str | Path) -> Photograph:
         A file of one of `FORMATS`, recognised by its bytes, not by its name. The first picture of several is
         read.
 
-    Returns
-    -------
-    Photograph
-
     Raises
     ------
     InputFileError

@@ -120,10 +120,6 @@ def describe_exr(path: str | Path) -> PictureFacts:
     path : str or Path
         As `read_exr` takes it.
 
-    Returns
-    -------
-    PictureFacts
-
     Raises
     ------
     InputFileError

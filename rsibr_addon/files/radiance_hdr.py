@@ -89,14 +89,6 @@ def read_hdr(path: str | Path) -> Array:
 def read_hdr_header(path: str | Path) -> RadianceHeader:
     """Read the header, up to the pixels.
 
-    Parameters
-    ----------
-    path : str or Path
-
-    Returns
-    -------
-    RadianceHeader
-
     Raises
     ------
     InputFileError

@@ -20,14 +20,6 @@ _LONGEST_MAGIC = max(len(exr.MAGIC), len(radiance_hdr.MAGIC))
 def holds_radiance(path: str | Path) -> bool:
     """Whether a file is OpenEXR or Radiance HDR, by its first bytes.
 
-    Parameters
-    ----------
-    path : str or Path
-
-    Returns
-    -------
-    bool
-
     Raises
     ------
     InputFileError
@@ -81,10 +73,6 @@ def describe_radiance(path: str | Path) -> PictureFacts:
     ----------
     path : str or Path
         As `read_radiance` takes it.
-
-    Returns
-    -------
-    PictureFacts
 
     Raises
     ------

@@ -12,10 +12,6 @@ from ..core.errors import InputFileError
 def opened(path: str | Path) -> Iterator[BinaryIO]:
     """Open `path` for reading.
 
-    Parameters
-    ----------
-    path : str or Path
-
     Yields
     ------
     BinaryIO

@@ -103,10 +103,6 @@ def _checked_fields(path: str | Path) -> dict[str, Array]:
 def read_tensors(path: str | Path) -> dict[str, Array]:
     """Read all fields of a tensor file.
 
-    Parameters
-    ----------
-    path : str or Path
-
     Returns
     -------
     dict

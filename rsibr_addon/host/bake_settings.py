@@ -97,10 +97,6 @@ def existing(path: str, what: str, wanted: str) -> str:
 def check_choices(chosen: bpy.types.PropertyGroup) -> None:
     """Refuse a choice that only a newer version has.
 
-    Parameters
-    ----------
-    chosen : bpy.types.PropertyGroup
-
     Raises
     ------
     SceneError

@@ -10,10 +10,6 @@ from ..core.errors import InputFileError
 def open_blend(path: Path) -> None:
     """Open a file in place of the one that is open.
 
-    Parameters
-    ----------
-    path : Path
-
     Raises
     ------
     InputFileError

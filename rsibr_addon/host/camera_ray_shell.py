@@ -22,10 +22,6 @@ def add_camera_ray_shell(
     half_width : float
         Half the cube's width.
 
-    Returns
-    -------
-    bpy.types.Object
-
     Notes
     -----
     Beyond it, Cycles shows what it hides from camera rays: above all lamps, and what a world's nodes have for

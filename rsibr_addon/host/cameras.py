@@ -21,10 +21,6 @@ def add_camera(scene: bpy.types.Scene, camera: Camera) -> bpy.types.Object:
         Its active camera becomes the new one.
     camera : Camera
         Its frame is square: see `core.geometry.camera`; the scene's resolution should be square.
-
-    Returns
-    -------
-    bpy.types.Object
     """
     data = bpy.data.cameras.new("RSIBR camera")
     if camera.field_of_view is None:

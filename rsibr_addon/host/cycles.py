@@ -93,11 +93,6 @@ class RenderedView:
 def bytes_needed(texels: int, denoised: bool) -> float:
     """Memory for rendering a view, or a map of the surroundings of a point.
 
-    Parameters
-    ----------
-    texels : int
-    denoised : bool
-
     Returns
     -------
     float

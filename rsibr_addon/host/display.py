@@ -19,10 +19,6 @@ type Display = tuple[object, ...]
 def display_of(scene: bpy.types.Scene) -> Display:
     """All settings on which `displayed_colours` depends.
 
-    Parameters
-    ----------
-    scene : bpy.types.Scene
-
     Returns
     -------
     Display

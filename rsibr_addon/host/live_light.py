@@ -19,16 +19,7 @@ _colours_of = attrgetter(*_COLOURS)
 
 
 def live_name(item: bpy.types.Object) -> str:
-    """A name for the light around an object, different for each size, that no file can have.
-
-    Parameters
-    ----------
-    item : bpy.types.Object
-
-    Returns
-    -------
-    str
-    """
+    """A name for the light around an object, different for each size, that no file can have."""
     return f"live\0{item.session_uid}\0{item.rsibr.live.size}"
 
 
@@ -85,16 +76,7 @@ def shows_surroundings(space: bpy.types.SpaceView3D, layer: tuple[int, str]) -> 
 
 
 def appearance_of(space: bpy.types.SpaceView3D) -> tuple[object, ...]:
-    """All settings of a viewport's shading, for comparison with earlier ones.
-
-    Parameters
-    ----------
-    space : bpy.types.SpaceView3D
-
-    Returns
-    -------
-    tuple
-    """
+    """All settings of a viewport's shading, for comparison with earlier ones."""
     shading = space.shading
     colours = map(tuple, _colours_of(shading))
     return _settings_of(shading), *colours, space.clip_start, space.clip_end, bpy.context.engine

@@ -167,11 +167,6 @@ def pack(settings: Settings) -> None:
 def unpack(settings: Settings, folder: Path) -> Path:
     """Write an object's packed map set into a folder, and shade from that file.
 
-    Parameters
-    ----------
-    settings : Settings
-    folder : Path
-
     Returns
     -------
     Path

@@ -93,10 +93,6 @@ def lasting_spec(spec: str) -> str:
 def fingerprint(material: bpy.types.Material | bpy.types.World) -> str:
     """A hash of the content of a material or world.
 
-    Parameters
-    ----------
-    material : bpy.types.Material or bpy.types.World
-
     Returns
     -------
     str

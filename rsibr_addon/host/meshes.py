@@ -126,16 +126,7 @@ def evaluated_mesh(item: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> It
 
 
 def content_of(mesh: bpy.types.Mesh) -> bytes:
-    """A hash of all data that `triangle_mesh` depends on, in a fraction of its time.
-
-    Parameters
-    ----------
-    mesh : bpy.types.Mesh
-
-    Returns
-    -------
-    bytes
-    """
+    """A hash of all data that `triangle_mesh` depends on, in a fraction of its time."""
     arrays = (
         _positions(mesh),
         _corner_vertices(mesh),
@@ -150,18 +141,7 @@ def content_of(mesh: bpy.types.Mesh) -> bytes:
 
 
 def add_mesh(scene: bpy.types.Scene, mesh: TriangleMesh, material: bpy.types.Material) -> bpy.types.Object:
-    """Put a mesh into a scene, with exactly its vertices and normals.
-
-    Parameters
-    ----------
-    scene : bpy.types.Scene
-    mesh : TriangleMesh
-    material : bpy.types.Material
-
-    Returns
-    -------
-    bpy.types.Object
-    """
+    """Put a mesh into a scene, with exactly its vertices and normals."""
     data = bpy.data.meshes.new(mesh.name)
     data.vertices.add(len(mesh.positions))
     data.vertices.foreach_set("co", mesh.positions.ravel())
@@ -275,17 +255,7 @@ def _fitted(mesh: TriangleMesh) -> TriangleMesh:
 
 
 def triangle_mesh(mesh: bpy.types.Mesh, name: str) -> TriangleMesh:
-    """A mesh's surface, its vertices split where corners' normals differ.
-
-    Parameters
-    ----------
-    mesh : bpy.types.Mesh
-    name : str
-
-    Returns
-    -------
-    TriangleMesh
-    """
+    """A mesh's surface, its vertices split where corners' normals differ."""
     mesh.calc_loop_triangles()
     positions, corner_vertices, normals = _positions(mesh), _corner_vertices(mesh), _normals(mesh)
     corners = _read(mesh.loop_triangles, "loops", np.int32, 3)

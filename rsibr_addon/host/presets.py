@@ -8,16 +8,7 @@ from .working_space import working_from_rec709
 
 
 def build_preset(name: str) -> bpy.types.Material:
-    """Make one of `PRESETS` a material of the open file.
-
-    Parameters
-    ----------
-    name : str
-
-    Returns
-    -------
-    bpy.types.Material
-    """
+    """Make one of `PRESETS` a material of the open file."""
     preset = PRESETS[name]
     material = bpy.data.materials.new(name)
     tree = material.node_tree

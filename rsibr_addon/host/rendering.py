@@ -15,13 +15,7 @@ AXES = "RGBAXYZ"
 
 
 def configure_cycles(scene: bpy.types.Scene, width: int, height: int, samples: int) -> None:
-    """Have Cycles render on the CPU, each pixel the plain mean of its samples.
-
-    Parameters
-    ----------
-    scene : bpy.types.Scene
-    width, height, samples : int
-    """
+    """Have Cycles render on the CPU, each pixel the plain mean of its samples."""
     render, cycles = scene.render, scene.cycles
     render.engine = "CYCLES"
     render.resolution_x, render.resolution_y, render.resolution_percentage = width, height, 100

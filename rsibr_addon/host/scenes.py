@@ -16,10 +16,6 @@ def find_scene(name: str | None) -> bpy.types.Scene:
     name : str or None
         None for the one that the artist works in.
 
-    Returns
-    -------
-    bpy.types.Scene
-
     Raises
     ------
     SceneError
@@ -59,10 +55,6 @@ def temporary_scene() -> Iterator[bpy.types.Scene]:
 @contextlib.contextmanager
 def temporary_copy(scene: bpy.types.Scene) -> Iterator[bpy.types.Scene]:
     """Work in a copy of a scene; afterwards the file is as it was, as by `temporary_scene`.
-
-    Parameters
-    ----------
-    scene : bpy.types.Scene
 
     Yields
     ------

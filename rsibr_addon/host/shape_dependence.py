@@ -64,10 +64,6 @@ def shape_dependence(material: bpy.types.Material) -> list[str]:
     A radiance map holds one radiance for each normal and view, so it cannot hold a material that depends on
     the place on a surface, on its tangent, or on things behind it.
 
-    Parameters
-    ----------
-    material : bpy.types.Material
-
     Returns
     -------
     list of str

@@ -17,10 +17,6 @@ def add_sphere(scene: bpy.types.Scene, material: bpy.types.Material) -> bpy.type
         To be rendered by Cycles.
     material : bpy.types.Material
 
-    Returns
-    -------
-    bpy.types.Object
-
     Notes
     -----
     A point cloud of one point, which Cycles intersects as a sphere: its normals are exact. A black core that
@@ -48,10 +44,6 @@ def add_ball(
     material : bpy.types.Material
     point : array_like, shape (3,)
         The sphere's centre.
-
-    Returns
-    -------
-    bpy.types.Object
     """
     cloud = bpy.data.pointclouds.new("RSIBR sphere")
     cloud.resize(1)

@@ -33,10 +33,6 @@ def find_object(scene: bpy.types.Scene, name: str) -> bpy.types.Object:
 def parts_of(subject: bpy.types.Object) -> set[bpy.types.Object]:
     """An object, and all objects that are parented to it, directly or not, except lamps.
 
-    Parameters
-    ----------
-    subject : bpy.types.Object
-
     Returns
     -------
     set of bpy.types.Object

@@ -88,10 +88,6 @@ def surroundings_of(
     frame : int or None
         None for the scene's current one.
 
-    Returns
-    -------
-    Surroundings
-
     Raises
     ------
     SceneError
@@ -119,10 +115,6 @@ def surroundings_of(
 @contextmanager
 def surroundings_scene(around: Surroundings) -> Iterator[bpy.types.Scene]:
     """Work in a scene of the surroundings; afterwards the file is as it was.
-
-    Parameters
-    ----------
-    around : Surroundings
 
     Yields
     ------

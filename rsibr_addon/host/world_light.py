@@ -30,10 +30,6 @@ AS_IT_IS = WorldLight(1.0, np.eye(3))
 def world_light(world: bpy.types.World | None) -> WorldLight | None:
     """Read a world's strength and rotation.
 
-    Parameters
-    ----------
-    world : bpy.types.World or None
-
     Returns
     -------
     WorldLight or None

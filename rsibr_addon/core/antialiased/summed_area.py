@@ -49,10 +49,6 @@ def summed_area_table(radiance: Array) -> SummedAreaTable:
     radiance : ndarray, shape (height, width, channels)
         An equirectangular table; a texel stands for a constant radiance over its solid angle.
 
-    Returns
-    -------
-    SummedAreaTable
-
     Raises
     ------
     RangeError

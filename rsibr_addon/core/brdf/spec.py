@@ -70,10 +70,6 @@ def brdf_from_spec(spec: str, read_measured: ReadMeasured) -> Brdf:
     read_measured : callable
         Reads the models of `MEASURED`.
 
-    Returns
-    -------
-    Brdf
-
     Raises
     ------
     RangeError
@@ -131,10 +127,6 @@ def with_alpha(spec: str, alpha: float) -> str:
         As `brdf_from_spec` takes it.
     alpha : float
         Set in every layer that has one.
-
-    Returns
-    -------
-    str
 
     Raises
     ------

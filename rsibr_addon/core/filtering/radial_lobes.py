@@ -15,10 +15,6 @@ def von_mises_fisher_lobe(concentration: float) -> ZonalLobe:
     concentration : float
         kappa > 0; the lobe's width is about 1 / sqrt(kappa).
 
-    Returns
-    -------
-    ZonalLobe
-
     Raises
     ------
     RangeError

@@ -114,10 +114,6 @@ def expand(lobe: ZonalLobe, tolerance: float = TOLERANCE) -> ZonalSeries:
     tolerance : float
         1e-12 ... 0.1; see `ZonalSeries`.
 
-    Returns
-    -------
-    ZonalSeries
-
     Raises
     ------
     RangeError
@@ -157,11 +153,6 @@ def _sufficient_coefficients(lobe: ZonalLobe, tolerance: float, width: float) ->
 
 def zonal_coefficients(lobe: ZonalLobe, degree: int) -> Array:
     """Coefficients p_0 ... p_degree of a lobe.
-
-    Parameters
-    ----------
-    lobe : ZonalLobe
-    degree : int
 
     Returns
     -------

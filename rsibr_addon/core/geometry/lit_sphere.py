@@ -88,10 +88,6 @@ def lit_spheres(
     Progress
         One step for each ring.
 
-    Returns
-    -------
-    tuple of LitSphere
-
     Raises
     ------
     ShapeError, RangeError

@@ -208,9 +208,5 @@ def faces_due(due: int, next_face: int, most: int) -> tuple[int, ...]:
         The oldest of them.
     most : int
         Number of faces that a frame may render.
-
-    Returns
-    -------
-    tuple of int
     """
     return tuple((next_face + number) % FACE_COUNT for number in range(min(due, most)))

@@ -40,10 +40,6 @@ def light_range(picture: Array) -> LightRange:
     ----------
     picture : ndarray, shape (height, width, channels)
         Radiance.
-
-    Returns
-    -------
-    LightRange
     """
     peak, dark_end, total, count = 0.0, np.inf, 0.0, 0
     kinds = np.zeros(4, dtype=np.int64)

@@ -65,10 +65,6 @@ def fit_errors(fit: Fit, brdf: BrdfFunction, mu: Sequence[float] | Array | None 
         A `Brdf`, or any isotropic function called like one.
     mu : sequence of float, optional
         Elevations in (0, 1], by default those of the fit; between those the fit is interpolated.
-
-    Returns
-    -------
-    FitErrors
     """
     elevations = fit.mu if mu is None else np.asarray(mu, dtype=np.float64)
     rows = [_errors_at(fit, brdf, float(cosine)) for cosine in elevations]

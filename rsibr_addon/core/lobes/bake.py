@@ -122,10 +122,6 @@ def bake_bank(radiance: Array, layout: str, size: int, afford: Afford = _at_any_
     afford : callable
         See `Afford`.
 
-    Yields
-    ------
-    Progress
-
     Returns
     -------
     BakedBank
@@ -166,14 +162,6 @@ def bake_stack(
         or else the last.
     afford : callable
         See `Afford`.
-
-    Yields
-    ------
-    Progress
-
-    Returns
-    -------
-    BakedStack
 
     Raises
     ------

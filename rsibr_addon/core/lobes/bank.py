@@ -176,10 +176,6 @@ def octaves(sharpest: float) -> KernelBank:
     ----------
     sharpest : float
         Concentration that the last kernel reaches, up to `SHARPEST`.
-
-    Returns
-    -------
-    KernelBank
     """
     last = int(np.ceil(np.log2(np.clip(sharpest, BROADEST, SHARPEST) / BROADEST) - TIE))
     return KernelBank(tuple(float(kappa) for kappa in BROADEST * 2.0 ** np.arange(last + 1)))

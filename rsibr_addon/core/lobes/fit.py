@@ -101,10 +101,6 @@ class Fit:
         ----------
         lobe, elevation_slice, channel : int
             Below L, P and 3.
-
-        Returns
-        -------
-        ZonalLobe
         """
         return self.bank.mixture(self.weights[lobe, elevation_slice, :, channel])
 

@@ -108,10 +108,6 @@ class JointFitter:
             Result of `fit`.
         price : float
             See `smoothing`.
-
-        Returns
-        -------
-        Fit
         """
         tilts = fit.offsets[..., 0].swapaxes(0, 1)
         tracked = [
@@ -145,12 +141,6 @@ class JointFitter:
 
 def amplification(bank: KernelBank, state: State, target: TargetSlice) -> float:
     """Norms of all lobes with their taps, added up, over the norm of their sum.
-
-    Parameters
-    ----------
-    bank : KernelBank
-    state : State
-    target : TargetSlice
 
     Returns
     -------

@@ -210,10 +210,6 @@ def greedy_fit(
         Finds the axis of the next lobe: the highest peak, or a way of `seeking`.
     brdf, spec, mu, sharpest
         See `single_fit`.
-
-    Returns
-    -------
-    Fit
     """
     found = []
     for cosine in mu:

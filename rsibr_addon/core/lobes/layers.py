@@ -92,14 +92,6 @@ def layered_fit(
     sharpest : float
         Concentration that no kernel exceeds, one of `bank.octaves`.
 
-    Yields
-    ------
-    Progress
-
-    Returns
-    -------
-    Fit
-
     Raises
     ------
     RangeError

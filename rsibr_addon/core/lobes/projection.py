@@ -111,10 +111,6 @@ class Projector:
     def equations(self, lookups: Lookups) -> tuple[Array, Array]:
         """Equations of the coefficients for given lookups; see `weights`.
 
-        Parameters
-        ----------
-        lookups : Lookups
-
         Returns
         -------
         system : ndarray, shape (J K, J K)
@@ -131,16 +127,7 @@ class Projector:
         return weights
 
     def project(self, lookups: Lookups) -> Projection:
-        """Find the profiles and the derivatives.
-
-        Parameters
-        ----------
-        lookups : Lookups
-
-        Returns
-        -------
-        Projection
-        """
+        """Find the profiles and the derivatives."""
         lobes, taps = lookups.angles.shape
         count, tap = lobes * taps, lookups.taps.ravel()
         moments, slopes = self._moments(lookups.angles.ravel())

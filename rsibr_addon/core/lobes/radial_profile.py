@@ -45,10 +45,6 @@ class RadialProfile:
     def weights(self, bank: KernelBank) -> Array:
         """The kernels' weights that come nearest, with the same integral.
 
-        Parameters
-        ----------
-        bank : KernelBank
-
         Returns
         -------
         ndarray, shape (K, 3)

@@ -57,10 +57,6 @@ def smoothed_lookups(
     lookups : sequence of Lookups
         At each.
     price : float
-
-    Returns
-    -------
-    list of Lookups
     """
     matrix = lines(np.array([target.mu for target in slices]))
     blend = np.linalg.inv(np.eye(len(slices)) + AXES * price * matrix.T @ matrix)

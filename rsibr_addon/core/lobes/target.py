@@ -89,10 +89,6 @@ def target_slices(brdf: BrdfFunction, mu: Sequence[float] | Array) -> tuple[Targ
     mu : sequence of float
         Cosines of the view elevations, in (0, 1].
 
-    Returns
-    -------
-    tuple of TargetSlice
-
     Raises
     ------
     RangeError

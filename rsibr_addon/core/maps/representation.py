@@ -202,10 +202,6 @@ def representation(name: str, **parameters: float) -> Representation:
     **parameters : float
         `distance` of a mirror_ball (default: infinite), `overscan` of a dual_paraboloid (1).
 
-    Returns
-    -------
-    Representation
-
     Raises
     ------
     RangeError

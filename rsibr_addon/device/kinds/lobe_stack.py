@@ -75,10 +75,6 @@ class GpuLobeStack:
 def map_texels(stack: LobeStack) -> Array:
     """The maps as gpu_shaders/lib/lobe_stack_lib.glsl reads them.
 
-    Parameters
-    ----------
-    stack : LobeStack
-
     Returns
     -------
     ndarray, shape (L * sheets * P, size + 2, size + 2, 4), float32

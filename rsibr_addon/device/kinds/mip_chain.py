@@ -46,10 +46,6 @@ class GpuMipChain:
 def atlas_texels(chain: MipChain) -> Array:
     """The mips as gpu_shaders/lib/mip_chain_lib.glsl reads them.
 
-    Parameters
-    ----------
-    chain : MipChain
-
     Returns
     -------
     ndarray, shape (height, 6 * (size + 2), 4), float32

@@ -17,10 +17,6 @@ KIND = "environment"
 def is_environment(path: Path) -> bool:
     """Whether a file is a picture of radiance and not a map set.
 
-    Parameters
-    ----------
-    path : Path
-
     Returns
     -------
     bool

@@ -11,18 +11,6 @@ from .method import Baked
 def bake(job: BakeJob[Any]) -> Steps[Baked]:
     """Make a map set.
 
-    Parameters
-    ----------
-    job : BakeJob
-
-    Yields
-    ------
-    Progress
-
-    Returns
-    -------
-    Baked
-
     Raises
     ------
     OutputFileError

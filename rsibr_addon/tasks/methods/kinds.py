@@ -95,10 +95,6 @@ def open_map_set(path: Path, kind: str | None = None, clamp: float | None = None
     clamp : float, optional
         Of a picture: see `core.environment.usable_radiance`.
 
-    Returns
-    -------
-    OpenedMapSet
-
     Raises
     ------
     MapSetError

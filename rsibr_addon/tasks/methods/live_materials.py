@@ -91,10 +91,6 @@ class LiveMaterials:
     def is_ready(self, look: BankLook) -> bool:
         """Whether a look can be drawn, if only from a draft; what lacks is made.
 
-        Parameters
-        ----------
-        look : BankLook
-
         Returns
         -------
         bool
@@ -126,10 +122,6 @@ class LiveMaterials:
         ----------
         looks : list of BankLook
             At least one.
-
-        Returns
-        -------
-        BankLook or None
 
         Raises
         ------

@@ -53,10 +53,6 @@ def blender_command(blender: str, extension: str, blend: Path | None, job: Path)
         The file that is opened first, where the job's world or material are its own.
     job : Path
         The job's JSON.
-
-    Returns
-    -------
-    list of str
     """
     return [
         # First of all: what it forbids is what is opened after it

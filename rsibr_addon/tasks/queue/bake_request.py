@@ -128,10 +128,6 @@ def request_for(scene: Any, item: Any) -> BakeRequest:
         Holds `ui.bake_properties.RSIBR_PG_bake`.
     item : bpy.types.Object or None
 
-    Returns
-    -------
-    BakeRequest
-
     Raises
     ------
     SceneError, InputFileError, RangeError
@@ -225,11 +221,6 @@ def bake_of(request: BakeRequest, item: Any, output: Path) -> ObjectBake:
 
 def comparison_of(item: Any, map_set: Path) -> ObjectBake:
     """Make everything ready to compare an object's map set with the truth.
-
-    Parameters
-    ----------
-    item : bpy.types.Object
-    map_set : Path
 
     Returns
     -------

@@ -42,10 +42,6 @@ def load_brdf(spec: str) -> Steps[Brdf]:
     Progress
         Only where something is measured.
 
-    Returns
-    -------
-    Brdf
-
     Raises
     ------
     RangeError, InputFileError
@@ -70,10 +66,6 @@ def told_brdf(spec: str) -> Brdf:
     ----------
     spec : str
         Of a file that may come from anywhere.
-
-    Returns
-    -------
-    Brdf
 
     Raises
     ------

@@ -71,14 +71,6 @@ def fit_lobes(
     plots : Path, optional
         A new folder, or one with earlier plots: see `fit_plots.write_plots`.
 
-    Yields
-    ------
-    Progress
-
-    Returns
-    -------
-    FitResult
-
     Raises
     ------
     RangeError

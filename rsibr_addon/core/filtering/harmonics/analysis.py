@@ -26,10 +26,6 @@ def analyse_environment(radiance: Array, degree: int, texels: Texels = "points")
         "points": the sum over texel centres, weighted with the texels' solid angles, which is what
         brute force computes. "areas": the integral over texels of constant radiance.
 
-    Returns
-    -------
-    EnvironmentHarmonics
-
     Raises
     ------
     ShapeError

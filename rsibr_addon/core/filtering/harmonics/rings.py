@@ -156,10 +156,6 @@ def ring_resampler(given: int, made: int, gains: Array) -> RingResampler:
         Numbers of rings, each above the degree.
     gains : ndarray, shape (degree + 1,), degree at least 1
         Factor of exp(i k theta) and of exp(-i k theta).
-
-    Returns
-    -------
-    RingResampler
     """
     k = np.arange(len(gains))
     shift: Complex = np.exp(0.5j * np.pi * k * (1.0 / made - 1.0 / given))

@@ -35,14 +35,6 @@ class StackLook(Options):
     def shown(self, stack: LobeStack) -> tuple[int, ...]:
         """The lobes that are shown.
 
-        Parameters
-        ----------
-        stack : LobeStack
-
-        Returns
-        -------
-        tuple of int
-
         Raises
         ------
         RangeError

@@ -68,10 +68,6 @@ class MipChain:
         ----------
         rotation : ndarray, shape (3, 3)
             New directions from old ones; takes axes to axes.
-
-        Returns
-        -------
-        MipChain
         """
         mips = tuple(cube_map.turned(faces, rotation) for faces in self.mips)
         return MipChain(mips, turned_harmonics(self.harmonics, rotation), self.roughness)
@@ -125,10 +121,6 @@ def check_size(size: int, count: int) -> None:
 
 def check_roughness(roughness: tuple[float, ...]) -> None:
     """Refuse roughnesses that no lookup can interpolate.
-
-    Parameters
-    ----------
-    roughness : tuple of float
 
     Raises
     ------

@@ -96,10 +96,6 @@ class MipLook(Options):
     def level(self, chain: MipChain) -> float:
         """The level of detail to look glossy light up at.
 
-        Parameters
-        ----------
-        chain : MipChain
-
         Returns
         -------
         float

@@ -146,10 +146,6 @@ def destination_by_texel(
         Width and height of the destination map in texels.
     warping : Warping
 
-    Returns
-    -------
-    Destination
-
     Notes
     -----
     GLSL twin: gpu_shaders/views_texel_frag.glsl.

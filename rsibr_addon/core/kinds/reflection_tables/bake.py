@@ -132,10 +132,6 @@ def bake_tables(
     Progress
         Before each table.
 
-    Returns
-    -------
-    BakedTables
-
     Raises
     ------
     RangeError

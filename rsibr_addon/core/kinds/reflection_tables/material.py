@@ -156,10 +156,6 @@ def material_from_texts(texts: Mapping[str, str], read_measured: ReadMeasured) -
     read_measured : callable
         Reads measured BRDFs: see `brdf.spec`.
 
-    Returns
-    -------
-    TableMaterial
-
     Raises
     ------
     RangeError

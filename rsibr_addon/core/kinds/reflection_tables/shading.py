@@ -71,10 +71,6 @@ class TablesLook(Options):
     def weight(self, role: Role) -> float:
         """The factor of a table's weights.
 
-        Parameters
-        ----------
-        role : Role
-
         Returns
         -------
         float

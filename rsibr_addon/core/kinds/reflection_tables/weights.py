@@ -29,10 +29,6 @@ def weight_cosines() -> Array:
 def table_weights(material: TableMaterial) -> Array:
     """Weights of a material's tables.
 
-    Parameters
-    ----------
-    material : TableMaterial
-
     Returns
     -------
     ndarray, shape (len(Role), COLUMNS, 3), float64
@@ -67,10 +63,6 @@ def table_weights(material: TableMaterial) -> Array:
 def furnace(material: TableMaterial) -> Array:
     """Radiance of a material in even light of radiance 1, without its emission.
 
-    Parameters
-    ----------
-    material : TableMaterial
-
     Returns
     -------
     ndarray, shape (COLUMNS, 3), float64
@@ -84,10 +76,6 @@ def furnace(material: TableMaterial) -> Array:
 
 def warn_of_table_gain(material: TableMaterial) -> None:
     """Warn when a material reflects more light than it receives.
-
-    Parameters
-    ----------
-    material : TableMaterial
 
     Warns
     -----

@@ -83,7 +83,7 @@ def scenario(told):
 
 def test_a_material_is_edited_without_a_bake(told: Told) -> None:
     answer = told(PRELUDE + EDIT)
-    assert answer["workers"] == ["rsibr workshop"]
+    assert answer["workers"] == ["rsibr worker"]
     assert min(answer["covered"]) > 5000
     assert answer["changed"] > 2000
     assert answer["roughened"] > 2000
@@ -184,6 +184,6 @@ def scenario(told):
 
 def test_disabling_ends_the_thread(told: Told) -> None:
     answer = told(PRELUDE + DISABLE)
-    assert answer["busy"] == answer["enabled"] == answer["another file"] == ["rsibr workshop"]
+    assert answer["busy"] == answer["enabled"] == answer["another file"] == ["rsibr worker"]
     assert answer["disabled"] == []
     assert answer["changed"] > 10

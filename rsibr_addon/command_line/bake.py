@@ -1,6 +1,7 @@
 """Make a map set: filter, capture or tabulate an environment."""
 
 import argparse
+import warnings
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,6 +11,11 @@ from ..settings.light import Light
 from ..settings.method import MethodSettings
 from .console import Console
 from .options import add_options, add_output, given
+
+NO_LIGHT = (
+    "Neither an environment nor a file is given, so the world that Blender starts with is baked: give "
+    "--environment, or use blender -b FILE.blend --command rsibr."
+)
 
 
 @dataclass(frozen=True)
@@ -64,9 +70,18 @@ def run_job(job: BakeJob[Any], console: Console) -> dict[str, Any]:
     ------
     RsibrError
         See `tasks.methods.bake.bake`.
+
+    Warns
+    -----
+    RsibrWarning
+        The world is baked, but no file is open that someone has made one in.
     """
+    from ..core.errors import RsibrWarning
+    from ..host.blend_files import is_file_open
     from ..tasks.methods.bake import bake
 
+    if job.light.environment is None and not is_file_open():
+        warnings.warn(NO_LIGHT, RsibrWarning, stacklevel=2)
     baked = console.steps(bake(job))
     console.say(f"{baked.path}: {baked.told}")
     return {"map_set": str(baked.path), **baked.figures}

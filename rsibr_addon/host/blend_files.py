@@ -22,6 +22,11 @@ def open_blend(path: Path) -> None:
         raise unreadable(path) from error
 
 
+def is_file_open() -> bool:
+    """Whether the open scenes are those of a file, and not what Blender starts with."""
+    return bool(bpy.data.filepath)
+
+
 def check_there(path: Path) -> None:
     """Refuse a missing file.
 

@@ -49,6 +49,18 @@ def test_without_an_environment_it_is_the_world(command: tuple[str, ...]) -> Non
     np.testing.assert_allclose(map_set.maps[name][0, 0, 2] / map_set.maps[name][0, 0, 0], 3.0, rtol=1e-5)
 
 
+def test_the_world_that_blender_starts_with_is_warned_of(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    told = "the world that Blender starts with is baked: give --environment"
+    command = ["mips", "--size", "2", "--filter", "box", "-o", "out.rsibr.exr", "--force"]
+    assert run(command) == 0
+    assert told in capfd.readouterr().err
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "mine.blend"))
+    assert run(command) == 0
+    assert told not in capfd.readouterr().err
+
+
 def test_without_a_world_there_is_a_sentence(capfd: pytest.CaptureFixture[str]) -> None:
     bpy.context.scene.world = None
     assert run(["mips", "--size", "4", "-o", "out.rsibr.exr", "--progress", "none"]) == 1

@@ -14,6 +14,7 @@ from .chromaticities import XYZ, rec709_from
 from .exr import OpenExr, Part, in_display_window, open_exr, read_attributes, window_size, write_parts
 from .exr_header import Meaning, meaning
 from .exr_layers import Layer, choose, layers_of
+from .map_set import ATTRIBUTE
 from .picture_facts import GREY, PictureFacts
 
 
@@ -146,6 +147,8 @@ LAYER_OF_FILE = re.compile(r"(.+\.exr):([^:/\\]+)", re.IGNORECASE | re.DOTALL)
 def _chosen(path: str | Path, headers: list[dict[str, Any]]) -> tuple[Layer, Meaning, list[str]]:
     """A file's picture, its meaning, and the rest of the file."""
     file, wanted = split_layer(path)
+    if headers and ATTRIBUTE in headers[0]:
+        raise InputFileError(f"{path} is a map set, not a picture: give the picture that it was made of.")
     layers = layers_of(headers)
     if not layers:
         found = ", ".join(sorted({channel.name for header in headers for channel in header["channels"]}))

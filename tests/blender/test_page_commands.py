@@ -38,9 +38,6 @@ SMALL = {
 SMALL_SCRIPT = {'views="42", samples=128': "size=8, samples=2", 'size="256"': 'size="64"'}
 """The same of operators, by what the guide's script says."""
 
-ignore_negative_values = pytest.mark.filterwarnings("ignore:.*negative values")
-"""Some of Blender's own environments hold some."""
-
 
 def made_small(words: list[str]) -> list[str]:
     name = words[1] if words[0] == "bake" else words[0]
@@ -59,7 +56,6 @@ def assert_outputs_are_there(words: list[str]) -> None:
 
 @pytest.mark.slow
 @pytest.mark.needs("gl", "cycles")
-@ignore_negative_values
 @pytest.mark.parametrize("page", COMPLETE)
 def test_a_pages_commands_do_what_they_say(
     page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -73,7 +69,6 @@ def test_a_pages_commands_do_what_they_say(
 
 @pytest.mark.slow
 @pytest.mark.needs("gl", "cycles")
-@ignore_negative_values
 def test_the_guides_commands_do_what_they_say(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     (text,) = blocks(GUIDE, "json")
@@ -94,7 +89,6 @@ def test_the_guides_commands_do_what_they_say(tmp_path: Path, monkeypatch: pytes
 
 @pytest.mark.slow
 @pytest.mark.needs("cycles")
-@ignore_negative_values
 def test_the_guides_script_does_what_it_says(tmp_path: Path) -> None:
     script, _ = blocks(GUIDE, "python")
     for large, small in SMALL_SCRIPT.items():

@@ -2,10 +2,12 @@
 
 from pathlib import Path
 
-from ...core.environment import Environment
+import numpy as np
+
+from ...core.environment import Environment, environment_from_pixels
 from ...core.errors import InputFileError
 from ...files.environments import read_environment
-from ...files.pictures import split_layer
+from ...files.radiance_pictures import read_radiance
 from ...host.scenes import find_scene
 from ...host.worlds import sample_world, studio_environments, world_of
 
@@ -45,7 +47,13 @@ def load_environment(spec: str | None, clamp: float | None = None) -> Environmen
     own = studio_environments()
     # A folder may well be called as one of Blender's own
     if spec in own and not Path(spec).is_file():
-        return read_environment(own[spec], clamp)
-    if not split_layer(spec)[0].exists():
+        spec = str(own[spec])
+    if Path(spec) in own.values():
+        # Some hold negative values, of which a warning would be of no use: nobody can mend the file
+        radiance = read_radiance(spec)
+        radiance = np.where(radiance < 0.0, np.float32(0.0), radiance)
+        return environment_from_pixels(radiance, Path(spec).name, clamp)
+    is_path = Path(spec).suffix or Path(spec).name != spec
+    if not is_path and not Path(spec).exists():
         raise InputFileError(f"There is no environment {spec}: give a file, or one of {', '.join(own)}.")
     return read_environment(spec, clamp)

@@ -59,7 +59,6 @@ def _operator(name: str, settings: type[MethodSettings]) -> type[bpy.types.Opera
         "bl_label": f"Bake {settings.LABEL}",
         "SETTINGS": settings,
         **properties_of(Light),
-        **properties_of(settings, by_text=True),
     }
     return type(f"RSIBR_OT_{name}", (_BakeKind, bpy.types.Operator), members)
 

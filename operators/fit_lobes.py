@@ -7,7 +7,7 @@ import bpy
 
 from ..rsibr_addon.core.errors import SceneError
 from ..rsibr_addon.core.progress import Steps
-from ..rsibr_addon.host.option_properties import options_of, properties_of
+from ..rsibr_addon.host.option_properties import options_of
 from ..rsibr_addon.settings.fit import FitSettings
 from ..rsibr_addon.tasks.reflectance.fit_lobes import fit_lobes
 from .file_properties import file_path
@@ -20,6 +20,7 @@ class RSIBR_OT_fit_lobes(Stepwise, bpy.types.Operator):
     bl_idname = "rsibr.fit_lobes"
     bl_label = "Fit Lobes"
     bl_options = {"REGISTER"}  # noqa: RUF012  (Blender reads the class)
+    SETTINGS = FitSettings
     interrupted = "Fit interrupted; nothing was written"
 
     filepath = file_path("Fit")
@@ -38,7 +39,3 @@ class RSIBR_OT_fit_lobes(Stepwise, bpy.types.Operator):
         """See `Stepwise`."""
         figures = result.report()
         self.report({"INFO"}, f"Fitted {figures['lobes']} lobes, E {figures['E']:.3g}")
-
-
-for _name, _property in properties_of(FitSettings, by_text=True).items():
-    setattr(RSIBR_OT_fit_lobes, _name, _property)

@@ -5,13 +5,11 @@ from pathlib import Path
 import bpy
 
 from ..rsibr_addon.core.errors import InputFileError
-from ..rsibr_addon.tasks.light.scene import LARGEST, SMALLEST
 from .file_properties import file_path
-from .stepwise import Stepwise
-from .use_picture import take_picture
+from .makes_light import MakesLight
 
 
-class FromPictures(Stepwise):
+class FromPictures(MakesLight):
     """Of a picture of light; `work` is to return its path."""
 
     filepath = file_path("Picture", "Picture to work on")
@@ -23,19 +21,6 @@ class FromPictures(Stepwise):
         "from unless it names another; empty for that one's name with -light.exr",
         options={"SKIP_SAVE"},
     )
-    load_image = bpy.props.BoolProperty(
-        name="Load", description="Load the result into this file afterwards", default=True
-    )
-    use = bpy.props.BoolProperty(
-        name="Use", description="Bake with this light from now on", options={"SKIP_SAVE"}
-    )
-
-    interrupted = "Interrupted; nothing was written"
-
-    def finish(self, result: Path) -> None:
-        """Load the picture and choose it if asked to, and say where it is."""
-        take_picture(result, self.load_image, self.use)
-        self.report({"INFO"}, f"Wrote {result}")
 
     def source(self) -> Path:
         """The picture that was chosen.
@@ -83,16 +68,3 @@ class FromSeveralPictures(FromPictures):
         folder = Path(bpy.path.abspath(self.directory))
         # A browser in which no file is selected gives one without a name
         return tuple(folder / file.name for file in self.files if file.name) or (self.source(),)
-
-
-class EnvironmentSize:
-    """Of operators whose result is a latitude-longitude map."""
-
-    size = bpy.props.IntProperty(
-        name="Size",
-        description="Width of the environment in texels, even; it is half as high",
-        default=1024,
-        min=SMALLEST,
-        max=LARGEST,
-        step=2,
-    )

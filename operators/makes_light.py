@@ -22,7 +22,7 @@ class MakesLight(Stepwise):
     )
 
     def finish(self, result: Path) -> None:
-        """Load the picture and choose it as the light to bake with, if so wished, and say where it is."""
+        """Load the picture and choose it as the light to bake with if asked to, and say where it is."""
         if self.load_image:
             bpy.data.images.load(str(result), check_existing=True).reload()
         if self.use:

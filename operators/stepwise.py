@@ -1,11 +1,13 @@
 """How operators do long work: at a stretch, or step by step while Blender goes on."""
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar
 
 import bpy
 
+from ..rsibr_addon.core.options import Options
 from ..rsibr_addon.core.progress import Steps, drain
+from ..rsibr_addon.host.option_properties import properties_of
 from .reporting import reporting
 
 
@@ -19,14 +21,24 @@ class Stepwise:
     ----------
     interrupted : str
         What to say after Escape.
+    SETTINGS : type
+        Dataclass of options that the operator has as properties; none where it is not said.
     """
 
     interrupted: str
+    SETTINGS: ClassVar[type[Options]]
     filepath: str
     force = bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
     report: Callable[[set[str], str], None]
     _asks = False
     _steps: Steps[Any] | None = None
+
+    def __init_subclass__(cls) -> None:
+        """Give an operator the properties of its settings."""
+        super().__init_subclass__()
+        if "SETTINGS" in vars(cls):
+            for name, made in properties_of(cls.SETTINGS, by_text=True).items():
+                setattr(cls, name, made)
 
     def work(self, context: bpy.types.Context) -> Steps[Any]:
         """The work, from the operator's properties; may raise our errors at once."""

@@ -4,22 +4,9 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from ..settings.light import Clamp
+from ..settings.convert import ConvertSettings
 from .console import Console
-from .options import add_options, given, positive
-
-LAYOUTS = (
-    "equirect",
-    "sphere_map",
-    "mirror_ball",
-    "angular_map",
-    "dual_paraboloid",
-    "orthographic",
-    "octahedral",
-    "cube_faces",
-    "cube_cross",
-    "cube_strip",
-)
+from .options import add_options, given
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -33,35 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "NAME-front.exr and NAME-back.exr",
     )
     parser.add_argument("output", metavar="OUT.exr|OUT.hdr", type=Path, help="named as IN")
-    for option, description in (("--from", "how IN is laid out"), ("--to", "how OUT shall be laid out")):
-        parser.add_argument(
-            option,
-            metavar="LAYOUT",
-            dest=f"{option[2:]}_layout",
-            choices=LAYOUTS,
-            required=True,
-            help=f"{description}: {', '.join(LAYOUTS)}",
-        )
-    parser.add_argument(
-        "--size",
-        metavar="N",
-        type=positive,
-        required=True,
-        help="width in texels of OUT, or of each of its faces or sheets; equirect is half as high",
-    )
-    parser.add_argument(
-        "--overscan",
-        metavar="X",
-        type=float,
-        help="half-width of a dual_paraboloid's sheets in radii of the hemisphere (default: 1)",
-    )
-    parser.add_argument(
-        "--distance",
-        metavar="X",
-        type=float,
-        help="of the camera from a mirror_ball's centre in radii of the ball (default: infinite)",
-    )
-    add_options(parser, Clamp)
+    add_options(parser, ConvertSettings)
     parser.add_argument("--force", action="store_true", help="replace what exists")
 
 
@@ -78,16 +37,9 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     RsibrError
         See `tasks.light.convert`.
     """
-    from ..tasks.light.convert import ConvertSettings, convert
+    from ..tasks.light.convert import convert
 
-    settings = ConvertSettings(
-        source=arguments.from_layout,
-        target=arguments.to_layout,
-        size=arguments.size,
-        overscan=arguments.overscan,
-        distance=arguments.distance,
-        clamp=given(arguments, Clamp).clamp,
-    )
+    settings = given(arguments, ConvertSettings)
     pictures = console.steps(convert(arguments.source, settings, arguments.output, arguments.force))
     for picture in pictures:
         console.say(f"{picture}")

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..core.errors import RangeError
-from ..core.options import Declared, Options, declared_options, value_from_text
+from ..core.options import Declared, Options, declared_options, number_text, value_from_text
 
 
 def add_options(parser: Any, options: type[Options]) -> None:
@@ -38,7 +38,7 @@ def add_option(parser: Any, declared: Declared, description: str) -> None:
         return
     if told.choices and declared.wanted is not tuple:
         common["choices"] = list(told.choices)
-        common["metavar"] = None
+        common["metavar"] = told.metavar or None
     else:
         common["metavar"] = told.metavar or _METAVARS[declared.wanted]
     required = declared.default is MISSING
@@ -125,6 +125,8 @@ def help_of(declared: Declared) -> str:
     text = told.help if told.help[1:2].isupper() else told.help[:1].lower() + told.help[1:]
     if any(choice.help for choice in told.choices.values()):
         text += ": " + "; ".join(f"{_shown(value)}, {choice.help}" for value, choice in told.choices.items())
+    elif told.choices and told.metavar:
+        text += f": {', '.join(map(_shown, told.choices))}"
     return f"{text} ({'; '.join(filter(None, (told.unit, _range(declared), _default(declared))))})"
 
 
@@ -132,7 +134,9 @@ def _range(declared: Declared) -> str:
     least, most = declared.option.least, declared.option.most
     if least == -math.inf:
         return ""
-    return f"from {least:g}" if most == math.inf else f"{least:g} to {most:g}"
+    return (
+        f"from {number_text(least)}" if most == math.inf else f"{number_text(least)} to {number_text(most)}"
+    )
 
 
 def _default(declared: Declared) -> str:
@@ -149,7 +153,7 @@ def _shown(value: Any) -> str:
     if isinstance(value, tuple):
         same = len(set(value)) == 1
         return ",".join(map(_shown, value[:1] if same else value)) or "all"
-    return f"{value:g}" if isinstance(value, float) else str(value)
+    return number_text(value) if isinstance(value, float) else str(value)
 
 
 def _value(declared: Declared, text: str) -> Any:
@@ -162,86 +166,12 @@ def _value(declared: Declared, text: str) -> Any:
 _METAVARS: dict[type, str] = {int: "N", float: "X", str: "TEXT", tuple: "X,X,..."}
 
 
-def positive(text: str) -> int:
-    """A whole number from 1."""
-    value = int(text) if text.isascii() and text.isdigit() else 0
-    if value < 1:
-        raise argparse.ArgumentTypeError(f"'{text}' is not a whole number from 1")
-    return value
-
-
-def whole(text: str) -> int:
-    """A whole number from 0."""
-    if not (text.isascii() and text.isdigit()):
-        raise argparse.ArgumentTypeError(f"'{text}' is not a whole number from 0")
-    return int(text)
-
-
-def position(text: str) -> tuple[float, float, float]:
-    """Three finite numbers, X,Y,Z."""
-    try:
-        x, y, z = (float(number) for number in text.split(","))
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"'{text}' is not X,Y,Z, three numbers") from None
-    if not math.isfinite(math.hypot(x, y, z)):
-        raise argparse.ArgumentTypeError(f"'{text}' points nowhere")
-    return x, y, z
-
-
-def direction(text: str) -> tuple[float, float, float]:
-    """Three numbers, X,Y,Z, not all 0."""
-    vector = position(text)
-    if not any(vector):
-        raise argparse.ArgumentTypeError(f"'{text}' points nowhere")
-    return vector
-
-
-def colour(text: str) -> tuple[float, float, float]:
-    """Three numbers, R,G,B, or one for all of them."""
-    try:
-        numbers = [float(number) for number in text.split(",")]
-        red, green, blue = numbers if len(numbers) > 1 else 3 * numbers
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"'{text}' is neither a number nor R,G,B, three numbers") from None
-    return red, green, blue
-
-
-def degrees(text: str) -> float:
-    """An angle in degrees, above 0 and below 180."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0.0
-    if not 0.0 < value < 180.0:
-        raise argparse.ArgumentTypeError(f"'{text}' is not an angle between 0 and 180 degrees")
-    return value
-
-
 def add_map_set(parser: argparse.ArgumentParser) -> None:
     """Declare `map_set`, the file to work on."""
     parser.add_argument("map_set", metavar="NAME.rsibr.exr", type=Path, help="a map set")
-
-
-def add_rendering(parser: argparse.ArgumentParser, samples: int) -> None:
-    """Declare how well Cycles renders, `samples`, by default as given, and `seed`."""
-    parser.add_argument(
-        "--samples",
-        metavar="N",
-        type=positive,
-        default=samples,
-        help="of Cycles for a pixel (default: %(default)s)",
-    )
-    parser.add_argument(
-        "--seed", metavar="N", type=whole, default=0, help="of everything random (default: %(default)s)"
-    )
 
 
 def add_output(parser: argparse.ArgumentParser, metavar: str, description: str) -> None:
     """Declare where the result goes, `output`, and whether it replaces what is there, `force`."""
     parser.add_argument("-o", "--output", metavar=metavar, type=Path, required=True, help=description)
     parser.add_argument("--force", action="store_true", help="replace what exists")
-
-
-def radians_or_none(angle: float | None) -> float | None:
-    """An angle in degrees in radians; None, for an orthographic camera, stays."""
-    return None if angle is None else math.radians(angle)

@@ -82,9 +82,9 @@ class Option:
         Values that a menu of Blender's offers where others are possible too.
     none : str
         What None stands for, as "what the lobes need".
-    none_as : float or str or None
-        The value that stands for None where an interface has no None: 0, or the empty text. Where it is None,
-        such an interface has a switch beside the value, with the label `switch`.
+    none_as : float or tuple or str or None
+        The value that stands for None where an interface has no None: 0, zeros, or the empty text. Where it
+        is None, such an interface has a switch beside the value, with the label `switch`.
     start : object
         What an interface shows first where the default is None.
     switch : Choice or None
@@ -98,7 +98,9 @@ class Option:
     metavar : str
         Stands for the value on the command line.
     subtype : str
-        "COLOR" or "FILE_PATH": how Blender shows it.
+        "COLOR", "FILE_PATH" or, of degrees, "ANGLE": how Blender shows it.
+    once : bool
+        Whether it tells of the files at hand alone, so that Blender forgets it.
     stored : str
         Name of the property that files of Blender hold; empty for the field's.
     materials : Materials or None
@@ -115,7 +117,7 @@ class Option:
     choices: Mapping[Any, Choice] = dataclasses.field(default_factory=dict)
     offered: tuple[Any, ...] = ()
     none: str = ""
-    none_as: float | str | None = None
+    none_as: float | tuple[float, ...] | str | None = None
     start: Any = None
     switch: Choice | None = None
     draft: Any = None
@@ -125,6 +127,7 @@ class Option:
     old_flag: str = ""
     metavar: str = ""
     subtype: str = ""
+    once: bool = False
     stored: str = ""
     materials: Materials | None = None
 
@@ -279,9 +282,27 @@ def value_from_text(declared: Declared, text: str) -> Any:
     return tuple(_member_from_text(declared, declared.members or str, part) for part in parts)
 
 
+def number_from_text(text: str) -> float:
+    """The number that a text states, which may be a fraction: 0.5, 1/125.
+
+    Raises
+    ------
+    ValueError
+        It states none.
+    """
+    numerator, slash, denominator = text.partition("/")
+    divisor = float(denominator) if slash else 1.0
+    return float(numerator) / divisor if divisor else math.nan
+
+
+def number_text(number: float) -> str:
+    """A number as people read it: whole ones with all digits."""
+    return str(number) if isinstance(number, int) else f"{number:g}"
+
+
 def _member_from_text(declared: Declared, wanted: type, text: str) -> Any:
     try:
-        return wanted(text)
+        return number_from_text(text) if wanted is float else wanted(text)
     except ValueError:
         names = ", ".join(str(_plain(choice)) for choice in declared.option.choices)
         words = [names and f"one of {names}", _WORDS.get(wanted, "")]
@@ -314,23 +335,26 @@ def _checked(declared: Declared, value: Any) -> Any:
 
 def _checked_member(declared: Declared, wanted: type, value: Any) -> Any:
     choices, told = declared.option.choices, declared.option
-    is_number = isinstance(value, int | float) and declared.members is float  # where a name is a choice
-    if choices and not is_number and value not in choices:
+    is_number = isinstance(value, int | float)
+    # Where numbers may be given, a choice is a name
+    if choices and not (is_number and declared.members is float) and value not in choices:
         names = ", ".join(str(_plain(choice)) for choice in choices)
         shown = f"'{value}'" if isinstance(value, str) else value
         raise RangeError(f"{told.label} cannot be {shown}: choose one of {names}.")
     if issubclass(wanted, Enum):
         return wanted(value)
-    if isinstance(value, int | float) and not told.least <= value <= told.most:
+    if is_number and (not told.least <= value <= told.most or abs(value) == math.inf):
         unit = f" {told.unit}" if told.unit else ""
-        raise RangeError(f"{told.label} cannot be {value:g}{unit}: choose {_range(told)}.")
+        raise RangeError(f"{told.label} cannot be {number_text(value)}{unit}: choose {_range(told)}.")
     return value
 
 
 def _range(told: Option) -> str:
+    if told.least == -math.inf:
+        return "a finite number"
     if told.most == math.inf:
-        return f"a number from {told.least:g}"
-    return f"{told.least:g} to {told.most:g}"
+        return f"a number from {number_text(told.least)}"
+    return f"{number_text(told.least)} to {number_text(told.most)}"
 
 
 def _plain(value: Any) -> Any:

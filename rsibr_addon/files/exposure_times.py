@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 from ..core.errors import InputFileError
+from ..core.options import number_from_text
 from .reading import opened
 
 LARGEST = 1 << 20
@@ -30,11 +31,10 @@ def exposure_time(text: str) -> float:
     ValueError
         It is neither.
     """
-    numerator, slash, denominator = text.partition("/")
-    parts = float(numerator), float(denominator) if slash else 1.0
-    if not (parts[1] > 0.0 and math.isfinite(parts[0] / parts[1]) and parts[0] > 0.0):
+    time = number_from_text(text)
+    if not 0.0 < time < math.inf:
         raise ValueError(f"'{text}' is no exposure time")
-    return parts[0] / parts[1]
+    return time
 
 
 def read_times(path: str | Path) -> tuple[float, ...]:

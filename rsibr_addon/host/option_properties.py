@@ -8,7 +8,8 @@ from typing import Any
 
 import bpy
 
-from ..core.options import Declared, Materials, Options, declared_options
+from ..core.errors import RangeError
+from ..core.options import Declared, Materials, Options, declared_options, value_from_text
 from ..files.measured_files import MEASURED_FORMATS, measured_spec
 from .bake_settings import existing
 
@@ -188,22 +189,22 @@ def _of_materials(declared: Declared, materials: Materials, common: dict[str, An
 def _property(declared: Declared, common: dict[str, Any], by_text: bool) -> Any:
     told = declared.option
     common = {"name": told.label, "description": _description(declared), **common}
+    flags = {"SKIP_SAVE": told.once, "PATH_SUPPORTS_BLEND_RELATIVE": told.subtype == "FILE_PATH"}
+    if any(flags.values()):
+        common["options"] = {flag for flag, is_set in flags.items() if is_set}
     items = _items(declared, by_text)
     if items and declared.wanted is tuple and isinstance(declared.default, tuple):
-        flags = {_identifier(value) for value in declared.default}
-        return bpy.props.EnumProperty(items=items, options={"ENUM_FLAG"}, default=flags, **common)
-    default = next(
+        chosen = {_identifier(value) for value in declared.default}
+        return bpy.props.EnumProperty(items=items, options={"ENUM_FLAG"}, default=chosen, **common)
+    default: Any = next(
         each for each in (declared.default, told.start, told.none_as, "") if each not in (None, MISSING, ())
     )
     if items:
         return bpy.props.EnumProperty(items=items, default=_identifier(default), **common)
     if declared.wanted is bool:
         return bpy.props.BoolProperty(default=default, **common)
-    if declared.wanted is str:
-        paths = {"subtype": "FILE_PATH", "options": {"PATH_SUPPORTS_BLEND_RELATIVE"}}
-        return bpy.props.StringProperty(
-            default=default, **(paths if told.subtype == "FILE_PATH" else {}), **common
-        )
+    if declared.wanted is str or _is_list(declared):
+        return bpy.props.StringProperty(default=default, subtype=told.subtype or "NONE", **common)
     least = 0.0 if told.none_as == 0 else told.least
     if int in (declared.wanted, declared.members):
         low, high = max(least, -LARGEST), min(told.most, LARGEST)
@@ -215,19 +216,27 @@ def _property(declared: Declared, common: dict[str, Any], by_text: bool) -> Any:
         "soft_min": told.soft_least,
         "soft_max": told.soft_most,
     }
-    limits = {name: end for name, end in ends.items() if end is not None and math.isfinite(end)}
+    of_blender = math.radians if told.subtype == "ANGLE" else float
+    limits = {name: of_blender(end) for name, end in ends.items() if end is not None and math.isfinite(end)}
     if declared.count:
         return bpy.props.FloatVectorProperty(
             default=default, size=declared.count, subtype=told.subtype or "NONE", **limits, **common
         )
-    return bpy.props.FloatProperty(default=float(default or 0.0), **limits, **common)
+    return bpy.props.FloatProperty(
+        default=of_blender(default or 0.0), subtype=told.subtype or "NONE", **limits, **common
+    )
+
+
+def _is_list(declared: Declared) -> bool:
+    """Whether it is numbers, as many as one likes, which Blender has as a text."""
+    return declared.wanted is tuple and declared.count is None and not declared.option.choices
 
 
 def _description(declared: Declared) -> str:
     told = declared.option
     unit = f", in {told.unit}" if told.unit else ""
     if told.none and told.none_as is not None:
-        stands = "empty" if told.none_as == "" else f"{told.none_as:g}"
+        stands = "empty" if told.none_as == "" else "0"
         return f"{told.help}{unit}; {stands} for {told.none}"
     return f"{told.help}{unit}"
 
@@ -257,9 +266,14 @@ def _value(declared: Declared, group: Any, own: str) -> Any:
         return _material(declared, group, own)
     if told.switch is not None and not getattr(group, f"use_{name}"):
         return declared.default
-    value = getattr(group, name)
+    value = _plain(getattr(group, name), told.subtype)
     if value == told.none_as and declared.optional:
         return None
+    if _is_list(declared):
+        try:
+            return value_from_text(declared, ",".join(value.replace(",", " ").split()))
+        except ValueError as error:
+            raise RangeError(f"{told.label}: {error}: give numbers, as 0.5 or 1/125.") from error
     if declared.wanted is int:
         return int(value)
     if declared.wanted is tuple and not isinstance(value, str):
@@ -267,6 +281,15 @@ def _value(declared: Declared, group: Any, own: str) -> Any:
         chosen = value if not isinstance(value, set) else [each for each in told.choices if each in value]
         return (chosen,) if isinstance(chosen, int) else tuple(chosen)
     return value
+
+
+def _plain(value: Any, subtype: str) -> Any:
+    """A property's value: the decimal that its single precision is nearest to, degrees of radians."""
+    if isinstance(value, float):
+        return float(f"{math.degrees(value) if subtype == 'ANGLE' else value:.7g}")
+    if isinstance(value, str | int | set):
+        return value
+    return tuple(_plain(member, subtype) for member in value)
 
 
 def _material(declared: Declared, group: Any, own: str) -> str | None:

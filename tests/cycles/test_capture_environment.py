@@ -7,7 +7,8 @@ import bpy
 import pytest
 import rsibr
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.tasks.light.scene import SceneLight, illuminate_from_scene
+from rsibr.rsibr_addon.settings.environment import SceneLight, WorldLight
+from rsibr.rsibr_addon.tasks.light.scene import illuminate_from_scene
 from rsibr.rsibr_addon.tasks.light.world import illuminate_from_world
 from rsibr.tests.open_file import open_file_state
 
@@ -29,13 +30,17 @@ def by_operator(path: Path, **properties: object) -> bytes:
 
 def test_the_operator_writes_what_the_tasks_write(tmp_path: Path) -> None:
     path = tmp_path / "task.exr"
-    drain(illuminate_from_scene(SceneLight(16, 2, subject="Cube"), path))
+    drain(illuminate_from_scene(SceneLight(size=16, samples=2, subject="Cube"), path))
     assert by_operator(tmp_path / "object.exr") == path.read_bytes()
     bpy.context.scene.cursor.location = (0.0, 0.0, 3.0)
-    drain(illuminate_from_scene(SceneLight(16, 2, faces=True, denoise=True, seed=3), path, force=True))
+    drain(
+        illuminate_from_scene(
+            SceneLight(size=16, samples=2, faces=True, denoise=True, seed=3), path, force=True
+        )
+    )
     settings = {"source": "CURSOR", "faces": True, "denoise": True, "seed": 3}
     assert by_operator(tmp_path / "cursor.exr", **settings) == path.read_bytes()
-    drain(illuminate_from_world(None, 16, path, force=True))
+    drain(illuminate_from_world(WorldLight(size=16), path, force=True))
     assert by_operator(tmp_path / "world.exr", source="WORLD") == path.read_bytes()
 
 

@@ -15,7 +15,8 @@ from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.radiance_pictures import read_radiance
 from rsibr.rsibr_addon.host.rendering import configure_cycles, render_passes
 from rsibr.rsibr_addon.host.scenes import temporary_copy
-from rsibr.rsibr_addon.tasks.light.scene import SceneLight, illuminate_from_scene
+from rsibr.rsibr_addon.settings.environment import SceneLight
+from rsibr.rsibr_addon.tasks.light.scene import illuminate_from_scene
 from rsibr.tests.open_file import open_file_state
 
 SIZE = 128
@@ -371,7 +372,7 @@ def test_nothing_stays_when_it_is_interrupted(add_lamp: AddLamp, tmp_path: Path)
     add_lamp("POINT", 60, 70, 4.0, energy=200.0)
     bpy.context.view_layer.update()
     before = open_file_state()
-    steps = illuminate_from_scene(SceneLight(SIZE, 16), tmp_path / "light.exr")
+    steps = illuminate_from_scene(SceneLight(size=SIZE, samples=16), tmp_path / "light.exr")
     for _ in range(3):
         assert next(steps).total == 3
         assert open_file_state() == before
@@ -389,10 +390,10 @@ def test_a_point_without_size_at_the_place_itself_is_left_out(add_lamp: AddLamp,
 @pytest.mark.parametrize(
     ("settings", "error", "words"),
     [
-        ({"size": 7}, RangeError, "cannot be 7 texels wide: choose an even number, 8 to 8192"),
-        ({"size": 32768}, RangeError, "cannot be 32768 texels wide"),
-        ({"samples": 0}, RangeError, "cannot take 0 samples: choose 1 to"),
-        ({"seed": -1}, RangeError, "seed -1 is out of range"),
+        ({"size": 7}, RangeError, "Size cannot be 7 texels: choose 8 to 16384"),
+        ({"size": 32768}, RangeError, "Size cannot be 32768 texels"),
+        ({"samples": 0}, RangeError, "Samples cannot be 0: choose 1 to"),
+        ({"seed": -1}, RangeError, "Seed cannot be -1: choose 0 to"),
         ({"scene": "Studio"}, SceneError, "This file holds no scene Studio: choose one of Scene"),
         ({"subject": "Car"}, SceneError, "Scene Scene holds no object Car: choose one of Cube"),
     ],

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.command_line.convert import LAYOUTS
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import InputFileError, RangeError
 from rsibr.rsibr_addon.core.maps.representation import REPRESENTATIONS, representation
 from rsibr.rsibr_addon.files.map_pictures import CUBES, layout, read_map, write_map
 from rsibr.rsibr_addon.files.radiance_pictures import read_radiance, write_radiance
+from rsibr.rsibr_addon.settings.environment import LAYOUTS
 
 RNG = np.random.default_rng(0)
 DIRECTION = {
@@ -172,10 +172,16 @@ def test_sheets_of_different_sizes_or_shapes_are_refused(tmp_path: Path) -> None
     [
         (["--to", "octahedral", "--size", 8, "--overscan", 1.2], "Neither map is a dual_paraboloid"),
         (["--to", "octahedral", "--size", 8, "--distance", 9], "Neither map is a mirror_ball"),
-        (["--to", "dual_paraboloid", "--size", 8, "--overscan", 0.9], "give 1 or more"),
-        (["--to", "mirror_ball", "--size", 8, "--distance", "nan"], "is in the ball"),
+        (
+            ["--to", "dual_paraboloid", "--size", 8, "--overscan", 0.9],
+            "Overscan cannot be 0.9: choose 1 to 1000",
+        ),
+        (
+            ["--to", "mirror_ball", "--size", 8, "--distance", "nan"],
+            "Distance cannot be nan: choose 1.001 to",
+        ),
         (["--to", "equirect", "--size", 7], "choose a multiple of 2"),
-        (["--to", "octahedral", "--size", 20000], "choose 16384 at most"),
+        (["--to", "octahedral", "--size", 20000], "Size cannot be 20000 texels: choose 1 to 16384"),
     ],
 )
 def test_parameters_out_of_range_are_refused(

@@ -92,6 +92,19 @@ def test_exposures_of_different_crops_are_merged(tmp_path: Path, capfd: pytest.C
     assert median_error(out) < 0.08
 
 
+@pytest.mark.filterwarnings("ignore::rsibr.rsibr_addon.core.errors.RsibrWarning")
+def test_a_ball_is_clamped(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    ball, out = write_side(tmp_path / "ball.exr"), tmp_path / "room.exr"
+    given = ["--circle", "101,88,80", "-o", out, "--size", 64, "--clamp", 0.5, "--force"]
+    clamped = 0.5 * 1.001  # shares of a texel's mean sum to 1 but for quadrature
+    assert EXPECTED.max() > 1.0
+    assert illuminate(ball, *given) == 0
+    assert 0.49 < read_radiance(out).max() < clamped
+    assert illuminate(ball, ball, "--times", "1,2", *given) == 0
+    assert 0.49 < read_radiance(out).max() < clamped
+    assert "as 0.5" in capfd.readouterr().err
+
+
 @pytest.mark.slow
 def test_bad_input_is_told_and_nothing_written(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     ball, out = write_side(tmp_path / "ball.exr"), tmp_path / "room.exr"
@@ -108,10 +121,13 @@ def test_bad_input_is_told_and_nothing_written(tmp_path: Path, capfd: pytest.Cap
         ball, "--circle", "500,88,80"
     )
     assert "ball.exr: A circle is x, y and a radius above 0" in told(ball, "--circle", "100,88,0")
-    assert "0.5 radii from a ball's centre is in the ball" in told(ball, "--distance", 0.5)
+    assert "Distance cannot be 0.5: choose 1.001 to" in told(ball, "--distance", 0.5)
     assert "cannot be 63 texels wide" in told(ball, "--size", 63)
-    assert "looks down by less than 90 degrees" in told(ball, "--elevation", 90)
-    assert "from 0 to 180 degrees" in told(ball, "--camera", -1)
+    assert "Elevation cannot be 90 degrees: choose -89 to 89" in told(ball, "--elevation", 90)
+    assert "Camera cannot be -1 degrees: choose 0 to 179" in told(ball, "--camera", -1)
+    times = ["--times", 1, "--times-file", tmp_path / "times.txt"]
+    assert "leave one of the two out" in told(ball, *times)
+    assert "Distance and field of view both tell" in told(ball, "--distance", 5, "--fov", 50)
     assert "ball.exr does not tell its exposure time" in told(ball, ball)
     write_radiance(tmp_path / "black.exr", np.zeros((180, 200, 3)))
     sides = [

@@ -40,8 +40,8 @@ def test_bad_paintings_are_told(tmp_path: Path, capfd: pytest.CaptureFixture[str
     assert "a.png is 10x8, but equirect is twice as wide as high" in told(picture, "--white", 5)
     write_png(picture, np.zeros((8, 8, 3), np.uint8))
     angular = [picture, "--from", "angular_map"]
-    assert "lifted to a radiance of 1 or more" in told(*angular, "--white", 0.5)
-    assert "A knee of 1 lies outside" in told(*angular, "--white", 5, "--knee", 1)
+    assert "White cannot be 0.5: choose a number from 1" in told(*angular, "--white", 0.5)
+    assert "Knee cannot be 1: choose 0 to 0.99" in told(*angular, "--white", 5, "--knee", 1)
     write_radiance(tmp_path / "b.exr", np.ones((8, 8, 3)))
     radiance = told(tmp_path / "b.exr", "--from", "angular_map", "--white", 5)
     assert "b.exr holds radiance already: use rsibr convert" in radiance

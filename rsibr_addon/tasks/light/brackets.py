@@ -1,8 +1,8 @@
 """The photographs of a bracket: reading them, and merging them into a picture of radiance."""
 
 import warnings
-from dataclasses import dataclass, replace
-from enum import Enum
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +15,7 @@ from ...core.light.exposure.response import Response, linear_response, srgb_resp
 from ...core.progress import Progress, Steps
 from ...files.encoding import Encoding, named_encoding
 from ...files.exif import read_exposure, relative_exposures
+from ...files.exposure_times import read_times
 from ...files.photographs import Photograph, read_photograph
 from ...files.radiance_pictures import (
     check_radiance_target,
@@ -22,81 +23,56 @@ from ...files.radiance_pictures import (
     read_radiance,
     write_radiance,
 )
+from ...settings.photographs import BracketSettings
 
 
-class Curve(Enum):
-    """What is known of a camera's curve."""
+def in_order(photographs: Sequence[Path], settings: BracketSettings) -> tuple[list[Path], list[float]]:
+    """Photographs from the shortest exposure to the longest, and their exposures.
 
-    RECOVERED = "recovered"
-    SRGB = "srgb"
-    LINEAR = "linear"
-
-
-@dataclass(frozen=True)
-class BracketSettings:
-    """The photographs of a bracket, and what is known of them.
-
-    Attributes
+    Parameters
     ----------
-    photographs : tuple of Path
-        In any order. Of 8 or 16 bits; or linear and white at 1, as OpenEXR and Radiance HDR are.
-    times : tuple of float or None
-        Exposure times [s], one for each; None for what the files tell.
-    curve : Curve
-        Of photographs that are not linear.
-    align : bool
-        Whether the camera may have moved.
+    photographs : sequence of Path
+        In any order.
+    settings : BracketSettings
+
+    Returns
+    -------
+    list of Path
+    list of float
 
     Raises
     ------
     RangeError
         There are not as many times as photographs.
+    InputFileError
+        See `read_times`, `read_exposure` and `relative_exposures`.
+
+    Warns
+    -----
+    RsibrWarning
+        See `relative_exposures`.
     """
-
-    photographs: tuple[Path, ...]
-    times: tuple[float, ...] | None = None
-    curve: Curve = Curve.RECOVERED
-    align: bool = True
-
-    def __post_init__(self) -> None:
-        if self.times is not None and len(self.times) != len(self.photographs):
-            raise RangeError(
-                f"There are {len(self.photographs)} photographs, but {len(self.times)} exposure times: "
-                f"give one for each."
-            )
-
-    def in_order(self) -> tuple[list[Path], list[float]]:
-        """The photographs from the shortest exposure to the longest, and their exposures.
-
-        Raises
-        ------
-        InputFileError
-            See `read_exposure` and `relative_exposures`.
-
-        Warns
-        -----
-        RsibrWarning
-            See `relative_exposures`.
-        """
-        times = self.times
-        if times is None:
-            exposures = [read_exposure(path) for path in self.photographs]
-            times = tuple(relative_exposures(self.photographs, exposures))
-        order = np.argsort(times, kind="stable")
-        return [self.photographs[i] for i in order], [times[i] for i in order]
-
-    def response(self, encoding: Encoding) -> Response | None:
-        """The camera's curve where it is known."""
-        if self.curve is Curve.LINEAR or encoding.curves is None:
-            return linear_response()
-        return srgb_response() if self.curve is Curve.SRGB else None
+    times = settings.times if settings.times_file is None else read_times(settings.times_file)
+    if times is None:
+        exposures = [read_exposure(path) for path in photographs]
+        times = tuple(relative_exposures(photographs, exposures))
+    if len(times) != len(photographs):
+        raise RangeError(
+            f"There are {len(photographs)} photographs, but {len(times)} exposure times: give one for each."
+        )
+    order = np.argsort(times, kind="stable")
+    return [photographs[i] for i in order], [times[i] for i in order]
 
 
-def illuminate_from_brackets(settings: BracketSettings, output: Path, force: bool = False) -> Steps[Merged]:
+def illuminate_from_brackets(
+    photographs: Sequence[Path], settings: BracketSettings, output: Path, force: bool = False
+) -> Steps[Merged]:
     """Merge a bracket into a picture of radiance.
 
     Parameters
     ----------
+    photographs : sequence of Path
+        In any order. Of 8 or 16 bits; or linear and white at 1, as OpenEXR and Radiance HDR are.
     settings : BracketSettings
     output : Path
         NAME.exr or NAME.hdr: what the photographs show, laid out as they are.
@@ -125,7 +101,7 @@ def illuminate_from_brackets(settings: BracketSettings, output: Path, force: boo
         See `merged`.
     """
     check_radiance_target(output, force)
-    paths, times = settings.in_order()
+    paths, times = in_order(photographs, settings)
     pictures, encoding = yield from read_photographs(paths)
     for path, picture in zip(paths, pictures, strict=True):
         if picture.shape != pictures[0].shape:
@@ -135,7 +111,7 @@ def illuminate_from_brackets(settings: BracketSettings, output: Path, force: boo
                 f"size; crop them alike."
             )
     yield Progress(len(paths), len(paths) + 1, "merging")
-    result = merged(settings, pictures, times, encoding)
+    result = merged(paths[0], settings, pictures, times, encoding)
     write_radiance(output, result.radiance, force)
     return result
 
@@ -197,13 +173,22 @@ def _read(path: Path) -> Photograph:
     return read_photograph(path)
 
 
+def _response(curve: str, encoding: Encoding) -> Response | None:
+    """The camera's curve where it is known."""
+    if curve == "linear" or encoding.curves is None:
+        return linear_response()
+    return srgb_response() if curve == "srgb" else None
+
+
 def merged(
-    settings: BracketSettings, pictures: list[Array], times: list[float], encoding: Encoding
+    name: Path, settings: BracketSettings, pictures: list[Array], times: list[float], encoding: Encoding
 ) -> Merged:
     """Merge photographs of one size.
 
     Parameters
     ----------
+    name : Path
+        Of one of them, for messages.
     settings : BracketSettings
     pictures : list of ndarray, shape (height, width, 3)
         Encoded; the shortest exposure first.
@@ -227,9 +212,8 @@ def merged(
     RsibrWarning
         Some of it is white, or black, in all photographs.
     """
-    name = settings.photographs[0]
     try:
-        result = merge_bracket(pictures, times, settings.response(encoding), settings.align)
+        result = merge_bracket(pictures, times, _response(settings.curve, encoding), settings.align)
     except RangeError as error:
         raise InputFileError(f"{name} and those with it: {error}") from error
     for share, colour, other in (

@@ -13,6 +13,7 @@ from ...core.progress import Progress, Steps
 from ...core.resample import resample
 from ...files.map_pictures import layout, read_map
 from ...files.radiance_pictures import check_radiance_target, holds_radiance, write_radiance
+from ...settings.environment import FacesSettings
 from .light_pictures import read_light
 
 SATURATED = 0.96
@@ -20,12 +21,7 @@ SATURATED = 0.96
 
 
 def illuminate_from_faces(
-    source: Path,
-    size: int,
-    output: Path,
-    balance: bool = False,
-    force: bool = False,
-    clamp: float | None = None,
+    source: Path, settings: FacesSettings, output: Path, force: bool = False
 ) -> Steps[Array]:
     """Put an environment together from a cube's faces.
 
@@ -33,16 +29,11 @@ def illuminate_from_faces(
     ----------
     source : Path
         NAME.jpg for NAME-px.jpg and so on: see `files.map_pictures` and its `cube_faces`.
-    size : int
-        Width of the environment in texels, even.
+    settings : FacesSettings
     output : Path
         NAME.exr or NAME.hdr.
-    balance : bool
-        Whether each photograph is scaled, channel by channel, so that they agree along the edges.
     force : bool
         Whether an existing file is replaced.
-    clamp : float, optional
-        See `core.environment.usable_radiance`.
 
     Yields
     ------
@@ -59,22 +50,21 @@ def illuminate_from_faces(
         A photograph is missing, unreadable, not square or not of the others' size; or they cannot be
         balanced.
     OutputFileError, RangeError
-        See `write_radiance`; `size` is odd.
+        See `write_radiance`.
     """
     faces, equirect = layout("cube_faces"), representation("equirect")
     check_radiance_target(output, force)
-    equirect.shape(size)
     yield Progress(0, 3, f"reading {source.name}")
-    cube = read_map(source, faces, partial(read_light, clamp=clamp)).astype(np.float64)
+    cube = read_map(source, faces, partial(read_light, clamp=settings.clamp)).astype(np.float64)
     gains: Array = np.ones((6, 3))
-    if balance:
+    if settings.balance:
         white = np.inf if holds_radiance(faces.paths(source)[0]) else SATURATED
         try:
             gains = balancing_gains(cube, white)
         except RangeError as error:
             raise InputFileError(f"{source} as six photographs: {error}") from error
     yield Progress(1, 3, f"making {output.name}")
-    made = resample(cube * gains[:, None, None], faces.representation, equirect, size)
+    made = resample(cube * gains[:, None, None], faces.representation, equirect, settings.size)
     yield Progress(2, 3, f"writing {output.name}")
     write_radiance(output, made[0], force)
     return gains

@@ -1,6 +1,5 @@
 """An environment from a painted picture: [Miller1984] section 5.3."""
 
-from dataclasses import dataclass
 from pathlib import Path
 
 from ...core.conventions import Array
@@ -11,28 +10,8 @@ from ...core.progress import Progress, Steps
 from ...core.resample import resample
 from ...files.map_pictures import layout, read_map
 from ...files.radiance_pictures import check_radiance_target, holds_radiance, write_radiance
+from ...settings.environment import PaintedSettings
 from .light_pictures import read_light
-
-
-@dataclass(frozen=True)
-class PaintedSettings:
-    """How a picture is laid out and what its white means.
-
-    Attributes
-    ----------
-    source_layout : str
-        See `files.map_pictures.layout`.
-    size : int
-        Width of the environment in texels, even.
-    white : tuple of 3 floats
-    knee : float
-        See `core.light.painted.lift_whites`.
-    """
-
-    source_layout: str
-    size: int
-    white: tuple[float, float, float]
-    knee: float
 
 
 def illuminate_from_painting(
@@ -64,13 +43,12 @@ def illuminate_from_painting(
     InputFileError
         A file is missing, no picture or radiance already, or its size does not fit the layout.
     RangeError
-        See `lift_whites`, or the size is odd.
+        See `lift_whites`.
     OutputFileError
         See `write_radiance`.
     """
     before, after = layout(settings.source_layout), representation("equirect")
     check_radiance_target(output, force)
-    after.shape(settings.size)
     yield Progress(0, 3, f"reading {source.name}")
     picture = read_map(source, before, _read_painting)
     yield Progress(1, 3, f"making {output.name}")

@@ -1,7 +1,7 @@
 """The light around a point of a scene: [Miller1984] section 5.2."""
 
 import warnings
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core.conventions import Array
 from ...core.environment import usable_radiance
-from ...core.errors import RangeError, RsibrWarning
+from ...core.errors import RsibrWarning
 from ...core.light.lamps import LampLight, add_lamps
 from ...core.maps import equirect
 from ...core.maps.representation import representation
@@ -17,7 +17,7 @@ from ...core.progress import Progress, Steps
 from ...core.resample import resample
 from ...files.memory import check_memory
 from ...files.radiance_pictures import check_radiance_target, write_radiance
-from ...host.cycles import BYTES_BESIDES, LARGEST_SAMPLES, LARGEST_SEED, bytes_needed
+from ...host.cycles import BYTES_BESIDES, bytes_needed
 from ...host.denoising import denoise
 from ...host.lamps import lamps_around, measure_lamps
 from ...host.surroundings import (
@@ -27,6 +27,7 @@ from ...host.surroundings import (
     surroundings_of,
     surroundings_scene,
 )
+from ...settings.environment import SceneLight
 
 SEEN_WIDTH = 4.0
 """Texels that a lamp must be wide for rays to sample it well: a narrower one is measured."""
@@ -40,62 +41,6 @@ PANORAMA_STEPS = 8
 
 OVERLAP = 16
 """Columns that a panorama is continued by on either side while it is denoised."""
-
-LARGEST, SMALLEST = 8192, 8
-"""Width of a map."""
-
-
-@dataclass(frozen=True)
-class SceneLight:
-    """What light is captured, and how well.
-
-    Attributes
-    ----------
-    size : int
-        Width of the map in texels, even.
-    samples : int
-        Of Cycles for a texel; of six faces for a pixel, of which a texel takes some three.
-    scene : str or None
-        Name of a scene of the open file; None for the one that the artist works in.
-    subject : str or None
-        Name of the object that is lit: it is left out, with what is parented to it (lamps excepted) or
-        instanced by it.
-    point : tuple of 3 floats, or None
-        In world coordinates; None for the middle of the object, or without one for the 3D cursor.
-    frame : int or None
-        None for the scene's current one.
-    faces : bool
-        Whether six faces of a cube are rendered instead of a panorama.
-    denoise : bool
-        Whether Open Image Denoise cleans what is rendered.
-    seed : int
-        Of Cycles' noise.
-
-    Raises
-    ------
-    RangeError
-        A number is out of range.
-    """
-
-    size: int = 1024
-    samples: int = 128
-    scene: str | None = None
-    subject: str | None = None
-    point: tuple[float, float, float] | None = None
-    frame: int | None = None
-    faces: bool = False
-    denoise: bool = False
-    seed: int = 0
-
-    def __post_init__(self) -> None:
-        if self.size % 2 or not SMALLEST <= self.size <= LARGEST:
-            raise RangeError(
-                f"A map cannot be {self.size} texels wide: choose an even number, {SMALLEST} to {LARGEST}."
-            )
-        if not 1 <= self.samples <= LARGEST_SAMPLES:
-            raise RangeError(f"A pixel cannot take {self.samples} samples: choose 1 to {LARGEST_SAMPLES}.")
-        if not 0 <= self.seed <= LARGEST_SEED:
-            raise RangeError(f"The seed {self.seed} is out of range: choose 0 to {LARGEST_SEED}.")
 
 
 def illuminate_from_scene(light: SceneLight, output: Path, force: bool = False) -> Steps[Path]:

@@ -9,25 +9,19 @@ from ...files.radiance_pictures import check_radiance_target, write_radiance
 from ...host.cycles import BYTES_BESIDES
 from ...host.scenes import find_scene
 from ...host.worlds import WORLD_OF_TEXEL, sample_world, world_of
+from ...settings.environment import WorldLight
 
 
-def illuminate_from_world(
-    scene: str | None, size: int, output: Path, force: bool = False, clamp: float | None = None
-) -> Steps[Path]:
+def illuminate_from_world(settings: WorldLight, output: Path, force: bool = False) -> Steps[Path]:
     """Sample the world of a scene of the open file into a latitude-longitude map.
 
     Parameters
     ----------
-    scene : str or None
-        Its name; None for the one that the artist works in.
-    size : int
-        Width of the map in texels, even.
+    settings : WorldLight
     output : Path
         NAME.exr or NAME.hdr.
     force : bool
         Whether an existing file is replaced.
-    clamp : float, optional
-        See `core.environment.usable_radiance`.
 
     Yields
     ------
@@ -45,7 +39,7 @@ def illuminate_from_world(
     InputFileError, RenderError
         See `sample_world`.
     OutputFileError, RangeError
-        See `write_radiance` and `check_memory`; `size` is odd.
+        See `write_radiance` and `check_memory`.
 
     Warns
     -----
@@ -53,9 +47,9 @@ def illuminate_from_world(
         See `sample_world`.
     """
     check_radiance_target(output, force)
-    _, height, _ = representation("equirect").shape(size)
-    check_memory(WORLD_OF_TEXEL * size * height, str(output), (size, height), BYTES_BESIDES)
-    world = world_of(find_scene(scene))
+    _, height, _ = representation("equirect").shape(settings.size)
+    check_memory(WORLD_OF_TEXEL * settings.size * height, str(output), (settings.size, height), BYTES_BESIDES)
+    world = world_of(find_scene(settings.scene))
     yield Progress(0, 1, f"sampling world {world.name}")
-    write_radiance(output, sample_world(world, height, clamp).radiance, force)
+    write_radiance(output, sample_world(world, height, settings.clamp).radiance, force)
     return output

@@ -1,0 +1,50 @@
+"""How a map of light is laid out in another representation."""
+
+from dataclasses import dataclass
+
+from ..core.errors import RangeError
+from ..core.options import option
+from .environment import LARGEST, LAYOUTS
+from .light import Clamp
+from .photographs import BallDistance
+
+PARAMETERS = {"overscan": "dual_paraboloid", "distance": "mirror_ball"}
+"""Parameter -> the layout that it belongs to."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConvertSettings(BallDistance, Clamp):
+    """How a map is laid out, and how it shall be."""
+
+    source_layout: str = option(
+        label="From", help="How IN is laid out", choices=LAYOUTS, flag="--from", metavar="LAYOUT"
+    )
+    target_layout: str = option(
+        label="To", help="How OUT shall be laid out", choices=LAYOUTS, flag="--to", metavar="LAYOUT"
+    )
+    size: int = option(
+        label="Size",
+        help="Width of OUT, or of each of its faces or sheets; equirect, of even width, is half as high",
+        unit="texels",
+        least=1,
+        most=LARGEST,
+    )
+    overscan: float | None = option(
+        None,
+        label="Overscan",
+        help="Half-width of a dual_paraboloid's sheets in radii of the hemisphere",
+        least=1.0,
+        most=1e3,
+        none="1",
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for name, owner in PARAMETERS.items():
+            if getattr(self, name) is not None and owner not in (self.source_layout, self.target_layout):
+                raise RangeError(f"Neither map is a {owner}, so there is nothing for {name}: leave it out.")
+
+    def parameters(self, layout: str) -> dict[str, float]:
+        """The parameters of a layout that are given."""
+        given = {name: getattr(self, name) for name, owner in PARAMETERS.items() if owner == layout}
+        return {name: value for name, value in given.items() if value is not None}

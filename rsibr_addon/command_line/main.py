@@ -113,7 +113,7 @@ def _done(arguments: argparse.Namespace, told: Outlet) -> tuple[dict[str, Any], 
         except (RsibrError, OSError, MemoryError) as error:
             result = {"ok": False, "error": _sentence(error)}
             told.write(f"rsibr: error: {result['error']}\n")
-    return result | {"warnings": console.warnings}, console.lines
+    return result | {"warnings": console.warnings}, console.lines if result["ok"] else []
 
 
 def _sentence(error: RsibrError | OSError | MemoryError) -> str:

@@ -22,12 +22,14 @@ from ..core.errors import (
 )
 from ..core.half_floats import half_holds
 from ..core.schema import loads
+from . import radiance_hdr
 from .atomic import check_target, written_aside
-from .exr import MAGIC, OpenExr, Part, open_exr
+from .exr import MAGIC, OpenExr, Part
 from .exr_in_turn import PartsInTurn
 from .map_set_check import check_header
 from .map_set_data import MapSet, MapsInTurn
 from .map_set_header import FORMAT
+from .photographs import PHOTOGRAPHS
 from .reading import opened
 
 ATTRIBUTE = "rsibr"
@@ -42,6 +44,12 @@ write beyond their memory where another is larger.
 
 SMALLEST_TEXEL = 6.0 / 1032.0
 """Bytes of a black texel of half floats, as deflate packs it at best."""
+
+PICTURES = (radiance_hdr.MAGIC, *PHOTOGRAPHS)
+"""First bytes of pictures that people take for map sets."""
+
+A_PICTURE = "is a picture, not a map set: make one with `rsibr bake`."
+NOTHING_KNOWN = "is not a map set: give one, or make one with `rsibr bake`."
 
 DERIVED = ("size", "sha256")
 """Fields of a part that follow from its pixels."""
@@ -153,7 +161,7 @@ def read_map_set(path: str | Path, kind: str | None = None) -> MapSet:
         As `read_map_set_header`; or the set is of another kind, too large for this machine's memory, or
         pixels are missing, differ from what was written, or are not finite.
     """
-    with _as_map_set_error(), open_exr(path) as file:
+    with _opened_exr(path) as file:
         header = _checked_header(path, file)
         if kind not in (None, header["kind"]):
             raise MapSetError(
@@ -208,14 +216,14 @@ def read_map_set_header(path: str | Path) -> dict[str, Any]:
         version or an unknown kind; the description is damaged, incomplete, or lists other parts or
         sizes than the file holds.
     """
-    with _as_map_set_error(), open_exr(path) as file:
+    with _opened_exr(path) as file:
         return _checked_header(path, file)
 
 
 def _checked_header(path: str | Path, file: OpenExr) -> dict[str, Any]:
     text = _description(file)
     if text is None:
-        raise MapSetError(f"{path} is a picture, not a map set: make one with `rsibr bake radiance-views`.")
+        raise MapSetError(f"{path} {A_PICTURE}")
     try:
         header: dict[str, Any] = loads(text)
     except SchemaError as error:
@@ -288,9 +296,13 @@ def _words(size: list[int] | None) -> str:
 
 
 @contextlib.contextmanager
-def _as_map_set_error() -> Iterator[None]:
-    """Within, all errors of a file that should hold a map set become `MapSetError`."""
+def _opened_exr(path: str | Path) -> Iterator[OpenExr]:
+    """Open a file that should hold a map set: all its errors, and those of the body, become `MapSetError`."""
     try:
-        yield
+        with opened(path) as stream:
+            start = stream.read(max(map(len, PICTURES)))
+            if not start.startswith(MAGIC):
+                raise MapSetError(f"{path} {A_PICTURE if start.startswith(PICTURES) else NOTHING_KNOWN}")
+            yield OpenExr(path, stream)
     except (InputFileError, RangeError) as error:
         raise MapSetError(str(error)) from error

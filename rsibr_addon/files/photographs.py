@@ -28,6 +28,11 @@ RAW = (".arw", ".cr2", ".cr3", ".dng", ".nef", ".nrw", ".orf", ".pef", ".raf", "
 DEVELOP = "develop it, and save a TIFF of 16 bits."
 
 JPEG, PNG = b"\xff\xd8", b"\x89PNG"
+PHOTOGRAPHS = (JPEG, PNG, b"II*\0", b"MM\0*", b"RIFF")
+"""First bytes of JPEG, PNG, TIFF and WebP."""
+
+RADIANCE = {".exr": "OpenEXR", ".hdr": "Radiance HDR"}
+"""Endings of formats that are read elsewhere, if a file is what its name says."""
 
 REDUCED, SEPARATED, UNCALIBRATED = 1, 5, 65535
 """TIFF's NewSubfileType of a preview, its PhotometricInterpretation of CMYK, and Exif's ColorSpace of
@@ -189,6 +194,8 @@ def _picture(
         hints.attribute("oiio:UnassociatedAlpha", 1)  # colours as they are stored
         with unheard():
             source = _library().ImageInput.open(str(path), hints)
+            if source is None and (named := RADIANCE.get(Path(path).suffix.lower())):
+                raise InputFileError(f"{path} is not {named}, whatever its name says: make it again.")
             if source is None or source.format_name() not in formats:
                 reason = _reason(_library().geterror()) if source is None else source.format_name()
                 raise InputFileError(

@@ -84,3 +84,23 @@ def test_what_cannot_be_read_is_one_sentence(
 
 def test_a_picture_without_light_has_no_dark_end() -> None:
     assert light_range(np.zeros((2, 4, 3))).dark_end == 0.0
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "told"),
+    [
+        ("a.exr", b"just text", "is not OpenEXR, whatever its name says"),
+        ("a.EXR", b"", "is not OpenEXR, whatever its name says"),
+        ("a.hdr", b"just text", "is not Radiance HDR, whatever its name says"),
+        ("a.hdr", b"#?RADIANCE\n\n-Y 2 +X 2\n" + bytes([128, 128, 128, 129]), "is truncated"),
+    ],
+)
+def test_what_is_no_picture_or_damaged_is_refused_and_nothing_else_is_said(
+    name: str, text: bytes, told: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / name).write_bytes(text)
+    assert run(["info", str(tmp_path / name)]) == 1
+    out, err = capfd.readouterr()
+    assert out == ""
+    assert told in err
+    assert "EXR Error" not in err

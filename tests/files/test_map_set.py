@@ -17,6 +17,7 @@ from rsibr.rsibr_addon.core.errors import MapSetError, OutputFileError, RangeErr
 from rsibr.rsibr_addon.files.map_set import read_map_set, read_map_set_header, write_map_set
 from rsibr.rsibr_addon.files.map_set_data import MapSet
 from rsibr.rsibr_addon.files.pictures import write_exr
+from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 
 type MakeViews = Callable[..., MapSet]
 
@@ -237,7 +238,7 @@ def test_missing_files_and_other_files_are_refused(tmp_path: Path) -> None:
     path = tmp_path / "a.rsibr.exr"
     assert "does not exist: check the name" in refusal(path)
     path.write_text("no picture")
-    assert "is not an OpenEXR file" in refusal(path)
+    assert "is not a map set: give one, or make one with `rsibr bake`" in refusal(path)
     path.unlink()
     path.mkdir()
     assert "is a folder" in refusal(path)
@@ -245,7 +246,10 @@ def test_missing_files_and_other_files_are_refused(tmp_path: Path) -> None:
 
 def test_a_picture_is_told_from_a_map_set(tmp_path: Path) -> None:
     write_exr(tmp_path / "a.exr", np.ones((2, 4, 4)))
-    assert "is a picture, not a map set: make one with `rsibr bake" in refusal(tmp_path / "a.exr")
+    write_radiance(tmp_path / "a.hdr", np.ones((2, 4, 3)))
+    (tmp_path / "a.jpg").write_bytes(b"\xff\xd8\xff\xe0 a photograph")
+    for name in ("a.exr", "a.hdr", "a.jpg"):
+        assert refusal(tmp_path / name) == " is a picture, not a map set: make one with `rsibr bake`."
 
 
 @pytest.mark.parametrize("text", ["", "{", "[" * 100000, '{"format": 1', "{'format': 1}"])

@@ -17,7 +17,7 @@ from ...files.orientation import Orientation
 from ...files.photographs import orientation_of
 from ...files.radiance_pictures import check_radiance_target, holds_radiance, write_radiance
 from ...settings.photographs import BallBrackets, BallSettings, BracketSettings
-from .brackets import in_order, merged, read_photographs
+from .brackets import in_order, known_times, merged, read_photographs
 from .light_pictures import read_light
 
 type Where = tuple[float, float, float] | None
@@ -78,7 +78,7 @@ def illuminate_from_ball(
     InputFileError
         A photograph is missing or unreadable, no ball is found in it, or the exposures cannot be merged.
     RangeError
-        The sides share nothing to compare their exposures by.
+        The sides share nothing to compare their exposures by, or there are not as many times as photographs.
     OutputFileError
         See `write_radiance`.
 
@@ -126,6 +126,7 @@ def _picture(
 ) -> Steps[tuple[Array, list[_Outline]]]:
     """Radiance in the square around the ball, and the outlines."""
     if len(photographs) == 1:
+        known_times(photographs, bracket)  # refuses as many as a bracket has
         paths, times = list(photographs), [1.0]
         yield Progress(0, 2, f"reading {paths[0].name}")
         pictures, encoding = [read_light(paths[0], clamp)], None

@@ -26,6 +26,34 @@ from ...files.radiance_pictures import (
 from ...settings.photographs import BracketSettings
 
 
+def known_times(photographs: Sequence[Path], settings: BracketSettings) -> tuple[float, ...] | None:
+    """The exposure times that are given.
+
+    Parameters
+    ----------
+    photographs : sequence of Path
+    settings : BracketSettings
+
+    Returns
+    -------
+    tuple of float or None
+        [s], one for each photograph.
+
+    Raises
+    ------
+    RangeError
+        There are not as many times as photographs.
+    InputFileError
+        See `read_times`.
+    """
+    times = settings.times if settings.times_file is None else read_times(settings.times_file)
+    if times is not None and len(times) != len(photographs):
+        raise RangeError(
+            f"There are {len(photographs)} photographs, but {len(times)} exposure times: give one for each."
+        )
+    return times
+
+
 def in_order(photographs: Sequence[Path], settings: BracketSettings) -> tuple[list[Path], list[float]]:
     """Photographs from the shortest exposure to the longest, and their exposures.
 
@@ -42,24 +70,18 @@ def in_order(photographs: Sequence[Path], settings: BracketSettings) -> tuple[li
 
     Raises
     ------
-    RangeError
-        There are not as many times as photographs.
-    InputFileError
-        See `read_times`, `read_exposure` and `relative_exposures`.
+    RangeError, InputFileError
+        See `known_times`, `read_exposure` and `relative_exposures`.
 
     Warns
     -----
     RsibrWarning
         See `relative_exposures`.
     """
-    times = settings.times if settings.times_file is None else read_times(settings.times_file)
+    times = known_times(photographs, settings)
     if times is None:
         exposures = [read_exposure(path) for path in photographs]
         times = tuple(relative_exposures(photographs, exposures))
-    if len(times) != len(photographs):
-        raise RangeError(
-            f"There are {len(photographs)} photographs, but {len(times)} exposure times: give one for each."
-        )
     order = np.argsort(times, kind="stable")
     return [photographs[i] for i in order], [times[i] for i in order]
 

@@ -8,7 +8,7 @@ import functools
 import os
 import subprocess
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -95,6 +95,16 @@ class CheckedModule(pytest.Module):
     def collect(self) -> list[pytest.Item | pytest.Collector]:
         require(folder_needs(self.path))
         return list(super().collect())
+
+
+@pytest.fixture
+def registered() -> Iterator[None]:
+    """Have the extension registered in Blender."""
+    import rsibr
+
+    rsibr.register()
+    yield
+    rsibr.unregister()
 
 
 def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> pytest.Module:

@@ -1,6 +1,7 @@
-"""All that an artist could notice of the open file, to be compared before and after."""
+"""All that an artist could notice of the open file, to be compared before and after; and a linked cube."""
 
 import warnings
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -16,6 +17,16 @@ def open_file_state() -> dict[str, Any]:
     """Every datablock with its users and settings; what is selected, active, shown, and listening."""
     with warnings.catch_warnings(action="ignore", category=DeprecationWarning):
         return _state(bpy.context)
+
+
+def linked_cube(library: Path) -> bpy.types.Object:
+    """Save the open file, with its cube, as a library; link the cube from there into an empty file."""
+    bpy.ops.wm.save_as_mainfile(filepath=str(library))
+    bpy.ops.wm.read_homefile(use_empty=True)
+    with bpy.data.libraries.load(str(library), link=True) as (_, wanted):
+        wanted.objects = ["Cube"]
+    (cube,) = wanted.objects
+    return cube
 
 
 def _state(context: bpy.types.Context) -> dict[str, Any]:

@@ -8,38 +8,17 @@ from ..core.conventions import Array, Indices
 
 
 def texture(image: Array) -> gpu.types.GPUTexture:
-    """Upload one map, to be looked up bilinearly within its edges.
-
-    Parameters
-    ----------
-    image : ndarray, shape (height, width, 4)
-        Row 0 at the bottom.
-
-    Returns
-    -------
-    GPUTexture, RGBA32F
-    """
+    """Upload a map, shape (height, width, 4), to be looked up bilinearly within its edges, as RGBA32F."""
     height, width = image.shape[:2]
-    uploaded = gpu.types.GPUTexture((width, height), format="RGBA32F", data=_buffer(image))
-    _look_up_within_edges(uploaded)
-    return uploaded
+    return _smooth(gpu.types.GPUTexture((width, height), format="RGBA32F", data=_buffer(image)))
 
 
 def texture_array(images: Array) -> gpu.types.GPUTexture:
-    """Upload maps of one size as layers of one texture.
-
-    Parameters
-    ----------
-    images : ndarray, shape (layers, height, width, 4)
-
-    Returns
-    -------
-    GPUTexture, RGBA32F
-    """
+    """Upload maps, shape (layers, height, width, 4), as layers of one texture like that of `texture`."""
     layers, height, width = images.shape[:3]
-    uploaded = gpu.types.GPUTexture((width, height), layers=layers, format="RGBA32F", data=_buffer(images))
-    _look_up_within_edges(uploaded)
-    return uploaded
+    return _smooth(
+        gpu.types.GPUTexture((width, height), layers=layers, format="RGBA32F", data=_buffer(images))
+    )
 
 
 def table_texture(table: Array) -> gpu.types.GPUTexture:
@@ -61,40 +40,22 @@ def table_texture(table: Array) -> gpu.types.GPUTexture:
 
 
 def texture_3d(images: Array, texel_format: str) -> gpu.types.GPUTexture:
-    """Upload maps of one size as slices of one texture, to be looked up linearly between them as well.
+    """Upload maps, shape (slices, height, width, 4), to be looked up linearly between them as well.
 
-    Parameters
-    ----------
-    images : ndarray, shape (slices, height, width, 4)
-    texel_format : str
-        "RGBA16F" or "RGBA32F".
+    `texel_format` is "RGBA16F" or "RGBA32F".
     """
     slices, height, width = images.shape[:3]
-    uploaded = gpu.types.GPUTexture((width, height, slices), format=texel_format, data=_buffer(images))
-    _look_up_within_edges(uploaded)
-    return uploaded
+    return _smooth(gpu.types.GPUTexture((width, height, slices), format=texel_format, data=_buffer(images)))
 
 
 def with_alpha(image: Array) -> Array:
-    """A map with the four channels of textures.
-
-    Parameters
-    ----------
-    image : ndarray, shape (..., 3)
-
-    Returns
-    -------
-    ndarray, shape (..., 4)
-        Alpha is 1.
-    """
+    """A map with the four channels of textures, shape (..., 4), of one of shape (..., 3); alpha is 1."""
     return np.concatenate([image, np.ones_like(image[..., :1])], axis=-1)
 
 
 def render_target(size: int) -> gpu.types.GPUTexture:
     """An empty square map to be drawn to and looked up, RGBA32F."""
-    target = gpu.types.GPUTexture((size, size), format="RGBA32F")
-    _look_up_within_edges(target)
-    return target
+    return _smooth(gpu.types.GPUTexture((size, size), format="RGBA32F"))
 
 
 def uniform_block(*fields: Array) -> gpu.types.GPUUniformBuf:
@@ -184,6 +145,8 @@ def _buffer(values: Array) -> gpu.types.Buffer:
     return gpu.types.Buffer("FLOAT", flat.size, flat)
 
 
-def _look_up_within_edges(texture: gpu.types.GPUTexture) -> None:
+def _smooth(texture: gpu.types.GPUTexture) -> gpu.types.GPUTexture:
+    """The texture, looked up bilinearly within its edges from now on."""
     texture.filter_mode(True)
     texture.extend_mode("EXTEND")
+    return texture

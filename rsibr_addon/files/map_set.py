@@ -56,13 +56,7 @@ DERIVED = ("size", "sha256")
 
 
 def check_map_set_target(path: str | Path, force: bool = False) -> None:
-    """Refuse a name that `write_map_set` would refuse, before long work begins.
-
-    Parameters
-    ----------
-    path : str or Path
-    force : bool
-        Whether an existing file may be replaced.
+    """Refuse a name that `write_map_set` would refuse, unless it may be replaced, before long work begins.
 
     Raises
     ------

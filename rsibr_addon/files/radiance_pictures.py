@@ -67,12 +67,7 @@ def read_radiance(path: str | Path) -> Array:
 
 
 def describe_radiance(path: str | Path) -> PictureFacts:
-    """Describe the use of a picture of radiance from its header alone.
-
-    Parameters
-    ----------
-    path : str or Path
-        As `read_radiance` takes it.
+    """Describe the use of a picture of radiance, named as for `read_radiance`, from its header alone.
 
     Raises
     ------
@@ -99,13 +94,7 @@ def describe_radiance(path: str | Path) -> PictureFacts:
 
 
 def check_radiance_target(path: str | Path, force: bool = False) -> None:
-    """Refuse a name that `write_radiance` would refuse, before long work begins.
-
-    Parameters
-    ----------
-    path : str or Path
-    force : bool
-        Whether an existing file may be replaced.
+    """Refuse a name that `write_radiance` would refuse, unless it may be replaced, before long work begins.
 
     Raises
     ------

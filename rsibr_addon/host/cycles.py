@@ -118,7 +118,7 @@ def render_view(scene: bpy.types.Scene, settings: RenderSettings) -> RenderedVie
     Raises
     ------
     RenderError
-        Cycles did not deliver.
+        See `rendering.render_passes`.
 
     Notes
     -----

@@ -101,7 +101,7 @@ def measure_lamps(scene: bpy.types.Scene, around: Surroundings, lamps: Sequence[
     Raises
     ------
     RenderError
-        Cycles did not deliver.
+        See `rendering.render_passes`.
 
     Notes
     -----

@@ -176,7 +176,7 @@ def render_surroundings(
     Raises
     ------
     RenderError
-        Cycles did not deliver.
+        See `rendering.render_passes`.
 
     Notes
     -----

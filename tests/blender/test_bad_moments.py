@@ -2,13 +2,12 @@
 
 import json
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 from pathlib import Path
 
 import bpy
 import pytest
-import rsibr
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError, RsibrError, SceneError
 from rsibr.rsibr_addon.files.kinds.registry import look_types
@@ -16,13 +15,9 @@ from rsibr.rsibr_addon.host.bake_settings import baked_folder
 from rsibr.rsibr_addon.host.option_properties import options_of
 from rsibr.rsibr_addon.tasks.queue.bake_request import request_for
 from rsibr.tests.bake_jobs import run_job
+from rsibr.tests.open_file import linked_cube
 
-
-@pytest.fixture(autouse=True)
-def _registered() -> Iterator[None]:
-    rsibr.register()
-    yield
-    rsibr.unregister()
+pytestmark = pytest.mark.usefixtures("registered")
 
 
 CHOSEN = "bpy.context.scene.rsibr_bake"
@@ -112,11 +107,8 @@ def test_a_full_disk_leaves_the_old_file_and_a_sentence(
 
 def test_a_missing_library_is_named(tmp_path: Path) -> None:
     library = tmp_path / "library.blend"
-    bpy.ops.wm.save_as_mainfile(filepath=str(library))
-    bpy.ops.wm.read_homefile(use_empty=True)
-    with bpy.data.libraries.load(str(library), link=True) as (_, wanted):
-        wanted.objects = ["Cube"]
-    bpy.context.scene.collection.objects.link(wanted.objects[0])
+    cube = linked_cube(library)
+    bpy.context.scene.collection.objects.link(cube)
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
     library.unlink()
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "scene.blend"))

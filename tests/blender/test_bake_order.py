@@ -31,7 +31,7 @@ from rsibr.rsibr_addon.tasks.queue.bake_request import (
 from rsibr.rsibr_addon.ui.environment_panel import RSIBR_PT_environment
 from rsibr.tests.bake_jobs import run_job
 from rsibr.tests.flat_capture import write_flat_capture
-from rsibr.tests.open_file import open_file_state
+from rsibr.tests.open_file import linked_cube, open_file_state
 
 
 @pytest.fixture(autouse=True)
@@ -323,12 +323,7 @@ def test_the_original_counts_as_open(tmp_path: Path, monkeypatch: pytest.MonkeyP
 
 
 def test_a_linked_object_is_not_baked_for(tmp_path: Path) -> None:
-    library = tmp_path / "library.blend"
-    bpy.ops.wm.save_as_mainfile(filepath=str(library))
-    bpy.ops.wm.read_homefile(use_empty=True)
-    with bpy.data.libraries.load(str(library), link=True) as (_, wanted):
-        wanted.objects = ["Cube"]
-    (cube,) = wanted.objects
+    cube = linked_cube(tmp_path / "library.blend")
     with pytest.raises(
         SceneError, match="Object Cube belongs to another file: make it local, or an override"
     ):

@@ -1,12 +1,10 @@
 """The operator that bakes lobe stacks does what the command does, and leaves the open file as it was."""
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import bpy
 import numpy as np
 import pytest
-import rsibr
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.tests.open_file import open_file_state
@@ -14,15 +12,8 @@ from rsibr.tests.open_file import open_file_state
 SPEC = "ggx:alpha=0.4,f0=0.9/0.6/0.3"
 
 
-@pytest.fixture
-def _registered() -> Iterator[None]:
-    rsibr.register()
-    yield
-    rsibr.unregister()
-
-
 @pytest.mark.slow
-@pytest.mark.usefixtures("_registered")
+@pytest.mark.usefixtures("registered")
 def test_the_operator_writes_what_the_command_writes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     write_radiance(tmp_path / "light.exr", np.random.default_rng(7).random((64, 128, 3), dtype=np.float32))

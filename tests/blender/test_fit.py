@@ -1,13 +1,11 @@
 """`rsibr fit`: the figures, the file, and what bad input says."""
 
 import json
-from collections.abc import Iterator
 from pathlib import Path
 
 import bpy
 import numpy as np
 import pytest
-import rsibr
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError
 from rsibr.rsibr_addon.files.fits import read_fit
@@ -95,13 +93,6 @@ def test_existing_fits_are_kept(tmp_path: Path, capfd: pytest.CaptureFixture[str
     assert path.read_text() == "kept"
 
 
-@pytest.fixture
-def _registered() -> Iterator[None]:
-    rsibr.register()
-    yield
-    rsibr.unregister()
-
-
 def test_a_fit_among_its_plots_is_refused_at_once(tmp_path: Path) -> None:
     plots = tmp_path / "plots"
     plots.mkdir()
@@ -110,7 +101,7 @@ def test_a_fit_among_its_plots_is_refused_at_once(tmp_path: Path) -> None:
     assert list(plots.iterdir()) == []
 
 
-@pytest.mark.usefixtures("_registered")
+@pytest.mark.usefixtures("registered")
 def test_the_operator_writes_what_the_command_writes(tmp_path: Path) -> None:
     path, other = tmp_path / "FIT.json", tmp_path / "other.json"
     spec = "phong:n=40,ks=0.5"

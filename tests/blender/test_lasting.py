@@ -1,6 +1,6 @@
 """What shades an object outlasts saving, moving, copying, appending and linking, as a file or packed."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 from pathlib import Path
 
@@ -18,12 +18,7 @@ from rsibr.rsibr_addon.ui import bake_properties
 from rsibr.tests.bake_jobs import run_job
 from rsibr.tests.flat_capture import write_flat_capture
 
-
-@pytest.fixture(autouse=True)
-def _registered() -> Iterator[None]:
-    rsibr.register()
-    yield
-    rsibr.unregister()
+pytestmark = pytest.mark.usefixtures("registered")
 
 
 @pytest.fixture

@@ -1,11 +1,8 @@
 """What live light takes from Blender's data."""
 
-from collections.abc import Iterator
-
 import bpy
 import numpy as np
 import pytest
-import rsibr
 from rsibr.rsibr_addon.host.live_light import (
     appearance_of,
     bare,
@@ -16,12 +13,7 @@ from rsibr.rsibr_addon.host.live_light import (
 )
 from rsibr.rsibr_addon.host.visible_surfaces import is_wanted, map_set_of
 
-
-@pytest.fixture(autouse=True)
-def _registered() -> Iterator[None]:
-    rsibr.register()
-    yield
-    rsibr.unregister()
+pytestmark = pytest.mark.usefixtures("registered")
 
 
 def test_live_light_comes_before_a_map_set() -> None:

@@ -1,6 +1,5 @@
 """A map set is data: what it names is not opened because it says so."""
 
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -8,7 +7,6 @@ from typing import Any
 import bpy
 import numpy as np
 import pytest
-import rsibr
 from rsibr.rsibr_addon.core.brdf.lambert import Lambert
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import InputFileError, RangeError
@@ -126,14 +124,7 @@ def test_views_are_compared_with_files_that_are_named(tmp_path: Path) -> None:
         drain(compare(path, replace(settings, material=spec), tmp_path / "out"))
 
 
-@pytest.fixture
-def _registered() -> Iterator[None]:
-    rsibr.register()
-    yield
-    rsibr.unregister()
-
-
-@pytest.mark.usefixtures("_registered")
+@pytest.mark.usefixtures("registered")
 def test_the_panel_names_the_file_that_its_artist_chose(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

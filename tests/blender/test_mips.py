@@ -1,13 +1,11 @@
 """`rsibr mips` and its operator: right files, and one sentence for everything else."""
 
 import json
-from collections.abc import Iterator
 from pathlib import Path
 
 import bpy
 import numpy as np
 import pytest
-import rsibr
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_from_harmonics
@@ -141,14 +139,7 @@ def test_existing_files_are_kept(light: np.ndarray, capfd: pytest.CaptureFixture
     assert Path("out.rsibr.exr").read_text() == "precious"
 
 
-@pytest.fixture
-def _registered() -> Iterator[None]:
-    rsibr.register()
-    yield
-    rsibr.unregister()
-
-
-@pytest.mark.usefixtures("_registered")
+@pytest.mark.usefixtures("registered")
 def test_the_operator_writes_what_the_command_writes(light: np.ndarray) -> None:
     before = open_file_state()
     options = {"filter": "bordered", "size": 64, "environment": "light.exr"}
@@ -161,7 +152,7 @@ def test_the_operator_writes_what_the_command_writes(light: np.ndarray) -> None:
 
 
 @pytest.mark.needs("cycles")
-@pytest.mark.usefixtures("_registered")
+@pytest.mark.usefixtures("registered")
 def test_the_operator_takes_the_world(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("rsibr.rsibr_addon.tasks.light.environments.WORLD_HEIGHT", 16)
     path = tmp_path / "world.rsibr.exr"

@@ -1,12 +1,10 @@
 """The operators that make light from photographs do what the commands do, and tell what they cannot do."""
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import bpy
 import numpy as np
 import pytest
-import rsibr
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.light.ball_circle import Circle
 from rsibr.rsibr_addon.core.light.ball_photograph import BallSide
@@ -16,15 +14,10 @@ from rsibr.tests.open_file import open_file_state
 from rsibr.tests.synthetic_ball import ball_photograph
 from rsibr.tests.written_pictures import write_png
 
+pytestmark = pytest.mark.usefixtures("registered")
+
 RNG = np.random.default_rng(11)
 TIMES = (2.0, 0.1, 0.5)
-
-
-@pytest.fixture(autouse=True)
-def _registered() -> Iterator[None]:
-    rsibr.register()
-    yield
-    rsibr.unregister()
 
 
 @pytest.fixture

@@ -1,13 +1,11 @@
 """`rsibr tables` and its operator: right files, and one sentence for everything else."""
 
 import json
-from collections.abc import Iterator
 from pathlib import Path
 
 import bpy
 import numpy as np
 import pytest
-import rsibr
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_exact
@@ -144,14 +142,7 @@ def test_a_material_that_is_too_bright_gets_a_warning(
     assert "rsibr: warning: The material reflects 1.9 times the light it receives" in capfd.readouterr().err
 
 
-@pytest.fixture
-def _registered() -> Iterator[None]:
-    rsibr.register()
-    yield
-    rsibr.unregister()
-
-
-@pytest.mark.usefixtures("_registered")
+@pytest.mark.usefixtures("registered")
 def test_the_operator_writes_what_the_command_writes(light: np.ndarray) -> None:
     before = open_file_state()
     result = bpy.ops.rsibr.bake_tables(
@@ -169,7 +160,7 @@ def test_the_operator_writes_what_the_command_writes(light: np.ndarray) -> None:
 
 
 @pytest.mark.needs("cycles")
-@pytest.mark.usefixtures("_registered")
+@pytest.mark.usefixtures("registered")
 def test_the_operator_takes_the_world(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("rsibr.rsibr_addon.tasks.light.environments.WORLD_HEIGHT", 16)
     path = tmp_path / "world.rsibr.exr"

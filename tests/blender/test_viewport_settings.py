@@ -1,12 +1,10 @@
 """What objects say of their previews, and the looks that tasks make of it."""
 
-from collections.abc import Iterator
 from dataclasses import fields
 
 import bpy
 import numpy as np
 import pytest
-import rsibr
 from rsibr.rsibr_addon.core.kinds.mip_chain.shading import MipLook
 from rsibr.rsibr_addon.core.kinds.reflection_tables.shading import TablesLook
 from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import Role
@@ -15,12 +13,7 @@ from rsibr.rsibr_addon.host.option_properties import options_of
 from rsibr.rsibr_addon.host.visible_surfaces import is_wanted, map_set_of, surfaces
 from rsibr.rsibr_addon.tasks.viewport.previews import _settings
 
-
-@pytest.fixture(autouse=True)
-def _registered() -> Iterator[None]:
-    rsibr.register()
-    yield
-    rsibr.unregister()
+pytestmark = pytest.mark.usefixtures("registered")
 
 
 @pytest.mark.parametrize("kind", look_types())

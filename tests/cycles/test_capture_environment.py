@@ -1,23 +1,16 @@
 """The operator: what the tasks do, from Blender's own interface."""
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import bpy
 import pytest
-import rsibr
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.settings.environment import SceneLight, WorldLight
 from rsibr.rsibr_addon.tasks.light.scene import illuminate_from_scene
 from rsibr.rsibr_addon.tasks.light.world import illuminate_from_world
 from rsibr.tests.open_file import open_file_state
 
-
-@pytest.fixture(autouse=True)
-def _registered() -> Iterator[None]:
-    rsibr.register()
-    yield
-    rsibr.unregister()
+pytestmark = pytest.mark.usefixtures("registered")
 
 
 def by_operator(path: Path, **properties: object) -> bytes:

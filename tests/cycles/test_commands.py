@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.files.map_set import read_map_set
 from rsibr.rsibr_addon.files.pictures import read_exr
+from rsibr.tests.json_command import json_result
 
 pytestmark = pytest.mark.needs("gl")
 
@@ -24,12 +24,7 @@ def rsibr(capfd: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest
     monkeypatch.chdir(tmp_path)
 
     def command(*argv: str) -> dict[str, Any]:
-        code = run([*argv, "--json", "--progress", "json"])
-        out, _ = capfd.readouterr()
-        (line,) = out.splitlines()
-        result: dict[str, Any] = json.loads(line)
-        assert code == (0 if result["ok"] else 1)
-        return result
+        return json_result(capfd, *argv, "--progress", "json")
 
     return command
 

@@ -1,6 +1,5 @@
 """`rsibr illuminate scene` and `world`, as a user gives them."""
 
-import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -10,6 +9,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.files.radiance_pictures import read_radiance
+from rsibr.tests.json_command import json_result
 
 type Command = Callable[..., dict[str, Any]]
 
@@ -27,12 +27,7 @@ def illuminate(capfd: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: p
     def command(*argv: str) -> dict[str, Any]:
         bpy.ops.wm.read_factory_settings(use_empty=True)
         capfd.readouterr()
-        code = run(["illuminate", *argv, "--json", "--progress", "none"])
-        out, _ = capfd.readouterr()
-        (line,) = out.splitlines()
-        result: dict[str, Any] = json.loads(line)
-        assert code == (0 if result["ok"] else 1)
-        return result
+        return json_result(capfd, "illuminate", *argv, "--progress", "none")
 
     return command
 

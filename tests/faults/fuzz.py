@@ -6,18 +6,11 @@ again: the numbers of the seed and of the case.
 
 import argparse
 import contextlib
-import faulthandler
 import io
 import json
-import os
 import random
-import resource
 import sys
-import tempfile
-import traceback
-import warnings
-from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 from unittest.mock import patch
@@ -25,7 +18,7 @@ from unittest.mock import patch
 import bpy  # noqa: F401  (tasks need it)
 from rsibr.rsibr_addon.command_line import info, job
 from rsibr.rsibr_addon.command_line.console import Console
-from rsibr.rsibr_addon.core.errors import DeviceError, RsibrError, RsibrWarning
+from rsibr.rsibr_addon.core.errors import DeviceError, RsibrError
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.exr import Part, read_parts, write_parts
 from rsibr.rsibr_addon.files.fits import read_fit
@@ -40,6 +33,7 @@ from rsibr.rsibr_addon.tasks.reflectance.fit_plots import lobe_picture
 from rsibr.rsibr_addon.tasks.report import report as map_set_report
 from rsibr.rsibr_addon.tasks.report.facts import map_set_content, map_set_facts, map_set_fit
 from rsibr.rsibr_addon.tasks.report.pictures import map_set_pictures
+from rsibr.tests.faults.fuzzing import Reader, run_cases
 from rsibr.tests.faults.mutations import damaged_bytes, damaged_json
 from rsibr.tests.faults.small_map_sets import json_files, map_sets
 
@@ -109,8 +103,6 @@ def _job(path: Path) -> None:
         job.run(argparse.Namespace(job=path), Console("none", io.StringIO()))
 
 
-type Reader = Callable[[Path], object]
-
 OF_MAP_SETS: list[Reader] = [
     *(_info, _facts, _page, _compare, _export, read_map_set, map_set_pictures, read_map_set_header),
 ]
@@ -150,52 +142,6 @@ def cases(folder: Path, rng: random.Random) -> Iterator[tuple[Path, Reader]]:
         yield path, rng.choice(OF_MAP_SETS)
 
 
-def main() -> int:
-    """Run cases; 1 where one has ended otherwise than it may."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--cases", type=int, default=1000)
-    parser.add_argument("--keep", type=Path, help="a folder for the inputs that failed")
-    parser.add_argument("--only", type=int, help="the one case to run")
-    arguments = parser.parse_args()
-    rng, ends, failures = random.Random(arguments.seed), Counter(), []
-    # A reader that takes too long may have put standard error away meanwhile
-    with os.fdopen(os.dup(2), "w") as told, tempfile.TemporaryDirectory() as name, _without_device():
-        for number, (path, read) in zip(range(arguments.cases), cases(Path(name), rng), strict=False):
-            if arguments.only not in (None, number):
-                continue
-            before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-            faulthandler.dump_traceback_later(SECONDS, exit=True, file=told)
-            end = _end(path, read)
-            faulthandler.cancel_dump_traceback_later()
-            grown = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024
-            if grown > MEGABYTES:
-                end = f"takes {grown:.0f} MB more"
-            ends[end if end in ("done", "refused") else "failed"] += 1
-            if end not in ("done", "refused"):
-                failures.append(f"seed {arguments.seed}, case {number}, {read.__name__}: {end}")
-                print(failures[-1], file=sys.stderr, flush=True)
-                if arguments.keep:
-                    kept = arguments.keep / f"{arguments.seed}-{number}-{read.__name__}{path.suffix}"
-                    kept.write_bytes(path.read_bytes())
-    print(json.dumps({"cases": arguments.cases, **ends}))
-    return 1 if failures else 0
-
-
-def _end(path: Path, read: Reader) -> str:
-    try:
-        with warnings.catch_warnings(), contextlib.redirect_stdout(io.StringIO()):
-            warnings.simplefilter("error")
-            warnings.simplefilter("ignore", RsibrWarning)
-            read(path)
-    except (RsibrError, OSError) as error:
-        sentence = str(error)
-        return "refused" if sentence and len(sentence) < 2000 and "\n" not in sentence else sentence
-    except Exception:
-        return traceback.format_exc()
-    return "done"
-
-
 @contextlib.contextmanager
 def _without_device() -> Iterator[None]:
     """Within, nothing can draw: pictures of meshes would take most of the time."""
@@ -208,4 +154,5 @@ def _without_device() -> Iterator[None]:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    with _without_device():
+        sys.exit(run_cases(cases, SECONDS, MEGABYTES, (RsibrError, OSError)))

@@ -4,29 +4,20 @@
 error, and prints nothing. All else is told, with the numbers of the seed and of the case.
 """
 
-import argparse
-import faulthandler
 import itertools
-import json
-import os
 import random
-import shutil
 import sys
-import tempfile
-import traceback
-import warnings
-from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-from rsibr.rsibr_addon.core.errors import RsibrError, RsibrWarning
 from rsibr.rsibr_addon.files.cornell import read_cornell
 from rsibr.rsibr_addon.files.exif import read_exposure
 from rsibr.rsibr_addon.files.exposure_times import read_times
 from rsibr.rsibr_addon.files.merl import read_merl
 from rsibr.rsibr_addon.files.photographs import read_photograph
 from rsibr.rsibr_addon.files.rgl import read_rgl
+from rsibr.tests.faults.fuzzing import Reader, run_cases
 from rsibr.tests.faults.mutations import damaged_bytes
 from rsibr.tests.files.test_rgl import tensor_file
 from rsibr.tests.written_pictures import (
@@ -52,8 +43,6 @@ WHOLE = 0.02
 
 NUMBERS = (0, 1, 2, 6, 8, 9, 255, 65534, 65535)
 FRACTIONS = ((0, 0), (0, 1), (1, 0), (1, 40), (2**31 - 1, 1), (1, 2**31 - 1), (3, 7))
-
-type Reader = Callable[[Path], object]
 
 
 def _radiance(path: Path) -> None:
@@ -138,42 +127,5 @@ def cases(folder: Path, rng: random.Random) -> Iterator[tuple[Path, Reader]]:
         yield damaged, read
 
 
-def main() -> int:
-    """Run cases; 1 where one has ended otherwise than it may."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--cases", type=int, default=1000)
-    parser.add_argument("--keep", type=Path, help="a folder for the inputs that failed")
-    arguments = parser.parse_args()
-    rng, ends = random.Random(arguments.seed), Counter({"done": 0, "refused": 0, "failed": 0})
-    # A reader that takes too long may have put standard error away meanwhile
-    with os.fdopen(os.dup(2), "w") as told, tempfile.TemporaryDirectory() as name:
-        for number, (path, read) in zip(range(arguments.cases), cases(Path(name), rng), strict=False):
-            faulthandler.dump_traceback_later(SECONDS, exit=True, file=told)
-            end = _end(path, read)
-            faulthandler.cancel_dump_traceback_later()
-            ends[end if end in ends else "failed"] += 1
-            if end not in ends:
-                print(f"seed {arguments.seed}, case {number}, {path.name}: {end}", file=sys.stderr)
-                if arguments.keep:
-                    shutil.copy(path, arguments.keep / f"{arguments.seed}-{number}{path.suffix}")
-    print(json.dumps(ends))
-    return 1 if ends["failed"] else 0
-
-
-def _end(path: Path, read: Reader) -> str:
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("error")
-            warnings.simplefilter("ignore", RsibrWarning)
-            read(path)
-    except RsibrError as error:
-        sentence = str(error)
-        return "refused" if sentence and len(sentence) < 1000 and "\n" not in sentence else sentence
-    except Exception:
-        return traceback.format_exc()
-    return "done"
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_cases(cases, SECONDS))

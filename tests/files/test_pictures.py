@@ -3,6 +3,7 @@
 import os
 import struct
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import OpenEXR
@@ -78,6 +79,15 @@ def test_a_full_disk_is_noticed_also_by_small_files(
     assert os.listdir(tmp_path) == []
 
 
+def storage(compression: str, tiled: bool) -> dict[str, Any]:
+    header = {"compression": getattr(OpenEXR, f"{compression}_COMPRESSION"), "type": OpenEXR.scanlineimage}
+    if tiled:
+        tiles = OpenEXR.TileDescription()
+        tiles.xSize, tiles.ySize = 16, 16
+        header |= {"type": OpenEXR.tiledimage, "tiles": tiles}
+    return header
+
+
 @pytest.mark.parametrize("dtype", [np.float16, np.float32])
 @pytest.mark.parametrize(
     "compression", ["NO", "RLE", "ZIPS", "ZIP", "PIZ"]
@@ -86,11 +96,7 @@ def test_a_full_disk_is_noticed_also_by_small_files(
 def test_every_storage_reads_back(
     tmp_path: Path, rgb: np.ndarray, dtype: type, compression: str, tiled: bool
 ) -> None:
-    header = {"compression": getattr(OpenEXR, f"{compression}_COMPRESSION"), "type": OpenEXR.scanlineimage}
-    if tiled:
-        tiles = OpenEXR.TileDescription()
-        tiles.xSize, tiles.ySize = 16, 16
-        header |= {"type": OpenEXR.tiledimage, "tiles": tiles}
+    header = storage(compression, tiled)
     path = write(tmp_path / "a.exr", (header, channels(rgb.astype(dtype))))
     picture = read_exr(path)
     assert picture.dtype == np.float32
@@ -189,11 +195,7 @@ def test_deep_pixels_are_refused(tmp_path: Path) -> None:
 def test_a_truncated_picture_is_refused_wherever_it_ends(
     tmp_path: Path, rgb: np.ndarray, capsys: pytest.CaptureFixture[str], compression: str, tiled: bool
 ) -> None:
-    header = {"compression": getattr(OpenEXR, f"{compression}_COMPRESSION"), "type": OpenEXR.scanlineimage}
-    if tiled:
-        tiles = OpenEXR.TileDescription()
-        tiles.xSize, tiles.ySize = 16, 16
-        header |= {"type": OpenEXR.tiledimage, "tiles": tiles}
+    header = storage(compression, tiled)
     path = write(tmp_path / "a.exr", (header, channels(rgb)))
     whole = path.read_bytes()
     for length in {*range(4, len(whole), len(whole) // 40), len(whole) - 1}:

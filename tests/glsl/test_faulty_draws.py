@@ -14,10 +14,8 @@ import bpy
 import gpu
 import numpy as np
 import pytest
-import rsibr
 from mathutils import Matrix
 from rsibr.rsibr_addon import host
-from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.shaders import release_programs
 from rsibr.rsibr_addon.files.map_set import MapSet, write_map_set
 from rsibr.rsibr_addon.host.map_sets import use_map_set
@@ -107,18 +105,6 @@ def is_blenders(function: Any) -> bool:
         or owner.__module__.startswith("bpy")
         or module.startswith(("bpy", "gpu"))
     )
-
-
-@pytest.fixture
-def view() -> Iterator[View]:
-    """Of the factory file's viewport, with a cube."""
-    bpy.ops.wm.read_factory_settings()
-    rsibr.register()
-    ensure_context()
-    scene, layer = bpy.context.scene, bpy.context.view_layer
-    (space,) = (area.spaces.active for area in bpy.context.screen.areas if area.type == "VIEW_3D")
-    yield View(scene, (scene.session_uid, layer.name), layer.depsgraph, space)
-    rsibr.unregister()
 
 
 @pytest.fixture

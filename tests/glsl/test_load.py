@@ -4,16 +4,14 @@ import gc
 import os
 import sys
 import tracemalloc
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import bpy
 import gpu
 import pytest
-import rsibr
 from mathutils import Matrix
-from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.host.map_sets import use_map_set
 from rsibr.rsibr_addon.host.visible_surfaces import View
@@ -40,18 +38,6 @@ def _heard(event: str, arguments: tuple[Any, ...]) -> None:
 
 
 sys.addaudithook(_heard)  # no way leads back
-
-
-@pytest.fixture
-def view() -> Iterator[View]:
-    """Of the factory file's viewport, with a cube."""
-    bpy.ops.wm.read_factory_settings()
-    rsibr.register()
-    ensure_context()
-    scene, layer = bpy.context.scene, bpy.context.view_layer
-    (space,) = (area.spaces.active for area in bpy.context.screen.areas if area.type == "VIEW_3D")
-    yield View(scene, (scene.session_uid, layer.name), layer.depsgraph, space)
-    rsibr.unregister()
 
 
 @pytest.fixture

@@ -13,8 +13,8 @@ from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.kinds.lobe_stack import GpuLobeStack
-from rsibr.rsibr_addon.device.preview import SAMPLES_PER_AXIS, PreviewRenderer
-from rsibr.tests.glsl.test_preview_renderer import BY_CAMERA, SIZE, SPHERE, sample_footprints, samples
+from rsibr.rsibr_addon.device.preview import PreviewRenderer
+from rsibr.tests.glsl.test_preview_renderer import BY_CAMERA, SIZE, SPHERE, reference_pixels
 from rsibr.tests.lobe_stacks import random_fit, random_stack
 
 
@@ -36,11 +36,9 @@ def smooth(request: pytest.FixtureRequest) -> tuple[LobeStack, PreviewRenderer]:
 
 def reference(stack: LobeStack, camera: Camera, look: StackLook) -> tuple[np.ndarray, np.ndarray]:
     """Radiance of every pixel, and those all of whose samples see the sphere at n.v > 0.2."""
-    normal, view_dir, cosine = samples(camera)
-    radiance = stack_radiance(stack, normal, view_dir, look, sample_footprints(normal, view_dir))
-    blocks = (SIZE, SAMPLES_PER_AXIS, SIZE, SAMPLES_PER_AXIS)
-    inside = (cosine > 0.2).reshape(blocks).all(axis=(1, 3))
-    return radiance.reshape(*blocks, 3).mean(axis=(1, 3)), inside
+    return reference_pixels(
+        camera, lambda normal, view_dir, seen: stack_radiance(stack, normal, view_dir, look, seen)
+    )
 
 
 @pytest.mark.parametrize("lobes", [(), (1,)])

@@ -12,8 +12,8 @@ from rsibr.rsibr_addon.core.maps.representation import representation
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.kinds.mip_chain import GpuMipChain, atlas_texels
 from rsibr.rsibr_addon.device.kinds.mip_chain_shaders import mip_chain_shader
-from rsibr.rsibr_addon.device.preview import SAMPLES_PER_AXIS, PreviewRenderer
-from rsibr.tests.glsl.test_preview_renderer import BY_CAMERA, SIZE, SPHERE, sample_footprints, samples
+from rsibr.rsibr_addon.device.preview import PreviewRenderer
+from rsibr.tests.glsl.test_preview_renderer import BY_CAMERA, SIZE, SPHERE, reference_pixels
 
 MIPS = pytest.mark.parametrize("mip", [0.0, 1.6, 9.4])
 
@@ -37,11 +37,9 @@ def smooth(request: pytest.FixtureRequest) -> tuple[MipChain, PreviewRenderer]:
 
 def reference(chain: MipChain, camera: Camera, look: MipLook) -> tuple[np.ndarray, np.ndarray]:
     """Radiance of every pixel, and those all of whose samples see the sphere at n.v > 0.2."""
-    normal, view_dir, cosine = samples(camera)
-    radiance = mip_chain_radiance(chain, normal, view_dir, look, sample_footprints(normal, view_dir))
-    blocks = (SIZE, SAMPLES_PER_AXIS, SIZE, SAMPLES_PER_AXIS)
-    inside = (cosine > 0.2).reshape(blocks).all(axis=(1, 3))
-    return radiance.reshape(*blocks, 3).mean(axis=(1, 3)), inside
+    return reference_pixels(
+        camera, lambda normal, view_dir, seen: mip_chain_radiance(chain, normal, view_dir, look, seen)
+    )
 
 
 @MIPS

@@ -1,5 +1,7 @@
 """Pictures drawn on the GPU, in every mode, against core/kinds at every sample."""
 
+from collections.abc import Callable
+
 import gpu
 import numpy as np
 import pytest
@@ -67,6 +69,23 @@ def sample_footprints(normal: np.ndarray, view_dir: np.ndarray) -> np.ndarray:
     return parallelogram(mirror_dir, np.gradient(mirror_dir, axis=1), np.gradient(mirror_dir, axis=0))
 
 
+def pixels(radiance: np.ndarray, counts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Means of the samples of every pixel, and the pixels all of whose samples count."""
+    blocks = (SIZE, SAMPLES_PER_AXIS, SIZE, SAMPLES_PER_AXIS)
+    return radiance.reshape(*blocks, 3).mean(axis=(1, 3)), counts.reshape(blocks).all(axis=(1, 3))
+
+
+def reference_pixels(
+    camera: Camera, shade: Callable[..., np.ndarray], least: float = 0.2
+) -> tuple[np.ndarray, np.ndarray]:
+    """Radiance of every pixel, and those all of whose samples see the sphere at n.v above the least.
+
+    `shade` takes normals, view directions and footprints.
+    """
+    normal, view_dir, cosine = samples(camera)
+    return pixels(shade(normal, view_dir, sample_footprints(normal, view_dir)), cosine > least)
+
+
 def reference(
     views: RadianceViews, camera: Camera, mode: Mode, warping: Warping
 ) -> tuple[np.ndarray, np.ndarray]:
@@ -79,9 +98,7 @@ def reference(
         make = shading.destination_by_texel if mode is Mode.TEXEL else shading.destination_by_mesh
         made = make(views, camera.view_dir, views.size, warping)
         radiance = shading.destination_lookup(made, normal, view_dir, footprint)
-    blocks = (SIZE, SAMPLES_PER_AXIS, SIZE, SAMPLES_PER_AXIS)
-    inside = (cosine > 0.2).reshape(blocks).all(axis=(1, 3))
-    return radiance.reshape(*blocks, 3).mean(axis=(1, 3)), inside
+    return pixels(radiance, cosine > 0.2)
 
 
 @pytest.fixture(scope="module")

@@ -9,8 +9,8 @@ from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTabl
 from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.kinds.reflection_tables import GpuReflectionTables
-from rsibr.rsibr_addon.device.preview import SAMPLES_PER_AXIS, PreviewRenderer
-from rsibr.tests.glsl.test_preview_renderer import BY_CAMERA, SIZE, SPHERE, sample_footprints, samples
+from rsibr.rsibr_addon.device.preview import PreviewRenderer
+from rsibr.tests.glsl.test_preview_renderer import BY_CAMERA, SIZE, SPHERE, pixels, reference_pixels, samples
 from rsibr.tests.synthetic_views import environment_radiance
 
 
@@ -44,11 +44,9 @@ def test_a_picture_is_what_the_reference_says(name: str, eta: float, camera: Cam
     tables, look = smooth_tables(eta), LOOKS[name]
     picture = PreviewRenderer(GpuReflectionTables(tables)).draw(*SPHERE, camera, SIZE, look)
     normal, view_dir, cosine = samples(camera)
-    blocks = (SIZE, SAMPLES_PER_AXIS, SIZE, SAMPLES_PER_AXIS)
-    expected = reflect_tables(tables, normal, view_dir, look).reshape(*blocks, 3).mean(axis=(1, 3))
     # Near the critical angle a refracted direction turns without limit for the normal's smallest turn.
     clear = np.abs(np.sqrt(np.maximum(1.0 - cosine**2, 0.0)) - eta) > 0.05
-    inside = ((cosine > 0.2) & clear).reshape(blocks).all(axis=(1, 3))
+    expected, inside = pixels(reflect_tables(tables, normal, view_dir, look), (cosine > 0.2) & clear)
     assert np.count_nonzero(inside) > 0.4 * SIZE**2
     # As in test_preview_renderer: facets turn normals by up to 2e-4, directions that come of them by
     # twice to six times that, radiance changes by up to 2.6 a radian.
@@ -106,10 +104,8 @@ def test_an_antialiased_picture_is_what_the_reference_says(camera: Camera) -> No
     tables = smooth_tables(1.5)
     look = TablesLook((Role.SPECULAR, Role.COAT), w_specular=1.3, w_coat=0.4, antialiased=True)
     picture = PreviewRenderer(GpuReflectionTables(tables)).draw(*SPHERE, camera, SIZE, look)
-    normal, view_dir, cosine = samples(camera)
-    blocks = (SIZE, SAMPLES_PER_AXIS, SIZE, SAMPLES_PER_AXIS)
-    shown = reflect_tables(tables, normal, view_dir, look, sample_footprints(normal, view_dir))
-    inside = (cosine > 0.3).reshape(blocks).all(axis=(1, 3))
-    expected = shown.reshape(*blocks, 3).mean(axis=(1, 3))
+    expected, inside = reference_pixels(
+        camera, lambda normal, view_dir, seen: reflect_tables(tables, normal, view_dir, look, seen), 0.3
+    )
     error = np.abs(picture[..., :3] - expected)[inside].max()
     assert error < 2e-3 * expected[inside].max()

@@ -70,12 +70,7 @@ def reflect(view_dir: ArrayLike, normal: ArrayLike) -> Array:
 
 
 def mirror_normal(view_dir: ArrayLike, mirror_dir: ArrayLike) -> Array:
-    """The normal of a mirror that shows a direction: the inverse of `reflect`.
-
-    Parameters
-    ----------
-    view_dir, mirror_dir : array_like, shape (..., 3)
-        Unit vectors, both pointing away from the surface.
+    """The normal of a mirror that shows a direction: the inverse of `reflect`, with directions as there.
 
     Returns
     -------

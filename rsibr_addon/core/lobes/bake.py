@@ -152,16 +152,11 @@ def bake_stack(
 
     Parameters
     ----------
-    radiance : ndarray, shape (height, 2 * height, 3)
-        Latitude-longitude map, not negative.
-    fit : Fit
-    layout : str
-        One of `stack.LAYOUTS`.
     size : int, optional
         Width of the maps in texels; by default the first of `SIZES` that `ALLOWED_INTERPOLATION` allows,
         or else the last.
-    afford : callable
-        See `Afford`.
+    radiance, layout, afford
+        See `bake_bank`.
 
     Raises
     ------

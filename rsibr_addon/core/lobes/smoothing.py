@@ -77,9 +77,7 @@ def smoothed_weights(
     Parameters
     ----------
     projectors : sequence of Projector
-        S of them, of one bank, in ascending order of elevation.
-    lookups : sequence of Lookups
-        At each, J lobes.
+        S of them, of one bank; lookups as those of `smoothed_lookups`, of J lobes.
     price : float
         Price of profiles' squared distance from the line between their neighbours', over the target's power.
 

@@ -46,16 +46,13 @@ def blind_angle(distance: float) -> float:
 def direction_from_uv(uv: ArrayLike, distance: float) -> Array:
     """The direction that a point of the photograph shows, from the `distance` of `blind_angle`.
 
-    Points outside the ball are taken at the nearest point of its outline.
+    Points outside the ball are taken at the nearest point of its outline. The line of sight and the mirrored
+    ray are at the same angle from the normal, the incidence.
 
     Raises
     ------
     RangeError
         See `blind_angle`.
-
-    Notes
-    -----
-    The line of sight and the mirrored ray are at the same angle from the normal, the incidence.
     """
     xy = 2.0 * np.asarray(uv, dtype=np.float64) - 1.0
     radius = np.linalg.norm(xy, axis=-1, keepdims=True)

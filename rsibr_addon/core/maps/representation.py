@@ -117,18 +117,7 @@ class Representation:
         return direction
 
     def uv_from_direction(self, direction: ArrayLike) -> tuple[Array, Indices]:
-        """The inverse of `direction_from_uv`.
-
-        Parameters
-        ----------
-        direction : array_like, shape (..., 3)
-            Unit directions in world coordinates; those in the blind spot are taken to its edge.
-
-        Returns
-        -------
-        uv : ndarray, shape (..., 2), float64
-        sheet : ndarray of int, shape (...,)
-        """
+        """The inverse of `direction_from_uv`; directions in the blind spot are taken to its edge."""
         return self.own_uv(np.asarray(direction, dtype=np.float64) @ self.frame)
 
     def shows(self, direction: ArrayLike) -> NDArray[np.bool]:
@@ -139,12 +128,7 @@ class Representation:
         return shown
 
     def texel_solid_angle(self, size: int) -> Array:
-        """Solid angle of every texel.
-
-        Parameters
-        ----------
-        size : int
-            Width of a sheet in texels.
+        """Solid angle of every texel, for a width as that of `shape`.
 
         Returns
         -------

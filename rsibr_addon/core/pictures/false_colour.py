@@ -16,7 +16,7 @@ def heat(number: ArrayLike) -> Array:
     Returns
     -------
     ndarray, shape (..., 3), float64
-        In [0, 1], as sent to the display.
+        As `display.displayed` gives it.
 
     Notes
     -----

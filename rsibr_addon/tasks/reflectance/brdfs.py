@@ -80,12 +80,7 @@ def told_brdf(spec: str) -> Brdf:
 
 
 def check_told_brdf(spec: str) -> None:
-    """Refuse to open a file because a map set says so.
-
-    Parameters
-    ----------
-    spec : str
-        Of a file that may come from anywhere.
+    """Refuse to open a file because a map set says so, in a text like that of `told_brdf`.
 
     Raises
     ------

@@ -9,12 +9,11 @@ from ...conventions import Array
 from ...errors import RangeError, ShapeError
 from ...lobes.bank import KernelBank
 from ...lobes.fit import Fit
-from ...maps.representation import Representation
-from ..lobe_stack.stack import LobeStack, stack_representation
+from ..lobe_stack.stack import LobeStack, StackMaps, stack_representation
 
 
 @dataclass(frozen=True, eq=False)
-class FilteredBank:
+class FilteredBank(StackMaps):
     """The maps from which those of lobes are summed.
 
     Attributes
@@ -48,16 +47,6 @@ class FilteredBank:
             found = getattr(self, name).shape
             if found != (len(self.bank), *shape):
                 raise ShapeError(f"{name} of a kernel bank cannot have the shape {found}: bake it again.")
-
-    @property
-    def size(self) -> int:
-        """Width and height of a sheet in texels."""
-        return int(self.maps.shape[-2])
-
-    @property
-    def representation(self) -> Representation:
-        """The layout of the maps."""
-        return stack_representation(self.layout, self.size)
 
     @property
     def sharpest(self) -> float:

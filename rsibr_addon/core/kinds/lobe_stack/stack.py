@@ -15,8 +15,25 @@ LARGEST = 1024
 """Width of the largest maps: with a border, they fit a 3D texture of every driver."""
 
 
+class StackMaps:
+    """Of maps of any number, whose last axes are sheets, height, width and channels, in one of `LAYOUTS`."""
+
+    layout: str
+    maps: Array
+
+    @property
+    def size(self) -> int:
+        """Width and height of a sheet in texels."""
+        return int(self.maps.shape[-2])
+
+    @property
+    def representation(self) -> Representation:
+        """The layout of the maps."""
+        return stack_representation(self.layout, self.size)
+
+
 @dataclass(frozen=True, eq=False)
-class LobeStack:
+class LobeStack(StackMaps):
     """Maps from which glossy reflection is looked up, by a lobe's axis and by the view's elevation.
 
     Radiance is the sum over lobes and taps of taps * scale * map, the map looked up along the axis that
@@ -76,16 +93,6 @@ class LobeStack:
                 raise ShapeError(f"{name} of a lobe stack cannot have the shape {found}: bake it again.")
         if np.any(np.diff(self.mu, prepend=0.0) <= 0.0) or self.mu[-1] > 1.0:
             raise RangeError("Elevations of a lobe stack have cosines that ascend from above 0 to 1.")
-
-    @property
-    def size(self) -> int:
-        """Width and height of a sheet in texels."""
-        return int(self.maps.shape[-2])
-
-    @property
-    def representation(self) -> Representation:
-        """The layout of the maps."""
-        return stack_representation(self.layout, self.size)
 
     def texel_angle(self, direction: ArrayLike) -> Array:
         """Distance between texels around a direction.

@@ -35,7 +35,7 @@ SMALL = {
 }
 """Command, or kind that is baked -> its options that make it quick."""
 
-SMALL_SCRIPT = {'views="42", samples=128': "size=8, samples=2", 'size="256"': 'size="64"'}
+SMALL_SCRIPT = {'views="42", samples=128': "size=8, samples=2", "size=256": "size=64"}
 """The same of operators, by what the guide's script says."""
 
 

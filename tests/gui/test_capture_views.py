@@ -8,7 +8,7 @@ OUTPUT = "/job/captured.rsibr.exr"
 
 def invoke():
     with bpy.context.temp_override(window=window()):
-        return list(bpy.ops.rsibr.capture_views("INVOKE_DEFAULT", filepath=OUTPUT, size=16, samples=4))
+        return list(bpy.ops.rsibr.bake_radiance_views("INVOKE_DEFAULT", filepath=OUTPUT, size=16, samples=4))
 
 def finished_views():
     folder = OUTPUT + ".partial"

@@ -42,7 +42,7 @@ def scenario(told):
     cube, before = bpy.data.objects["Cube"], pixels()
     save("/job/lasting/car.blend")
     with bpy.context.temp_override(window=window()):
-        bpy.ops.rsibr.bake_mips(filepath="//rsibr/light.rsibr.exr", environment="forest", size="64")
+        bpy.ops.rsibr.bake_mip_chain(filepath="//rsibr/light.rsibr.exr", environment="forest", size=64)
         bpy.ops.rsibr.assign(filepath="/job/lasting/rsibr/light.rsibr.exr")
         bpy.ops.ed.undo_push(message="assigned")
     told["stored"] = cube.rsibr.map_set
@@ -123,7 +123,7 @@ def scenario(told):
     chosen.kind, chosen.light, chosen.studio = "mip_chain", "STUDIO", "forest"
     chosen.mip_chain.size, chosen.mip_chain.filter = "64", "box"
     path = orders.output_for(orders.request_for(scene, cube), scene, cube)
-    bpy.ops.rsibr.bake_mips(filepath=str(path), environment="forest", size="64", filter="box")
+    bpy.ops.rsibr.bake_mip_chain(filepath=str(path), environment="forest", size=64, filter="box")
     bpy.ops.rsibr.bake()
     told["taken"] = bpy.path.abspath(cube.rsibr.map_set) == str(path)
     yield from drawn()

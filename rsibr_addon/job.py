@@ -104,10 +104,6 @@ def read_job(text: str, name: str) -> BakeJob[Any] | CommandJob:
     name : str
         Where the text is from, for messages.
 
-    Returns
-    -------
-    BakeJob or CommandJob
-
     Raises
     ------
     InputFileError

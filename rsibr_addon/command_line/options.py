@@ -94,10 +94,6 @@ def given_of(arguments: argparse.Namespace, owners: Mapping[str, type[Options]],
     owner : str
         The one that counts.
 
-    Returns
-    -------
-    Options
-
     Raises
     ------
     RangeError

@@ -37,27 +37,15 @@ def preview(
     ----------
     map_set : Path
         A map set of any kind.
-    settings : PreviewOptions
     output : Path
         NAME.exr for linear radiance, premultiplied, with coverage in alpha; NAME.png for a picture
         through the view transform "Standard".
-    force : bool
-        Whether an existing file is replaced.
     look : object, optional
         Of the map set's kind, see `files.kinds.registry.look_types`; by default that kind's best.
 
-    Yields
-    ------
-    Progress
-
-    Returns
-    -------
-    Path
-        `output`.
-
     Raises
     ------
-    MapSetError, InputFileError, OutputFileError, DeviceError
+    MapSetError, InputFileError, DeviceError
     """
     _check_picture_target(output, force)
     yield Progress(0, 2, f"reading {map_set.name}")
@@ -86,10 +74,6 @@ def turntable(
         Whether existing files are replaced.
     look : object, optional
         See `preview`.
-
-    Yields
-    ------
-    Progress
 
     Returns
     -------

@@ -50,14 +50,6 @@ def compare(
     force : bool
         Whether an earlier comparison in `output` is replaced.
 
-    Yields
-    ------
-    Progress
-
-    Returns
-    -------
-    Comparison
-
     Raises
     ------
     MapSetError

@@ -81,10 +81,6 @@ def way_error(way: Way, measure: Callable[..., float], *pictures: Array) -> WayE
         Pictures, or several as one, to an error: a function of `core.metrics`.
     *pictures : ndarray, shape (views, ...)
         What `measure` takes, of all views.
-
-    Returns
-    -------
-    WayError
     """
     per_view = tuple(measure(*each) for each in zip(*pictures, strict=True))
     return WayError(way, per_view, pooled=measure(*pictures))
@@ -208,10 +204,6 @@ def cameras_of(settings: ComparisonOptions) -> list[Camera]:
 
 def random_directions(count: int, seed: int) -> Array:
     """Directions that are equally likely everywhere on the sphere.
-
-    Parameters
-    ----------
-    count, seed : int
 
     Returns
     -------

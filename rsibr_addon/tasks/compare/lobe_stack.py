@@ -107,10 +107,6 @@ def _picture(
 def stack_table(comparisons: Sequence[Comparison]) -> str:
     """Errors of several comparisons as a table in Markdown.
 
-    Parameters
-    ----------
-    comparisons : sequence of Comparison
-
     Returns
     -------
     str

@@ -50,10 +50,6 @@ def save_sheets(folder: Path, references: list[Array], drawn: dict[Way, list[Arr
         Radiance times coverage, and coverage; row 0 at the bottom.
     drawn : dict of Way to list of ndarray
         The same views, drawn.
-
-    Returns
-    -------
-    Sheets
     """
     folder.mkdir()
     sheets = Sheets(

@@ -26,26 +26,14 @@ def format_of(output: Path) -> str:
 
 
 def export(map_set: Path, output: Path, settings: Any = None, force: bool = False) -> Steps[list[Path]]:
-    """Write a map set's maps as other programs take them.
+    """Write a map set's maps as other programs take them, into one file or several: all of them, or none.
 
     Parameters
     ----------
-    map_set : Path
     output : Path
         Its suffix tells the format.
     settings : object, optional
         Of the format: see `Format.settings`; its defaults else.
-    force : bool
-        Whether existing files are replaced.
-
-    Yields
-    ------
-    Progress
-
-    Returns
-    -------
-    list of Path
-        The files that were written: all of them, or none.
 
     Raises
     ------
@@ -54,7 +42,7 @@ def export(map_set: Path, output: Path, settings: Any = None, force: bool = Fals
     RangeError
         The format cannot hold the map set with these settings.
     OutputFileError
-        The name is of no format, or a file cannot be written or exists.
+        The name is of no format.
 
     Notes
     -----

@@ -45,10 +45,6 @@ def textures_of(path: Path, map_set: MapSet, up: Up) -> list[Texture]:
     map_set : MapSet
     up : Up
 
-    Returns
-    -------
-    list of Texture
-
     Raises
     ------
     RangeError

@@ -57,21 +57,8 @@ def illuminate_from_ball(
     ----------
     photographs : sequence of sequences of Path
         From one side or from two, of each one photograph or several exposures; these need not be of one size.
-    settings : BallSettings
-    output : Path
-        NAME.exr or NAME.hdr.
-    force : bool
-        Whether an existing file is replaced.
     brackets : BallBrackets
         What is known of the exposures.
-
-    Yields
-    ------
-    Progress
-
-    Returns
-    -------
-    BallReport
 
     Raises
     ------
@@ -79,8 +66,6 @@ def illuminate_from_ball(
         A photograph is missing or unreadable, no ball is found in it, or the exposures cannot be merged.
     RangeError
         The sides share nothing to compare their exposures by, or there are not as many times as photographs.
-    OutputFileError
-        See `write_radiance`.
 
     Warns
     -----

@@ -29,11 +29,6 @@ from ...settings.photographs import BracketSettings
 def known_times(photographs: Sequence[Path], settings: BracketSettings) -> tuple[float, ...] | None:
     """The exposure times that are given.
 
-    Parameters
-    ----------
-    photographs : sequence of Path
-    settings : BracketSettings
-
     Returns
     -------
     tuple of float or None
@@ -89,33 +84,18 @@ def in_order(photographs: Sequence[Path], settings: BracketSettings) -> tuple[li
 def illuminate_from_brackets(
     photographs: Sequence[Path], settings: BracketSettings, output: Path, force: bool = False
 ) -> Steps[Merged]:
-    """Merge a bracket into a picture of radiance.
+    """Merge a bracket into a picture of radiance, laid out as the photographs are.
 
     Parameters
     ----------
     photographs : sequence of Path
         In any order. Of 8 or 16 bits; or linear and white at 1, as OpenEXR and Radiance HDR are.
-    settings : BracketSettings
-    output : Path
-        NAME.exr or NAME.hdr: what the photographs show, laid out as they are.
-    force : bool
-        Whether an existing file is replaced.
-
-    Yields
-    ------
-    Progress
-
-    Returns
-    -------
-    Merged
 
     Raises
     ------
     InputFileError
         A photograph is missing, unreadable, of another size or kind than the others or without an
         exposure time; there is only one, or they are all white or all black.
-    OutputFileError
-        See `write_radiance`.
 
     Warns
     -----
@@ -140,14 +120,6 @@ def illuminate_from_brackets(
 
 def read_photographs(paths: list[Path]) -> Steps[tuple[list[Array], Encoding]]:
     """Read photographs as they are encoded.
-
-    Parameters
-    ----------
-    paths : list of Path
-
-    Yields
-    ------
-    Progress
 
     Returns
     -------

@@ -17,35 +17,19 @@ BYTES_OF_TEXEL = 80
 
 
 def convert(source: Path, settings: ConvertSettings, output: Path, force: bool = False) -> Steps[list[Path]]:
-    """Convert a map.
+    """Convert a map, and give the files that were written.
 
     Parameters
     ----------
     source : Path
         OpenEXR or Radiance HDR, or a picture of 8 or 16 bits, whose curve is undone; of maps with a file
         for each sheet NAME.exr for NAME-SHEET.exr.
-    settings : ConvertSettings
-    output : Path
-        NAME.exr or NAME.hdr.
-    force : bool
-        Whether existing files are replaced.
-
-    Yields
-    ------
-    Progress
-
-    Returns
-    -------
-    list of Path
-        The files that were written.
 
     Raises
     ------
     InputFileError
         A file is missing or unreadable, its size does not fit the layout, or it holds no finite
         value.
-    OutputFileError
-        A file cannot be written, or exists and is not to be replaced.
     RangeError
         The values do not fit into Radiance HDR, or the map into this machine's memory; or its
         size does not fit the layout.

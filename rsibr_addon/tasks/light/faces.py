@@ -29,15 +29,6 @@ def illuminate_from_faces(
     ----------
     source : Path
         NAME.jpg for NAME-px.jpg and so on: see `files.map_pictures` and its `cube_faces`.
-    settings : FacesSettings
-    output : Path
-        NAME.exr or NAME.hdr.
-    force : bool
-        Whether an existing file is replaced.
-
-    Yields
-    ------
-    Progress
 
     Returns
     -------
@@ -49,8 +40,6 @@ def illuminate_from_faces(
     InputFileError
         A photograph is missing, unreadable, not square or not of the others' size; or they cannot be
         balanced.
-    OutputFileError, RangeError
-        See `write_radiance`.
     """
     faces, equirect = layout("cube_faces"), representation("equirect")
     check_radiance_target(output, force)

@@ -23,20 +23,6 @@ def illuminate_from_painting(
     ----------
     source : Path
         A picture of 8 or 16 bits, whose curve is undone; for several sheets see `files.map_pictures`.
-    settings : PaintedSettings
-    output : Path
-        NAME.exr or NAME.hdr.
-    force : bool
-        Whether an existing file is replaced.
-
-    Yields
-    ------
-    Progress
-
-    Returns
-    -------
-    Path
-        `output`.
 
     Raises
     ------
@@ -44,8 +30,6 @@ def illuminate_from_painting(
         A file is missing, no picture or radiance already, or its size does not fit the layout.
     RangeError
         See `lift_whites`.
-    OutputFileError
-        See `write_radiance`.
     """
     before, after = layout(settings.source_layout), representation("equirect")
     check_radiance_target(output, force)

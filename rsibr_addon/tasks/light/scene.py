@@ -46,30 +46,14 @@ OVERLAP = 16
 def illuminate_from_scene(light: SceneLight, output: Path, force: bool = False) -> Steps[Path]:
     """Render the light around a point of the open file into a latitude-longitude map.
 
-    Parameters
-    ----------
-    light : SceneLight
-    output : Path
-        NAME.exr or NAME.hdr.
-    force : bool
-        Whether an existing file is replaced.
-
-    Yields
-    ------
-    Progress
-        Before each render. Between two steps nothing of ours is in the open file.
-
-    Returns
-    -------
-    Path
-        The map.
+    Between two steps nothing of ours is in the open file.
 
     Raises
     ------
     SceneError
         There is no such scene or object, or nothing around it.
-    OutputFileError, RangeError
-        See `write_radiance` and `check_memory`.
+    RangeError
+        See `check_memory`.
     RenderError
         Cycles did not deliver.
 

@@ -15,31 +15,14 @@ from ...settings.environment import WorldLight
 def illuminate_from_world(settings: WorldLight, output: Path, force: bool = False) -> Steps[Path]:
     """Sample the world of a scene of the open file into a latitude-longitude map.
 
-    Parameters
-    ----------
-    settings : WorldLight
-    output : Path
-        NAME.exr or NAME.hdr.
-    force : bool
-        Whether an existing file is replaced.
-
-    Yields
-    ------
-    Progress
-
-    Returns
-    -------
-    Path
-        The map.
-
     Raises
     ------
     SceneError
         There is no such scene, or it has no world.
     InputFileError, RenderError
         See `sample_world`.
-    OutputFileError, RangeError
-        See `write_radiance` and `check_memory`.
+    RangeError
+        See `check_memory`.
 
     Warns
     -----

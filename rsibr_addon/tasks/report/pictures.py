@@ -42,10 +42,6 @@ class MapPicture:
 def map_set_pictures(path: Path) -> list[MapPicture]:
     """Read a map set and make its maps small; knows nothing of Blender, so it may run in any thread.
 
-    Parameters
-    ----------
-    path : Path
-
     Returns
     -------
     list of MapPicture

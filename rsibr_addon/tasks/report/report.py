@@ -48,31 +48,17 @@ MESHES = {"sphere": Camera((0.3, -1.0, 0.3)), "monkey": Camera((0.3, -1.0, 0.3))
 
 
 def map_set_report(map_set: Path, output: Path, force: bool = False, brdf: str | None = None) -> Steps[Path]:
-    """Show all that a map set holds.
+    """Show all that a map set holds, in NAME.html, without scripts and links.
 
     Parameters
     ----------
-    map_set : Path
-    output : Path
-        NAME.html, without scripts and links.
-    force : bool
-        Whether an existing file is replaced.
     brdf : str, optional
         The model to plot beside a lobe stack's lobes, as `tasks.reflectance.brdfs.load_brdf` takes it; by
         default the map set's own, unless that is in another file or takes to be measured.
 
-    Yields
-    ------
-    Progress
-
-    Returns
-    -------
-    Path
-        `output`.
-
     Raises
     ------
-    MapSetError, OutputFileError
+    MapSetError
     RsibrError
         See `load_brdf`, of `brdf` alone: where the map set's own model is none, the report says so.
 

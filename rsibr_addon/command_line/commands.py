@@ -17,6 +17,7 @@ from . import (
     preview,
     report,
 )
+from .parser import Parser
 
 COMMANDS = {
     "bake": bake,
@@ -74,7 +75,7 @@ def _with_todays_names(argv: Sequence[str]) -> Sequence[str]:
     return argv
 
 
-def parser() -> argparse.ArgumentParser:
+def parser() -> Parser:
     """What reads a command line: all commands, and their options with help."""
     common = argparse.ArgumentParser(add_help=False)
     common.add_argument("--json", action="store_true", help="print the result as one JSON object")
@@ -91,7 +92,7 @@ def parser() -> argparse.ArgumentParser:
     heard.add_argument(
         "--log", metavar="FILE", default=os.devnull, help="add what Blender and its libraries say to a file"
     )
-    parser = argparse.ArgumentParser(prog="rsibr", description="Prefiltered reflection maps with Blender.")
+    parser = Parser(prog="rsibr", description="Prefiltered reflection maps with Blender.")
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     for name, module in COMMANDS.items():
         if hasattr(module, "KINDS"):

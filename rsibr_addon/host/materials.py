@@ -13,6 +13,7 @@ import numpy as np
 
 from ..core.brdf.cycles_presets import PRESETS
 from ..core.errors import InputFileError, SceneError
+from ..core.near_names import did_you_mean
 from .blend_files import check_there, unreadable
 from .presets import build_preset
 
@@ -111,7 +112,8 @@ def _parsed(spec: str) -> tuple[str | None, str]:
     parsed = re.fullmatch(r"(|.+?\.blend\d*):(.+)", spec, flags=re.IGNORECASE | re.DOTALL)
     if parsed is None:
         raise InputFileError(
-            f"There is no material {spec}: name one of {', '.join(PRESETS)}, or FILE.blend:NAME."
+            f"There is no material {spec}{did_you_mean(spec, PRESETS)}: name one of {', '.join(PRESETS)}, "
+            f"or FILE.blend:NAME."
         )
     return parsed[1], parsed[2]
 
@@ -142,7 +144,9 @@ def _named(where: str, name: str, found: Any) -> Any:
     if name not in names:
         shown = ", ".join(sorted(names)[:NAMES_SHOWN]) or "another file"
         more = f" and {len(names) - NAMES_SHOWN} more" if len(names) > NAMES_SHOWN else ""
-        raise SceneError(f"{where} holds no material {name}: choose one of {shown}{more}.")
+        raise SceneError(
+            f"{where} holds no material {name}{did_you_mean(name, names)}: choose one of {shown}{more}."
+        )
     return names[name]
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 import bpy
 
 from ..core.errors import SceneError
+from ..core.near_names import did_you_mean
 
 
 def find_scene(name: str | None) -> bpy.types.Scene:
@@ -24,8 +25,9 @@ def find_scene(name: str | None) -> bpy.types.Scene:
     if name is None:
         return bpy.context.scene
     if name not in bpy.data.scenes:
-        names = ", ".join(scene.name for scene in bpy.data.scenes)
-        raise SceneError(f"This file holds no scene {name}: choose one of {names}.")
+        names = [scene.name for scene in bpy.data.scenes]
+        near = did_you_mean(name, names)
+        raise SceneError(f"This file holds no scene {name}{near}: choose one of {', '.join(names)}.")
     return bpy.data.scenes[name]
 
 

@@ -5,6 +5,7 @@ import numpy as np
 
 from ..core.conventions import Array
 from ..core.errors import SceneError
+from ..core.near_names import did_you_mean
 
 NAMES_SHOWN = 8
 """Number of a scene's objects that are listed when an unknown one is asked for."""
@@ -26,7 +27,8 @@ def find_object(scene: bpy.types.Scene, name: str) -> bpy.types.Object:
         names = [item.name for item in scene.objects]
         shown = ", ".join(names[:NAMES_SHOWN]) or "another scene, as it is empty"
         more = f" and {len(names) - NAMES_SHOWN} more" if len(names) > NAMES_SHOWN else ""
-        raise SceneError(f"Scene {scene.name} holds no object {name}: choose one of {shown}{more}.")
+        near = did_you_mean(name, names)
+        raise SceneError(f"Scene {scene.name} holds no object {name}{near}: choose one of {shown}{more}.")
     return found
 
 

@@ -30,6 +30,16 @@ CAPTURE = ["capture", "--environment", "forest", "--material", "copper", "-o", "
         ([*CAPTURE, "--size", "²"], "'²' is not a whole number"),
         (["preview", "a.exr", "-o", "b.png", "--view", "1,2"], "'1,2' is neither a number nor 3 numbers"),
         (["preview", "a.exr", "-o", "b.png", "--mode", "magic"], "magic"),
+        (["inof", "a.exr"], "there is no inof (did you mean info?): choose one of bake, "),
+        (["bake", "mip-chian"], "there is no mip-chian (did you mean mip-chain?): choose one of "),
+        (
+            ["bake", "mip-chain", "--enviroment", "a.exr"],
+            "no option --enviroment (did you mean --environment?)",
+        ),
+        (["bake", "mip-chain", "--filter", "bax"], "there is no bax (did you mean box?): choose one of "),
+        (["info", "a.exr", "--josn"], "there is no option --josn (did you mean --json?)"),
+        (["info", "a.exr", "b.exr"], "unknown arguments: b.exr"),
+        (["info", "a.exr", "-x"], "unknown arguments: -x"),
     ],
 )
 def test_wrong_usage_is_2_and_says_what(
@@ -40,6 +50,35 @@ def test_wrong_usage_is_2_and_says_what(
     assert out == ""
     assert err.startswith("usage: rsibr")
     assert told in err.splitlines()[-1]
+
+
+@pytest.mark.parametrize(
+    "words", [["info", "a.exr", "--nothing"], ["info", "a", "b"], ["bake", "mip-chain", "--x=1"]]
+)
+def test_wrong_usage_shows_the_usage_of_its_own_command(
+    words: list[str], capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert run(words) == 2
+    command = " ".join(words[: 2 if words[0] == "bake" else 1])
+    assert capfd.readouterr().err.startswith(f"usage: rsibr {command} [-h]")
+
+
+@pytest.mark.parametrize(
+    ("argv", "told"),
+    [
+        (["bake", "radiance-views", "--environment", "forest", "--material", "coper"], "copper"),
+        (["bake", "radiance-views", "--environment", "forst", "--material", "copper"], "forest"),
+        (["bake", "reflection-tables", "--environment", "forest", "--material", "varnish"], "varnished"),
+        (["bake", "lobe-stack", "--environment", "forest", "--brdf", "gxg:alpha=0.3"], "ggx"),
+        (["bake", "lobe-stack", "--environment", "forest", "--brdf", "ggx:alpha=0.3,metal=cooper"], "copper"),
+        (["bake", "reflection-tables", "--environment", "forest", "--specular", "fong:n=5"], "phong"),
+    ],
+)
+def test_a_mistyped_name_is_answered_with_a_like_one(
+    argv: list[str], told: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert run([*argv, "-o", str(tmp_path / "out.rsibr.exr")]) == 1
+    assert f"(did you mean {told}?)" in capfd.readouterr().err
 
 
 @pytest.mark.parametrize("command", ["bake mip-chain", "preview", "compare", "info"])

@@ -92,7 +92,7 @@ def test_what_cannot_be_loaded_is_said(tmp_path: Path) -> None:
     text.write_text("no file of Blender's")
     cut.write_bytes(library.read_bytes()[:3000])
     for spec, error, words in [
-        ("coper", InputFileError, "There is no material coper: name one of mirror, copper"),
+        ("coper", InputFileError, "There is no material coper (did you mean copper?): name one of"),
         (f"{tmp_path}:red", InputFileError, "FILE.blend:NAME"),
         (f"{tmp_path}/no.blend:red", InputFileError, f"There is no file {tmp_path}/no.blend"),
         (f"{text}:red", InputFileError, f"{text} is no file that Blender"),

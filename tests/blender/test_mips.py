@@ -113,7 +113,7 @@ def test_a_mirrored_sphere_shows_its_surroundings(
             ["--size", "16", "--roughness", "0,0.01"],
             "Mip 1 cannot have roughness 0.01, choose a larger one: A lobe",
         ),
-        (["--environment", "missing.exr"], "There is no environment missing.exr: give a file"),
+        (["--environment", "missing.exr"], "missing.exr does not exist: check the name"),
     ],
 )
 def test_errors_are_one_sentence_and_leave_nothing(

@@ -6,6 +6,7 @@ from typing import ClassVar
 
 from ..conventions import Array
 from ..errors import RangeError
+from ..near_names import did_you_mean
 from .cook_torrance import CookTorrance
 from .fresnel import Schlick
 from .lambert import Lambert
@@ -101,7 +102,8 @@ class CarPaint(Brdf):
 
     def __post_init__(self) -> None:
         if self.name not in PAINTS:
-            raise RangeError(f'There is no car paint "{self.name}": choose one of {", ".join(PAINTS)}.')
+            near = did_you_mean(self.name, PAINTS)
+            raise RangeError(f'There is no car paint "{self.name}"{near}: choose one of {", ".join(PAINTS)}.')
 
     def above_horizon(self, geometry: Geometry) -> Array:
         """See `Brdf`."""

@@ -21,6 +21,7 @@ from typing import Any, get_type_hints
 import numpy as np
 
 from ..errors import RangeError
+from ..near_names import did_you_mean
 from .car_paint import CarPaint
 from .cook_torrance import CookTorrance
 from .fresnel import Fresnel, Index, Schlick
@@ -85,7 +86,10 @@ def brdf_from_spec(spec: str, read_measured: ReadMeasured) -> Brdf:
             raise RangeError(f"{name} takes one key, path: write {name}:path=FILE.")
         return read_measured(name, path)
     if name not in MODELS:
-        raise RangeError(f'There is no BRDF model "{name}": choose one of {", ".join((*MODELS, *MEASURED))}.')
+        known = *MODELS, *MEASURED
+        raise RangeError(
+            f'There is no BRDF model "{name}"{did_you_mean(name, known)}: choose one of {", ".join(known)}.'
+        )
     try:
         return MODELS[name](**arguments_from_text(MODELS[name], rest, read_measured))
     except RangeError as error:
@@ -198,7 +202,8 @@ def _fresnel(values: dict[str, str]) -> Fresnel:
     given = {key: values[key] for key in FRESNEL_KEYS if key in values}
     if given.keys() == {"metal"}:
         if given["metal"] not in METALS:
-            raise RangeError(f'metal is "{given["metal"]}", but it must be one of {", ".join(METALS)}.')
+            near = did_you_mean(given["metal"], METALS)
+            raise RangeError(f'metal is "{given["metal"]}"{near}, but it must be one of {", ".join(METALS)}.')
         return METALS[given["metal"]]
     for kind, needed in ((Index, "eta"), (Schlick, "f0")):
         if needed in given and given.keys() <= parameter_ranges(kind).keys():

@@ -6,6 +6,7 @@ import numpy as np
 
 from ...core.environment import Environment, environment_from_pixels
 from ...core.errors import InputFileError
+from ...core.near_names import did_you_mean
 from ...files.environments import read_environment
 from ...files.radiance_pictures import read_radiance
 from ...host.scenes import find_scene
@@ -55,5 +56,8 @@ def load_environment(spec: str | None, clamp: float | None = None) -> Environmen
         return environment_from_pixels(radiance, Path(spec).name, clamp)
     is_path = Path(spec).suffix or Path(spec).name != spec
     if not is_path and not Path(spec).exists():
-        raise InputFileError(f"There is no environment {spec}: give a file, or one of {', '.join(own)}.")
+        near = did_you_mean(spec, own)
+        raise InputFileError(
+            f"There is no environment {spec}{near}: give a file, or one of {', '.join(own)}."
+        )
     return read_environment(spec, clamp)

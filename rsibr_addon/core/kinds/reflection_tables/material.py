@@ -20,6 +20,7 @@ from typing import Annotated, Any
 from ...brdf.parameters import Checked, Color, Range
 from ...brdf.spec import ReadMeasured, arguments_from_text
 from ...errors import RangeError
+from ...near_names import did_you_mean
 from .models import (
     AlbedoReflectance,
     ClearTable,
@@ -142,7 +143,8 @@ def preset(name: str) -> dict[str, str]:
         There is no such preset.
     """
     if name not in PRESETS:
-        raise RangeError(f"There is no preset {name}: choose one of {', '.join(PRESETS)}.")
+        near = did_you_mean(name, PRESETS)
+        raise RangeError(f"There is no preset {name}{near}: choose one of {', '.join(PRESETS)}.")
     return PRESETS[name]
 
 
@@ -184,7 +186,8 @@ def _part(part: str, text: str, read_measured: ReadMeasured) -> Any:
     name, _, rest = (piece.strip() for piece in text.partition(":"))
     owners = {owner.model: owner for owner in MODELS[part]}
     if name not in owners:
-        raise RangeError(f'there is no model "{name}" for it: choose one of {", ".join(owners)}.')
+        near = did_you_mean(name, owners)
+        raise RangeError(f'there is no model "{name}" for it{near}: choose one of {", ".join(owners)}.')
     owner = owners[name]
     try:
         return owner(**arguments_from_text(owner, rest, read_measured))

@@ -1,4 +1,7 @@
-"""Interfaces of the GPU programs; their sources are in `gpu_shaders`."""
+"""Interfaces of the GPU programs; their sources are in `gpu_shaders`.
+
+Each raises a DeviceError where the driver refuses the program.
+"""
 
 import atexit
 from collections.abc import Callable, Mapping
@@ -37,13 +40,7 @@ def release_programs() -> None:
 
 @kept_until_exit
 def views_fragment_shader() -> gpu.types.GPUShader:
-    """Draws a mesh from radiance views, `fragment` mode.
-
-    Raises
-    ------
-    DeviceError
-        The driver refuses the program; so for every function here.
-    """
+    """Draws a mesh from radiance views, `fragment` mode."""
     info = _views_interface()
     info.sampler(1, "FLOAT_2D_ARRAY", "views")
     info.sampler(2, "FLOAT_2D", "sphere")

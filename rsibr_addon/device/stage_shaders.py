@@ -1,4 +1,7 @@
-"""Interfaces of the GPU programs of viewports; their sources are in `gpu_shaders`."""
+"""Interfaces of the GPU programs of viewports; their sources are in `gpu_shaders`.
+
+Each raises a DeviceError where the driver refuses the program.
+"""
 
 import gpu
 
@@ -7,13 +10,7 @@ from .shaders import build, kept_until_exit, mesh_interface
 
 @kept_until_exit
 def occluder_shader() -> gpu.types.GPUShader:
-    """Draws a mesh without coverage that hides surfaces behind it.
-
-    Raises
-    ------
-    DeviceError
-        The driver refuses the program; so for every function here.
-    """
+    """Draws a mesh without coverage that hides surfaces behind it."""
     return build("viewport_occluder", mesh_interface(""), "mesh_vert.glsl", "viewport_occluder_frag.glsl")
 
 

@@ -118,7 +118,6 @@ def render_view(scene: bpy.types.Scene, settings: RenderSettings) -> RenderedVie
     Raises
     ------
     RenderError
-        See `rendering.render_passes`.
 
     Notes
     -----

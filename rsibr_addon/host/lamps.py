@@ -101,7 +101,6 @@ def measure_lamps(scene: bpy.types.Scene, around: Surroundings, lamps: Sequence[
     Raises
     ------
     RenderError
-        See `rendering.render_passes`.
 
     Notes
     -----

@@ -176,7 +176,6 @@ def render_surroundings(
     Raises
     ------
     RenderError
-        See `rendering.render_passes`.
 
     Notes
     -----

@@ -5,7 +5,7 @@ from typing import ClassVar
 
 from ..core.kinds.lobe_stack.stack import LARGEST
 from ..core.options import option
-from .lobe_stack import LAYOUT
+from .lobe_stack import layout_option
 from .method import MethodSettings
 
 
@@ -29,11 +29,4 @@ class KernelBankSettings(MethodSettings):
         draft=64,
         final=256,
     )
-    layout: str = option(
-        "dual_paraboloid",
-        label="Layout",
-        help="How maps hold all directions",
-        choices=LAYOUT,
-        advanced=True,
-        stored="layout_of_maps",
-    )
+    layout: str = layout_option()

@@ -1,7 +1,7 @@
 """How an environment is filtered with the lobes of a material: [Kautz2000]."""
 
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from ..core.errors import RangeError
 from ..core.kinds.lobe_stack.stack import LARGEST
@@ -10,10 +10,20 @@ from .comparison import ComparisonOptions
 from .fit import MODEL_HELP, MODELS, Fitting
 from .method import MethodSettings
 
-LAYOUT = {
-    "dual_paraboloid": Choice("Dual Paraboloid", "two disks, one for each hemisphere"),
-    "octahedral": Choice("Octahedral", "one square for the whole sphere"),
-}
+
+def layout_option() -> Any:
+    """How maps that are looked up along lobes' axes are laid out."""
+    return option(
+        "dual_paraboloid",
+        label="Layout",
+        help="How maps hold all directions",
+        choices={
+            "dual_paraboloid": Choice("Dual Paraboloid", "two disks, one for each hemisphere"),
+            "octahedral": Choice("Octahedral", "one square for the whole sphere"),
+        },
+        advanced=True,
+        stored="layout_of_maps",
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,14 +68,7 @@ class LobeStackSettings(Fitting, MethodSettings):
         help="Store 16-bit floats: half the space on disk, with 11 significant bits",
         final=False,
     )
-    layout: str = option(
-        "dual_paraboloid",
-        label="Layout",
-        help="How maps hold all directions",
-        choices=LAYOUT,
-        advanced=True,
-        stored="layout_of_maps",
-    )
+    layout: str = layout_option()
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -39,6 +39,20 @@ def _circle(label: str, help: str) -> tuple[float, float, float] | None:
     return circle
 
 
+def _angle(default: float, label: str, help: str, least: float, most: float) -> float:
+    angle: float = option(
+        default,
+        label=label,
+        help=help,
+        unit="degrees",
+        least=least,
+        most=most,
+        subtype="ANGLE",
+        metavar="DEG",
+    )
+    return angle
+
+
 @dataclass(frozen=True, kw_only=True)
 class BracketSettings(Options):
     """What is known of the photographs of a bracket."""
@@ -112,37 +126,21 @@ class BallSettings(EnvironmentSize, BallDistance, Clamp):
         flag="--fov",
         metavar="DEG",
     )
-    elevation: float = option(
-        0.0,
-        label="Elevation",
-        help="How far the camera looked down on the ball",
-        unit="degrees",
-        least=-89.0,
-        most=89.0,
-        subtype="ANGLE",
-        metavar="DEG",
-    )
-    camera: float = option(
+    elevation: float = _angle(0.0, "Elevation", "How far the camera looked down on the ball", -89.0, 89.0)
+    camera: float = _angle(
         15.0,
-        label="Camera",
-        help="How far from its middle the camera and who held it show in the ball, as an angle of direction; "
+        "Camera",
+        "How far from its middle the camera and who held it show in the ball, as an angle of direction; "
         "there the other side counts",
-        unit="degrees",
-        least=0.0,
-        most=179.0,
-        subtype="ANGLE",
-        metavar="DEG",
+        0.0,
+        179.0,
     )
-    turn: float = option(
+    turn: float = _angle(
         90.0,
-        label="Turn",
-        help="How far the camera went around the ball for the second side, counterclockwise as seen from "
-        "above",
-        unit="degrees",
-        least=-360.0,
-        most=360.0,
-        subtype="ANGLE",
-        metavar="DEG",
+        "Turn",
+        "How far the camera went around the ball for the second side, counterclockwise as seen from above",
+        -360.0,
+        360.0,
     )
     second_circle: tuple[float, float, float] | None = _circle(
         "Second Circle", "The ball's outline in the second side's photographs"

@@ -1,4 +1,7 @@
-"""Interfaces of the GPU programs of changing light; their sources are in `gpu_shaders`."""
+"""Interfaces of the GPU programs of changing light; their sources are in `gpu_shaders`.
+
+Each raises a DeviceError where the driver refuses the program.
+"""
 
 import gpu
 
@@ -10,13 +13,7 @@ _LOOK_BLOCK = f"struct LiveLook {{ {LOOK_FIELDS} }};"
 
 @kept_until_exit
 def face_shader() -> gpu.types.GPUShader:
-    """Copies a render into the strip of faces.
-
-    Raises
-    ------
-    DeviceError
-        The driver refuses the program; so for every function here.
-    """
+    """Copies a render into the strip of faces."""
     return _build_pass("live_face", ("seen",), ("face",))
 
 

@@ -11,8 +11,30 @@ from ...brdf.parameters import Checked, Color, Range
 from ...conventions import Array
 
 
+class _Diffuse:
+    """A table that scales light with kd."""
+
+    kd: Color
+
+    @property
+    def gain(self) -> Array:
+        """Radiance in even light of radiance 1, shape (3,)."""
+        return np.array(self.kd)
+
+
+class _Glossy:
+    """A table that scales light with ks."""
+
+    ks: Color
+
+    @property
+    def gain(self) -> Array:
+        """As `_Diffuse.gain`."""
+        return np.array(self.ks)
+
+
 @dataclass(frozen=True, kw_only=True)
-class LambertTable(Checked):
+class LambertTable(_Diffuse, Checked):
     """Light from the hemisphere about the normal by its cosine: kd irradiance / pi, so kd in even light.
 
     Notes
@@ -23,14 +45,9 @@ class LambertTable(Checked):
     model: ClassVar[str] = "lambert"
     kd: Annotated[Color, Range(0.0, 1.0)]
 
-    @property
-    def gain(self) -> Array:
-        """Radiance in even light of radiance 1, shape (3,)."""
-        return np.array(self.kd)
-
 
 @dataclass(frozen=True, kw_only=True)
-class LuminousTable(Checked):
+class LuminousTable(_Diffuse, Checked):
     """The same for every normal: kd times the mean radiance of the environment.
 
     Notes
@@ -41,14 +58,9 @@ class LuminousTable(Checked):
     model: ClassVar[str] = "luminous"
     kd: Annotated[Color, Range(0.0, 1.0)]
 
-    @property
-    def gain(self) -> Array:
-        """Radiance in even light of radiance 1, shape (3,)."""
-        return np.array(self.kd)
-
 
 @dataclass(frozen=True, kw_only=True)
-class MirrorTable(Checked):
+class MirrorTable(_Glossy, Checked):
     """The environment itself, times ks.
 
     Notes
@@ -59,14 +71,9 @@ class MirrorTable(Checked):
     model: ClassVar[str] = "mirror"
     ks: Annotated[Color, Range(0.0, 1.0)] = 1.0
 
-    @property
-    def gain(self) -> Array:
-        """Radiance in even light of radiance 1, shape (3,)."""
-        return np.array(self.ks)
-
 
 @dataclass(frozen=True, kw_only=True)
-class PhongTable(Checked):
+class PhongTable(_Glossy, Checked):
     """Light about the table's direction by the n-th power of the cosine, scaled to give ks in even light.
 
     Notes
@@ -77,11 +84,6 @@ class PhongTable(Checked):
     model: ClassVar[str] = "phong"
     n: Annotated[float, Range(1.0, 1e6)]
     ks: Annotated[Color, Range(0.0, 1.0)]
-
-    @property
-    def gain(self) -> Array:
-        """Radiance in even light of radiance 1, shape (3,)."""
-        return np.array(self.ks)
 
 
 @dataclass(frozen=True, kw_only=True)

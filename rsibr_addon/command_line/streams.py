@@ -19,10 +19,6 @@ class Outlet(io.TextIOBase):
 
     On a terminal, control characters that come with names and other text are spelled out.
 
-    Parameters
-    ----------
-    descriptor : int
-
     Attributes
     ----------
     error : OSError or None

@@ -9,12 +9,7 @@ from .shaders import mesh_program
 
 
 class GpuLitSphere:
-    """Uploaded radiance by normals; meshes must be seen from the sphere's view.
-
-    Parameters
-    ----------
-    sphere : LitSphere
-    """
+    """Uploaded radiance by normals; meshes must be seen from the sphere's view."""
 
     def __init__(self, sphere: LitSphere) -> None:
         rings, width = sphere.radiance.shape[:2]

@@ -15,12 +15,7 @@ SAMPLES_PER_AXIS = 4
 
 
 class PreviewRenderer:
-    """Draws meshes, shaded from a map set, into pictures.
-
-    Parameters
-    ----------
-    content : GpuMapSet
-    """
+    """Draws meshes, shaded from a map set, into pictures."""
 
     def __init__(self, content: GpuMapSet) -> None:
         self._content = content

@@ -23,10 +23,6 @@ environment_shader = mesh_program(
 class GpuEnvironment:
     """An uploaded environment; its sums follow when the first antialiased look is drawn.
 
-    Parameters
-    ----------
-    environment : Environment
-
     Raises
     ------
     DeviceError

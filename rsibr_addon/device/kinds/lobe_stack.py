@@ -28,10 +28,6 @@ lobe_stack_shader = mesh_program(
 class GpuLobeStack:
     """A map set's lobe stack, uploaded.
 
-    Parameters
-    ----------
-    stack : LobeStack
-
     Raises
     ------
     DeviceError

@@ -17,12 +17,7 @@ from .mip_chain_shaders import look_fields, mip_chain_shader
 
 
 class GpuMipChain:
-    """A map set's mip chain, uploaded.
-
-    Parameters
-    ----------
-    chain : MipChain
-    """
+    """A map set's mip chain, uploaded."""
 
     def __init__(self, chain: MipChain) -> None:
         self._chain = chain

@@ -21,10 +21,6 @@ _SCREEN_TRIANGLE = np.array([[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]])
 class GpuRadianceViews:
     """A map set's radiance views, uploaded.
 
-    Parameters
-    ----------
-    views : RadianceViews
-
     Raises
     ------
     DeviceError

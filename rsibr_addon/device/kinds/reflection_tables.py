@@ -29,10 +29,6 @@ reflection_tables_shader = mesh_program(
 class GpuReflectionTables:
     """A map set's reflection tables, uploaded.
 
-    Parameters
-    ----------
-    tables : ReflectionTables
-
     Raises
     ------
     DeviceError

@@ -26,13 +26,7 @@ LUMINANCE = (0.2126, 0.7152, 0.0722)
 
 @dataclass(frozen=True)
 class Sheets:
-    """PNG files, each with all views, `COLUMNS` in a row, the first at the top left.
-
-    Attributes
-    ----------
-    reference : Path
-    drawing, difference : dict of Way to Path
-    """
+    """PNG files, each with all views, `COLUMNS` in a row, the first at the top left."""
 
     reference: Path
     drawing: dict[Way, Path]

@@ -21,7 +21,9 @@ SIGNALS = frozenset(
 GRACE_SECONDS = 0.4
 """For the step at hand."""
 
-SENTENCE = "Interrupted: give the same command again; a capture keeps its finished views."
+AGAIN = "Interrupted: give the same command again."
+GOES_ON = "Interrupted: give the same command again, and it goes on from the views that are finished."
+MAY_GO_ON = "Interrupted: give the same command again; a capture goes on from the views that are finished."
 
 _asked = threading.Event()
 _done = threading.Event()
@@ -71,6 +73,21 @@ def orderly() -> Iterator[threading.Event]:
         yield _asked
     if _asked.is_set() and not _done.is_set():
         threading.Event().wait()  # for the end, which the thread that heard is about to bring
+
+
+def interrupted(argv: Sequence[str]) -> str:
+    """Tell of an interruption what its command does when it is given again.
+
+    Parameters
+    ----------
+    argv : sequence of str
+        The command's arguments.
+    """
+    command, first = (*argv[:2], "", "")[:2]
+    if command == "capture" or (command, first) == ("bake", "radiance-views"):
+        return GOES_ON
+    is_job = command == "job" or (command == "bake" and first.endswith(".json"))
+    return MAY_GO_ON if is_job else AGAIN
 
 
 def done() -> None:

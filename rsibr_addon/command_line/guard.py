@@ -54,7 +54,7 @@ def guarded(work: Callable[[], int], argv: Sequence[str]) -> int:
         code = _watch(child, asking)
     number = -code if code < 0 else code - 128
     if number in endings.SIGNALS:
-        endings.tell(endings.SENTENCE, argv, 1, 2)
+        endings.tell(endings.interrupted(argv), argv, 1, 2)
         return 128 + number
     if code < 0:
         endings.tell(_crash(number), argv, 1, 2)

@@ -58,7 +58,7 @@ def run_alone(argv: Sequence[str], temporary: str | None = None) -> int:
         remove_own()
         if temporary:
             shutil.rmtree(temporary, ignore_errors=True)
-        endings.tell(endings.SENTENCE, argv, out, err)
+        endings.tell(endings.interrupted(argv), argv, out, err)
         os._exit(128 + number)
 
     endings.listen(end)

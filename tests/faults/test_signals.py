@@ -9,7 +9,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from rsibr.rsibr_addon.command_line.endings import SENTENCE, SIGNALS
+from rsibr.rsibr_addon.command_line.endings import SIGNALS
+from rsibr.rsibr_addon.command_line.endings import interrupted as sentence_of
 from rsibr.tests.faults.processes import Ended, Running, run
 from rsibr.tests.mirror_capture import write_mirror_capture
 
@@ -101,7 +102,7 @@ def test_at_any_moment(number: int, source: Path, seconds: dict[str, float]) -> 
         heard += 1
         assert ended.code == 128 + number, where
         *warnings, last = ended.err.splitlines()
-        assert last == f"rsibr: error: {SENTENCE}", where
+        assert last == f"rsibr: error: {sentence_of(COMMANDS[name].split())}", where
         assert all(line.startswith("rsibr: warning: ") for line in warnings), where
         assert ended.out == "", where
         # A capture's finished views are kept for the next time
@@ -119,7 +120,7 @@ def test_amid_a_render(source: Path) -> None:
     running.process.terminate()
     ended = running.end()
     assert ended.code == 128 + signal.SIGTERM
-    assert ended.err.splitlines()[-1] == f"rsibr: error: {SENTENCE}"
+    assert ended.err.splitlines()[-1] == f"rsibr: error: {sentence_of(RENDER.split())}"
     assert '"ok": false' in ended.out
     assert ended.temporary == []
     assert running.family() == set()

@@ -8,6 +8,14 @@ from ..settings.fit import FitSettings
 from . import options
 from .console import Console
 
+EXPLAINED = {
+    "E": "error: root mean square of fit - model over that of the model, over all elevations",
+    "E_grazing": "the same over elevations near grazing, n.v below 0.1",
+    "albedo_error": "greatest relative error of the reflected energy",
+    "amplification": "how much the errors of single maps may grow in their sum, at most",
+}
+"""Figure of a fit -> what it says."""
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what `run` reads."""
@@ -36,9 +44,10 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     settings = options.given(arguments, FitSettings)
     result = console.steps(fit_lobes(settings, arguments.output, arguments.force, arguments.plot))
     figures = result.report()
-    console.say(
-        f"{arguments.output}: {', '.join(f'{name} {_text(value)}' for name, value in figures.items())}"
-    )
+    plain = ", ".join(f"{name} {_text(value)}" for name, value in figures.items() if name not in EXPLAINED)
+    console.say(f"{arguments.output}: {plain}")
+    for name, explanation in EXPLAINED.items():
+        console.say(f"  {name:<14} {_text(figures[name]):<9} {explanation}")
     return {"fit": str(arguments.output), **figures}
 
 

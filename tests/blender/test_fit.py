@@ -29,6 +29,13 @@ def test_the_command_writes_a_fit_and_tells_its_figures(
     assert 1.0 < told["amplification"] < 8.0
     assert json.loads(path.read_text())["report"]["E"] == told["E"]
     assert read_fit(path).brdf == "phong:n=40,ks=0.5"
+    # People are told what a figure is
+    assert run([*COMMAND, "--force", "-o", str(path)]) == 0
+    lines = capfd.readouterr().out.splitlines()
+    for name in ("E", "albedo_error", "amplification"):
+        (line,) = (line for line in lines if line.split()[0] == name)
+        assert f" {told[name]:.3g} " in line
+        assert len(line.split()) > 4
 
 
 def test_plots_are_written_whole_or_not_at_all(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:

@@ -26,7 +26,9 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     dict
         Of a map set "map_set", the path, and "header", the description as docs/map-set-format.md has it.
         Of a picture "picture", the path; "light", the fields of `core.light.light_range.LightRange`; and of
-        one of radiance "facts", those of `files.picture_facts.PictureFacts`.
+        one of radiance "facts", those of `files.picture_facts.PictureFacts`. Of a photograph "facts" are
+        "bits", "size", "turned" (by its Exif), "colours", "exposure", the fields of
+        `files.exif.Exposure` or None, and "is_radiance".
 
     Raises
     ------
@@ -80,20 +82,34 @@ def _tell_of_photograph(path: str, console: Console) -> dict[str, Any]:
     if turned:
         console.say("  turned       upright, as its Exif says")
     console.say(f"  colours      {photograph.encoding.name}")
-    console.say(f"  exposure     {_exposure(path)}")
+    exposure = _exposure(path)
+    console.say(f"  exposure     {_exposure_in_words(exposure)}")
     if photograph.encoding.curves is not None:
         why = "lamps end at white, and no scale is known"
         console.say(f"  radiance     none: {why}; rsibr illuminate makes some of it")
-    return {"picture": path, "light": _light(photograph.radiance(), console)}
+    facts = {
+        "bits": 8 * photograph.stored.itemsize,
+        "size": [width, height],
+        "turned": turned,
+        "colours": photograph.encoding.name,
+        "exposure": exposure and asdict(exposure),
+        "is_radiance": photograph.encoding.curves is None,
+    }
+    return {"picture": path, "facts": facts, "light": _light(photograph.radiance(), console)}
 
 
-def _exposure(path: str) -> str:
+def _exposure(path: str) -> Any:
     from ..core.errors import InputFileError
     from ..files.exif import read_exposure
 
     try:
-        told = read_exposure(path)
+        return read_exposure(path)
     except InputFileError:
+        return None
+
+
+def _exposure_in_words(told: Any) -> str:
+    if told is None:
         return "not told"
     f_number = f", f/{told.f_number:.3g}" if told.f_number else ""
     return f"{told.time:.4g} s{f_number}" + (f", ISO {told.sensitivity:g}" if told.sensitivity else "")

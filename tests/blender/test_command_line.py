@@ -3,17 +3,21 @@
 import ctypes
 import json
 import os
+import re
 import subprocess
 import sys
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 import pytest
 from rsibr.rsibr_addon.command_line import info
+from rsibr.rsibr_addon.command_line.endings import interrupted
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import RsibrError, RsibrWarning
 from rsibr.rsibr_addon.core.progress import Progress
+from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 
 CAPTURE = ["capture", "--environment", "forest", "--material", "copper", "-o", "out.rsibr.exr"]
 
@@ -251,3 +255,45 @@ def test_console_is_the_installed_command() -> None:
     process = subprocess.run([command, "info", "missing.exr"], capture_output=True, text=True, check=False)
     assert process.returncode == 1
     assert process.stderr.startswith("rsibr: error: missing.exr")
+
+
+@pytest.mark.parametrize(
+    ("words", "goes_on"),
+    [
+        (["capture", "-o", "a.exr"], "and it goes on"),
+        (["bake", "radiance-views", "-o", "a.exr"], "and it goes on"),
+        (["bake", "job.json"], "a capture goes on"),
+        (["job", "job.json"], "a capture goes on"),
+        (["bake", "mip-chain", "-o", "a.exr"], ""),
+        (["bake", "--brdf", "ggx:alpha=1"], ""),
+        (["info", "a.exr"], ""),
+        ([], ""),
+    ],
+)
+def test_only_an_interrupted_capture_speaks_of_views(words: list[str], goes_on: str) -> None:
+    sentence = interrupted(words)
+    assert goes_on in sentence
+    assert ("views" in sentence) is bool(goes_on)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["mip-chain", "--size", "8"],
+        ["reflection-tables", "--material", "matte", "--diffuse-rows", "4"],
+        ["kernel-bank", "--size", "16"],
+        ["lobe-stack", "--brdf", "phong:n=8,ks=0.5", "--lobes", "1", "--slices", "3", "--size", "16"],
+    ],
+)
+def test_json_of_a_bake_has_the_figures_of_its_text(
+    words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    write_radiance("light.exr", np.ones((32, 64, 3)))
+    command = ["bake", *words, "--environment", "light.exr", "-o", "out.exr", "--force"]
+    assert run(command) == 0
+    told = set(re.findall(r"[0-9]+", capfd.readouterr().out.partition(": ")[2]))
+    assert run([*command, "--json"]) == 0
+    found = json.loads(capfd.readouterr().out)
+    assert told
+    assert told <= set(re.findall(r"[0-9]+", json.dumps(found)))

@@ -34,6 +34,7 @@ def test_capture_info_preview_compare(rsibr: Command, tmp_path: Path) -> None:
     assert captured["map_set"] == "copper.rsibr.exr"
     # The forest holds negative pixels, but nobody can mend what Blender brings
     assert captured["warnings"] == []
+    assert (captured["views"], captured["size"]) == (12, 16)
     assert len(read_map_set("copper.rsibr.exr", "radiance_views").maps) == 2 + 2 * 12
 
     header = rsibr("info", "copper.rsibr.exr")["header"]

@@ -71,6 +71,14 @@ def test_what_is_used_of_a_photograph_is_told(tmp_path: Path, capfd: pytest.Capt
     assert lines[1:3] == ["  turned       upright, as its Exif says", "  colours      lin_rec709_scene"]
     assert lines[3] == "  exposure     0.025 s, f/4, ISO 200"
     assert lines[4].startswith("  light ")
+    assert told(tmp_path / "a.png", capfd)["facts"] == {
+        "bits": 8,
+        "size": [4, 8],
+        "turned": True,
+        "colours": "lin_rec709_scene",
+        "exposure": {"time": float(np.float32(0.025)), "f_number": 4.0, "sensitivity": 200.0},
+        "is_radiance": True,
+    }
 
 
 @pytest.mark.parametrize("content", [b"", b"text", b"#?RADIANCE\n\n-Y 9 +X 9\n", b"\x76\x2f\x31\x01"])

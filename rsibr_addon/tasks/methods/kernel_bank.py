@@ -42,7 +42,7 @@ def bake(job: BakeJob[KernelBankSettings]) -> Steps[Baked]:
     return Baked(
         path,
         f"{kernels} kernels, the sharpest of concentration {sharpest:g}, {size}x{size} texels",
-        {"kernels": kernels, "sharpest": sharpest},
+        {"kernels": kernels, "sharpest": sharpest, "size": size},
     )
 
 

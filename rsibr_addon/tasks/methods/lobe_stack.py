@@ -115,7 +115,13 @@ def bake(job: BakeJob[LobeStackSettings]) -> Steps[Baked]:
     return Baked(
         path,
         f"lobes: {lobes}, maps of each: {maps}, {size}x{size} texels",
-        {"lobes": lobes, "elevations": len(baked.fit.mu), "size": size, "interpolation": interpolation},
+        {
+            "lobes": lobes,
+            "elevations": len(baked.fit.mu),
+            "maps": maps,
+            "size": size,
+            "interpolation": interpolation,
+        },
     )
 
 

@@ -62,7 +62,11 @@ def bake(job: BakeJob[MipChainSettings]) -> Steps[Baked]:
         chain = _texture_space(light, settings)
     map_set = to_map_set(chain, Origin(light, stated, software(), {"filter": settings.filter}, bound))
     path = yield from written(job, map_set)
-    return Baked(path, f"{settings.filter} mips from {settings.size}x{settings.size}")
+    return Baked(
+        path,
+        f"{settings.filter} mips from {settings.size}x{settings.size}",
+        {"filter": settings.filter, "size": settings.size, "mips": len(chain.mips)},
+    )
 
 
 def _ggx(light: Environment, settings: MipChainSettings) -> Steps[tuple[MipChain, float]]:

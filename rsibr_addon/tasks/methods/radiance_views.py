@@ -91,7 +91,8 @@ def bake(job: BakeJob[RadianceViewsSettings]) -> Steps[Baked]:
         for view in range(asked.views)
     ]
     output = Path(job.output)
-    done = Baked(output, f"{asked.views} views of {asked.size}x{asked.size}")
+    figures = {"views": asked.views, "size": asked.size}
+    done = Baked(output, f"{asked.views} views of {asked.size}x{asked.size}", figures)
     # A capture that was killed at its very end has named its output, and its views are still there
     named = not job.force and output.is_file() and work_folder_beside(output).is_dir()
     check_map_set_target(output, job.force or named)

@@ -61,7 +61,7 @@ def bake(job: BakeJob[ReflectionTablesSettings]) -> Steps[Baked]:
     bounds = {role.value: bound.tolist() for role, bound in baked.bounds.items()} or None
     origin = Origin(light, {"exact": settings.exact}, software(), dict(parts), bounds)
     path = yield from written(job, to_map_set(baked.tables, origin))
-    return Baked(path, ", ".join(f"{part} {text}" for part, text in parts.items()))
+    return Baked(path, ", ".join(f"{part} {text}" for part, text in parts.items()), {"parts": dict(parts)})
 
 
 KIND = Kind(from_map_set, GpuReflectionTables, Method(bake, cost, material))

@@ -8,7 +8,7 @@ from .reporting import reporting
 
 
 class AtOnce:
-    """Of an operator whose `work` is done in a moment; our errors and warnings become reports."""
+    """Base of an operator whose `work` takes a moment; our errors and warnings become reports."""
 
     report: Callable[[set[str], str], None]
 

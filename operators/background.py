@@ -29,7 +29,7 @@ def start(undo: ExitStack) -> None:
 
 
 def submit(bake: ObjectBake) -> None:
-    """Start a bake, or have it wait for those before it; what has ended is put away."""
+    """Start a bake, or let it wait for those before it; ended bakes leave the queue."""
     queue.forget_ended()
     queue.add(bake)
     if not bpy.app.timers.is_registered(_look):
@@ -59,7 +59,7 @@ def _look() -> float | None:
 
 
 def _count_as_done_if_another_made_it(bake: ObjectBake) -> None:
-    """Of two Blenders that make the same at once, one finds that the file is there when it would write it."""
+    """Count a bake as done whose file another Blender wrote while it was at work."""
     if bake.state is State.FAILED and bake.output.suffix != ".html" and is_baked(bake.output):
         bake.state, bake.message = State.DONE, ""
 

@@ -6,7 +6,7 @@ from . import background
 
 
 class RSIBR_OT_cancel_bake(bpy.types.Operator):
-    """End this bake; baked again, it goes on with the views that are finished. One that has ended is put away"""  # noqa: D400, E501  (a tooltip)
+    """Cancel this bake, or remove it from the list if it has ended. Finished views are kept: bake again to go on"""  # noqa: D400, E501  (a tooltip)
 
     bl_idname = "rsibr.cancel_bake"
     bl_label = "Cancel Bake"
@@ -16,7 +16,7 @@ class RSIBR_OT_cancel_bake(bpy.types.Operator):
     )
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Cancel or put away."""
+        """Cancel the bake, or remove it from the list."""
         if not 0 <= self.number < len(background.queue.bakes):
             self.report({"ERROR"}, f"There is no bake number {self.number}: the queue has changed.")
             return {"CANCELLED"}

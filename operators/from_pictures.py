@@ -10,7 +10,7 @@ from .makes_light import MakesLight
 
 
 class FromPictures(MakesLight):
-    """Of a picture of light; `work` is to return its path."""
+    """Base of an operator that makes a picture of light; `work` returns its path."""
 
     filepath = file_path("Picture", "Picture to work on")
     filter_image = bpy.props.BoolProperty(default=True, options={"HIDDEN", "SKIP_SAVE"})
@@ -46,13 +46,13 @@ class FromSeveralPictures(FromPictures):
 
     directory = bpy.props.StringProperty(
         name="Folder",
-        description="Of the pictures",
+        description="Folder of the pictures",
         subtype="DIR_PATH",
         options={"HIDDEN", "SKIP_SAVE", "PATH_SUPPORTS_BLEND_RELATIVE"},
     )
     files = bpy.props.CollectionProperty(
         name="Pictures",
-        description="Names in the folder; none for the one picture that is given by its path",
+        description="Names of pictures in the folder; empty for the one picture that the path gives",
         type=bpy.types.OperatorFileListElement,
         options={"HIDDEN", "SKIP_SAVE"},
     )

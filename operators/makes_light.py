@@ -9,7 +9,7 @@ from .stepwise import Stepwise
 
 
 class MakesLight(Stepwise):
-    """Of an operator whose `work` is to return the picture's path."""
+    """Base of an operator whose `work` returns the path of a picture of light."""
 
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  (Blender reads the class)
     interrupted = "Interrupted; nothing was written"

@@ -12,10 +12,10 @@ from .settings.light import Light
 from .settings.method import MethodSettings
 
 FORMAT, ARGUMENTS_FORMAT = 2, 1
-"""Formats of a job's JSON: a bake, and the arguments of any command."""
+"""Formats of a job's JSON: a bake's settings, and the arguments of any command."""
 
 COMMANDS = ("capture", "bake", "tables", "mips", "bank", "illuminate", "compare")
-"""What a job of arguments may be of."""
+"""Commands that a job of arguments may give."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class BakeJob[Settings: MethodSettings]:
     Attributes
     ----------
     settings : MethodSettings
-        Of one of `METHOD_SETTINGS`.
+        Settings of one of `METHOD_SETTINGS`.
     output : str
         The map set to write, NAME.rsibr.exr or NAME.exr.
     light : Light
@@ -58,7 +58,7 @@ class CommandJob:
     Attributes
     ----------
     arguments : tuple of str
-        Of the command line, the command first: ("compare", "copper.rsibr.exr", ...).
+        Arguments of the command line, the command first: ("compare", "copper.rsibr.exr", ...).
 
     Raises
     ------

@@ -42,7 +42,7 @@ class RSIBR_PG_live(bpy.types.PropertyGroup):
     )
     size = bpy.props.EnumProperty(
         name="Size",
-        description="Of each of the six faces, in pixels",
+        description="Width of each of the six faces, in pixels",
         update=_notice,
         items=[(str(size), str(size), "") for size in (32, 64, 128, 256)],
         default="64",
@@ -115,7 +115,7 @@ class RSIBR_PG_view(bpy.types.PropertyGroup):
     )
     difference = bpy.props.FloatProperty(
         name="Full Scale",
-        description="The difference that is white, as a part of what the display shows",
+        description="Difference that is shown white, as a share of the display's range",
         update=_notice,
         default=0.1,
         min=0.001,

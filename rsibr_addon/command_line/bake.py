@@ -25,7 +25,7 @@ class BakeCommand:
     Attributes
     ----------
     settings : type
-        Of the method.
+        Settings of the method.
     """
 
     settings: type[MethodSettings]

@@ -19,7 +19,7 @@ SIGNALS = frozenset(
 """What asks a process to end, where the system has it."""
 
 GRACE_SECONDS = 0.4
-"""For the step at hand."""
+"""How long the step at hand may take to end."""
 
 AGAIN = "Interrupted: give the same command again."
 GOES_ON = "Interrupted: give the same command again, and it goes on from the views that are finished."

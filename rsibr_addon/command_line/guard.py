@@ -20,10 +20,10 @@ from ..files.staging import remove_own, staging_folder
 from . import endings
 
 PATIENCE_SECONDS = 0.6
-"""Until a process that was asked to end is killed: a little longer than it takes itself."""
+"""How long a process that was asked to end may take before it is killed; it needs a little less."""
 
 PR_SET_PDEATHSIG = 1
-"""Of Linux's prctl: a signal for this process when its parent ends."""
+"""Command of Linux's prctl: send this process a signal when its parent ends."""
 
 
 def guarded(work: Callable[[], int], argv: Sequence[str]) -> int:

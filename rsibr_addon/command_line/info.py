@@ -24,8 +24,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     Returns
     -------
     dict
-        Of a map set "map_set", the path, and "header", the description as docs/map-set-format.md has it.
-        Of a picture "picture", the path; "light", the fields of `core.light.light_range.LightRange`; and of
+        For a map set: "map_set", the path, and "header", the description as docs/map-set-format.md has it.
+        For a picture: "picture", the path; "light", the fields of `core.light.light_range.LightRange`; and of
         one of radiance "facts", those of `files.picture_facts.PictureFacts`. Of a photograph "facts" are
         "bits", "size", "turned" (by its Exif), "colours", "exposure", the fields of
         `files.exif.Exposure` or None, and "is_radiance".

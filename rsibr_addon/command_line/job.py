@@ -13,7 +13,7 @@ from .bake import run_job
 from .console import Console
 
 REASON_LETTERS = 500
-"""Of argparse's words at most, which repeat what is wrong."""
+"""Greatest length of argparse's message, which repeats what is wrong."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

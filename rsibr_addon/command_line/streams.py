@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 
 CLEAR_LINE = "\r\x1b[2K"
-"""For a terminal: back to the line's begin, and nothing on it."""
+"""Control sequence that clears a terminal's line and moves back to its begin."""
 
 DEFAULT_COLUMNS = 80
 
@@ -44,7 +44,7 @@ class Outlet(io.TextIOBase):
 
     @property
     def columns(self) -> int:
-        """Of the terminal; `DEFAULT_COLUMNS` where it is none, or does not say."""
+        """Width of the terminal; `DEFAULT_COLUMNS` if it is none or does not say."""
         try:
             return os.get_terminal_size(self._descriptor).columns or DEFAULT_COLUMNS
         except OSError:

@@ -11,7 +11,7 @@ class MethodSettings(Options):
     Attributes
     ----------
     KIND : str
-        Of the map sets that the method makes.
+        Kind of the map sets that the method makes.
     LABEL, SUMMARY : str
         The method in a menu, and what it is for, as a phrase without a full stop.
     REMARK : str

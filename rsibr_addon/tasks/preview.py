@@ -41,7 +41,7 @@ def preview(
         NAME.exr for linear radiance, premultiplied, with coverage in alpha; NAME.png for a picture
         through the view transform "Standard".
     look : object, optional
-        Of the map set's kind, see `files.kinds.registry.look_types`; by default that kind's best.
+        Look of the map set's kind, see `files.kinds.registry.look_types`; by default the kind's best.
 
     Raises
     ------

@@ -70,7 +70,7 @@ class RSIBR_PG_bake(bpy.types.PropertyGroup):
         set=use_picture,
     )
     layer = bpy.props.StringProperty(
-        name="Layer", description="Of an OpenEXR picture with several; empty for the one that is the picture"
+        name="Layer", description="Layer of an OpenEXR picture that has several; empty for its main picture"
     )
     kind = bpy.props.EnumProperty(
         name="Method",

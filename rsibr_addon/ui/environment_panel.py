@@ -12,7 +12,7 @@ from .sentences import tell
 from .sidebar import InSidebar
 
 THUMBNAIL_SCALE = 4.0
-"""Of an environment's picture; a button is 1 high."""
+"""Height of an environment's picture; a button is 1 high."""
 
 
 class RSIBR_MT_pictures(bpy.types.Menu):

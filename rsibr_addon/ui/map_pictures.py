@@ -21,7 +21,7 @@ SECONDS = 0.1
 """Between two looks at whether a file has been read."""
 
 type Item = tuple[str, str, str, int, int]
-"""Of an enumeration: identifier, name, description, icon, number."""
+"""Item of an enumeration: identifier, name, description, icon, number."""
 
 
 class MapPictures:
@@ -122,4 +122,4 @@ class MapPictures:
 
 
 map_pictures = MapPictures()
-"""Those in the panels of this Blender."""
+"""The pictures in this Blender's panels."""

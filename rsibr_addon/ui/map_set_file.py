@@ -19,7 +19,7 @@ def draw_file(layout: bpy.types.UILayout, item: bpy.types.Object, path: Path, wi
     path : Path
         A whole map set.
     width : int
-        Of the region in pixels.
+        Width of the region in pixels.
     """
     packed = is_packed(item.rsibr)
     row = layout.row(align=True)

@@ -14,7 +14,7 @@ from .sentences import tell
 from .sidebar import InSidebar
 
 MAP_SCALE, LOBES_SCALE = 9.0, 9.0
-"""Of pictures in panels; a button is 1 high."""
+"""Heights of pictures in panels; a button is 1 high."""
 
 
 class RSIBR_PT_result(InSidebar, bpy.types.Panel):

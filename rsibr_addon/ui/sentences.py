@@ -3,7 +3,8 @@
 import bpy
 
 LETTER_WIDTH, MARGIN = 7, 60
-"""Of a panel's text, the mean, and of a region, with an icon; pixels at Blender's own scale."""
+"""Mean width of a letter in a panel, and width of a region's margins and an icon; in pixels at Blender's own
+scale."""
 
 
 def tell(layout: bpy.types.UILayout, message: str, width: int, icon: str = "ERROR") -> None:
@@ -14,7 +15,7 @@ def tell(layout: bpy.types.UILayout, message: str, width: int, icon: str = "ERRO
     layout : bpy.types.UILayout
     message : str
     width : int
-        Of the region in pixels.
+        Width of the region in pixels.
     icon : str
         Before the first line.
     """

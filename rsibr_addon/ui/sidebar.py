@@ -2,7 +2,7 @@
 
 
 class InSidebar:
-    """Of panels in our tab."""
+    """Base of the panels in RSIBR's tab."""
 
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"

@@ -43,7 +43,7 @@ def compare(
     map_set : Path
         With the environment that it was made in.
     settings : ComparisonOptions
-        Of its kind: see `truth_of`.
+        Settings of its kind: see `truth_of`.
     output : Path
         A folder to be made: comparison.json (`Comparison.to_json`), index.html, which shows all of
         it by itself, and its pictures as images/*.png.

@@ -20,7 +20,7 @@ RESULT = "comparison.json"
 """The file by which a comparison's folder is known."""
 
 MOST_VIEWS, MOST_WAYS = 2**16, 1024
-"""Of a comparison that is read."""
+"""Greatest numbers of views, and of ways to draw, that a comparison may have when it is read."""
 
 
 class Way(Protocol):
@@ -51,9 +51,9 @@ class WayError:
     ----------
     way : Way
     per_view : tuple of float
-        Of each view alone.
+        Error of each view alone.
     pooled : float
-        Of all views as one picture.
+        Error of all views as one picture.
     """
 
     way: Any
@@ -62,7 +62,7 @@ class WayError:
 
     @property
     def median(self) -> float:
-        """Of the views' errors."""
+        """Median of the views' errors."""
         return median(self.per_view)
 
     @property
@@ -99,7 +99,7 @@ class Comparison:
     map_size : int
         Width and height of the maps in texels.
     settings : ComparisonOptions
-        Of the kind of map set.
+        Settings of the kind of map set.
     view_dirs : tuple
         Unit vector to the eye of each view.
     reference_noise : float
@@ -141,7 +141,7 @@ class Comparison:
         ----------
         plain : object
         settings, way : type
-            Of what kind the settings and the ways to draw are: see `truth.Truth`.
+            The kind of the settings and the ways to draw: see `truth.Truth`.
 
         Raises
         ------

@@ -26,7 +26,7 @@ from .comparison import Comparison, cameras_of, way_error
 from .truth import Drawn, Truth
 
 LEAST_RINGS = 32
-"""Of a reference, where no number is asked for."""
+"""Fewest rings of a reference, where no number is asked for."""
 
 
 @dataclass(frozen=True)

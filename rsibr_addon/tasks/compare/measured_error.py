@@ -20,7 +20,7 @@ def measured_facts(map_set: Path, look: Any = None) -> dict[str, str]:
     ----------
     map_set : Path
     look : object, optional
-        Of the map set's kind: tells of drawing so alone.
+        Look of the map set's kind, if only that way to draw counts.
 
     Returns
     -------

@@ -21,7 +21,7 @@ BRIGHTER, DARKER = (1.0, 0.12, 0.05), (0.05, 0.25, 1.0)
 """Colours of drawings brighter and darker than the reference, scene-linear."""
 
 LUMINANCE = (0.2126, 0.7152, 0.0722)
-"""Of Rec. 709 primaries, [BT709] item 3.2."""
+"""Luminance of the Rec. 709 primaries: [BT709] item 3.2."""
 
 
 @dataclass(frozen=True)

@@ -99,7 +99,7 @@ def render_reference(captured: Captured, camera: Camera, size: int, samples: int
     samples : int
         A pixel, at least 4; each render takes half of them, rounded down.
     seed : int
-        Of the first render; the second's is `seed` + 1.
+        Seed of the first render; the second's is `seed` + 1.
 
     Returns
     -------

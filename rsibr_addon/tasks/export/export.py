@@ -33,7 +33,7 @@ def export(map_set: Path, output: Path, settings: Any = None, force: bool = Fals
     output : Path
         Its suffix tells the format.
     settings : object, optional
-        Of the format: see `Format.settings`; its defaults else.
+        Settings of the format, see `Format.settings`; by default its own.
 
     Raises
     ------

@@ -21,7 +21,7 @@ class Format:
     label : str
         In a menu.
     suffix : str
-        Of its files' names, in small letters: ".ktx2".
+        Ending of its files' names, in small letters: ".ktx2".
     settings : type
         Its options, which all have defaults.
     write : callable

@@ -37,7 +37,7 @@ class BallReport:
     circles : tuple of (Path, (float, float, float))
         x, y and radius of the outline in each, in pixels from its top left corner as it is stored.
     gains : tuple of float
-        Of each side: see `environment_from_balls`.
+        Gains of each side: see `environment_from_balls`.
     """
 
     circles: tuple[tuple[Path, tuple[float, float, float]], ...]

@@ -126,7 +126,7 @@ def read_photographs(paths: list[Path]) -> Steps[tuple[list[Array], Encoding]]:
     list of ndarray, shape (height, width, 3), float32
         In [0, 1], row 0 at the bottom.
     Encoding
-        Of all of them.
+        Encoding of all of them.
 
     Raises
     ------
@@ -182,14 +182,14 @@ def merged(
     Parameters
     ----------
     name : Path
-        Of one of them, for messages.
+        Path of one of them, for messages.
     settings : BracketSettings
     pictures : list of ndarray, shape (height, width, 3)
         Encoded; the shortest exposure first.
     times : list of float
         Their exposures.
     encoding : Encoding
-        Of all of them.
+        Encoding of all of them.
 
     Returns
     -------

@@ -13,7 +13,7 @@ from ...settings.convert import ConvertSettings
 from .light_pictures import read_light
 
 BYTES_OF_TEXEL = 80
-"""Of memory for each texel of a new map: means over the old map's texels are summed in double precision."""
+"""Bytes of memory for each texel of a new map: means over the old texels are summed in double precision."""
 
 
 def convert(source: Path, settings: ConvertSettings, output: Path, force: bool = False) -> Steps[list[Path]]:

@@ -13,7 +13,7 @@ from ...host.scenes import find_scene
 from ...host.worlds import sample_world, studio_environments, world_of
 
 WORLD_HEIGHT = 512
-"""Of the environment that a world is sampled into, in texels."""
+"""Height in texels of the environment that a world is sampled into."""
 
 
 def load_environment(spec: str | None, clamp: float | None = None) -> Environment:

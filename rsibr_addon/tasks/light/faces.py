@@ -17,7 +17,7 @@ from ...settings.environment import FacesSettings
 from .light_pictures import read_light
 
 SATURATED = 0.96
-"""Of a photograph's white in linear light, 250 of 255: beyond, exposures do not compare."""
+"""Share of a photograph's white, in linear light (250 of 255): brighter pixels tell no exposure."""
 
 
 def illuminate_from_faces(

@@ -33,8 +33,9 @@ SEEN_WIDTH = 4.0
 """Texels that a lamp must be wide for rays to sample it well: a narrower one is measured."""
 
 PANORAMA_ROWS = 4
-"""Of pixels for each row of a panorama's texels: within a pixel Cycles counts latitudes alike, however small
-their circles, so that beside a pole what covers a part of it would count by height and not by area."""
+"""Rows of pixels for each row of a panorama's texels. Cycles weighs all latitudes within a pixel alike,
+however small their circles: beside a pole, light that fills a part of a pixel would count by its height and
+not by its area."""
 
 PANORAMA_STEPS = 8
 """A panorama is rendered in so many parts of its samples, so that it can be interrupted."""
@@ -94,7 +95,7 @@ def illuminate_from_scene(light: SceneLight, output: Path, force: bool = False) 
 
 
 def _resolution(light: SceneLight) -> tuple[int, int]:
-    """Of a picture in pixels."""
+    """Width and height of a picture in pixels."""
     half = light.size // 2
     return (half, half) if light.faces else (light.size, half * PANORAMA_ROWS)
 
@@ -143,7 +144,7 @@ def _merged_rows(pixels: Array) -> Array:
 
 
 def _radiance(light: SceneLight, passes: dict[str, Array], overlap: int) -> Array:
-    """A picture's radiance, without noise if so wished; it goes on beyond its sides as far as `overlap`."""
+    """A picture's radiance, denoised if the settings say so; `overlap` columns continue it on either side."""
     if not light.denoise:
         return passes["radiance"]
     around = ((0, 0), (overlap, overlap), (0, 0))

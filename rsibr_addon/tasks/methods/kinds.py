@@ -37,7 +37,7 @@ class OpenedMapSet:
     environment : Environment or None
         The light it was made in; None where the file does not hold it.
     material : dict
-        Of the map set's header.
+        The material in the map set's header.
     texels : int
         How many the file holds.
     """
@@ -93,7 +93,7 @@ def open_map_set(path: Path, kind: str | None = None, clamp: float | None = None
     kind : str, optional
         The only kind that will do.
     clamp : float, optional
-        Of a picture: see `core.environment.usable_radiance`.
+        Clamp of a picture: see `core.environment.usable_radiance`.
 
     Raises
     ------

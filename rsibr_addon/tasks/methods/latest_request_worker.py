@@ -107,4 +107,4 @@ class LatestRequestWorker:
 
 
 workshop = LatestRequestWorker()
-"""Of this Blender; closed where there are no viewports."""
+"""The worker of this Blender; closed where there are no viewports."""

@@ -29,11 +29,11 @@ DRAFT = (1, 6, 1)
 """Lobes, elevations and taps of what is shown until the fit is there."""
 
 RESOLVED = 50.0
-"""Of a lobe: concentration of the sharpest kernel times its radius squared. Below, E of a fit grows by more
+"""Concentration of the sharpest kernel times a lobe's radius squared. Below, E of a fit grows by more
 than a sixth."""
 
 FITS_KEPT = 256
-"""Of some 15 kB each."""
+"""How many fits are kept; each takes some 15 kB."""
 
 KEPT = 8
 """What is drawn stays until so many others have been uploaded since."""

@@ -36,7 +36,7 @@ class Cost:
     Attributes
     ----------
     processor_seconds : float
-        Of all cores together.
+        Seconds of all cores together.
     memory : float
         Bytes.
     disk : float

@@ -18,13 +18,13 @@ from ...core.progress import Progress
 from ...core.schema import decode, loads
 
 LAST_LINES = 20
-"""Of what a Blender said, kept for the case that it ends without a word of ours."""
+"""How many lines of Blender's output are kept: they tell why it ended without a message of ours."""
 
 GRACE_SECONDS = 1.0
 """Until a Blender that was asked to end is killed: more than it takes to do so by itself."""
 
 NICENESS = 10
-"""Of a bake, above that of the artist's Blender, which comes first."""
+"""How much nicer a bake is than the artist's Blender, which comes first."""
 
 LEAST_URGENT = 19
 """The highest niceness there is."""
@@ -91,7 +91,7 @@ class Bake:
     progress : Progress or None
         None before there is any.
     message : str
-        Of a failed bake: why, in one sentence.
+        Why a bake failed, in one sentence.
     warnings : list of str
     """
 
@@ -235,7 +235,7 @@ class BakeQueue[B: Bake]:
         Returns
         -------
         list of Bake
-            Those that have ended since.
+            The bakes that have ended since.
         """
         running = [bake for bake in self.bakes if not bake.ended]
         for bake in running:

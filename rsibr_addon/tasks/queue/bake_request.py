@@ -41,10 +41,10 @@ from ..methods.method import Cost
 from .background import Bake, blender_command
 
 HASH_LETTERS = 10
-"""Of a file's name: enough to tell a million bakes apart."""
+"""Length of the hash in a file's name; it tells a million bakes apart."""
 
 NAME_LETTERS = 50
-"""Of a file's name at most, for people: a letter may take 4 bytes of 255."""
+"""Greatest length of the words in a file's name: a letter may take 4 of its 255 bytes."""
 
 COMPARED_VIEWS = 6
 """From so many sides a map set is compared with the truth."""
@@ -105,7 +105,7 @@ class ObjectBake(Bake):
     items : list of int
         The objects' `session_uid`.
     settings : dict
-        Of the request; empty where what it makes shades nothing.
+        Settings of the request; empty if what it makes shades nothing.
     reads : ExitStack
         Removes what the bake reads.
     """
@@ -153,7 +153,7 @@ def output_for(request: BakeRequest, scene: Any, item: Any) -> Path:
     Parameters
     ----------
     request : BakeRequest
-        Of `scene` and `item`.
+        The request of `scene` and `item`.
     scene : bpy.types.Scene
     item : bpy.types.Object
 
@@ -198,7 +198,7 @@ def bake_of(request: BakeRequest, item: Any, output: Path) -> ObjectBake:
     ----------
     request : BakeRequest
     item : bpy.types.Object
-        That is to be shaded from the map set.
+        The object that the map set will shade.
     output : Path
 
     Returns
@@ -225,7 +225,7 @@ def comparison_of(item: Any, map_set: Path) -> ObjectBake:
     Returns
     -------
     ObjectBake
-        Whose output is a report in the folder NAME-compared beside NAME.rsibr.exr.
+        Its output is a report in the folder NAME-compared beside NAME.rsibr.exr.
 
     Raises
     ------

@@ -23,7 +23,7 @@ MATERIAL = "blend"
 """What a text begins with that stands for a material: ``blend:FILE.blend:NAME``, ``blend:PRESET``."""
 
 CHECKED = slice(COSINES // 16, None, COSINES // 16)
-"""Of the furnace's cosines: at the others, close to grazing, a table's own interpolation would count."""
+"""The furnace's cosines that are checked: closer to grazing, a table's own interpolation would count."""
 
 TOLERATED_DIFFERENCE = 0.03
 """Share of the light sent back that may be missing or too much before somebody is told."""
@@ -65,7 +65,7 @@ def told_brdf(spec: str) -> Brdf:
     Parameters
     ----------
     spec : str
-        Of a file that may come from anywhere.
+        Text of a file that may come from anywhere.
 
     Raises
     ------

@@ -35,7 +35,7 @@ class FitResult:
     errors : FitErrors
         At the fitted elevations.
     seconds : float
-        Of processor time that the fit took, sampling included and measuring left out.
+        Processor time of the fit, with sampling and without measuring.
     """
 
     fit: Fit

@@ -26,7 +26,7 @@ class MapPicture:
     Attributes
     ----------
     name : str
-        Of its part.
+        Name of its part.
     title : str
         For people.
     pixels : ndarray, shape (height, width, 3), float32

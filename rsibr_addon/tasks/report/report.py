@@ -33,7 +33,7 @@ from .facts import map_set_fit, map_set_header
 TEMPLATE = Path(__file__).with_suffix(".html")
 
 MESH_SIZE = 288
-"""Of the pictures of a sphere and of Suzanne, in pixels."""
+"""Width and height of the pictures of a sphere and of Suzanne, in pixels."""
 
 MAP_SIZE = 160
 """Largest width and height of a map's picture, in pixels."""

@@ -28,7 +28,7 @@ class LiveLight:
     Parameters
     ----------
     size : int
-        Of a face in texels.
+        Width of a face in texels.
 
     Attributes
     ----------
@@ -60,7 +60,7 @@ class LiveLight:
         Parameters
         ----------
         view : View
-            Of that viewport; its shading is that of the surroundings.
+            View of that viewport; its shading is that of the surroundings.
         surface : Surface
             The object, as it stands.
 

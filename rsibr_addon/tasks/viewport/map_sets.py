@@ -10,7 +10,7 @@ KEPT_BYTES = 512 * 2**20
 """What map sets that no object uses may take on the GPU."""
 
 TEXEL_BYTES = 16
-"""Of most textures; half floats take half."""
+"""Bytes of a texel of most textures; half floats take half."""
 
 type Stamp = tuple[int, int, int]
 """Another for a file that has been written anew."""

@@ -119,7 +119,7 @@ class Previews:
         Parameters
         ----------
         view : View
-            That which Blender is drawing.
+            The one that Blender is drawing.
 
         Returns
         -------
@@ -136,7 +136,7 @@ class Previews:
         Parameters
         ----------
         view : View
-            That whose pixels Blender is drawing.
+            The one whose pixels Blender is drawing.
 
         Returns
         -------
@@ -350,4 +350,4 @@ def _told(error: Exception) -> str:
 
 
 previews = Previews()
-"""Those of this Blender."""
+"""The previews of this Blender."""

@@ -1,4 +1,4 @@
-"""Take a map set that has changed for what the active object is to be shaded from."""
+"""Accept that the file of the active object's map set has changed."""
 
 import bpy
 

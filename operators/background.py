@@ -1,4 +1,4 @@
-"""How bakes go on while Blender does: the queue, looked at now and then, and what comes of it."""
+"""The queue of bakes: a timer looks at it, and assigns what is done."""
 
 from contextlib import ExitStack
 
@@ -18,7 +18,7 @@ queue = BakeQueue[ObjectBake]()
 
 
 def start(undo: ExitStack) -> None:
-    """Have bakes ended when the extension or Blender goes.
+    """End all bakes when the extension or Blender ends.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Bake what the active object is shaded from once more."""
+"""Bake the active object's map set again."""
 
 import bpy
 
@@ -8,14 +8,14 @@ from .bake_in_background import queue_bake
 
 
 class RSIBR_OT_bake_again(Undoable, bpy.types.Operator):
-    """Bake this object's map set with the settings that it was baked with, which the panels then show"""  # noqa: D400  (a tooltip)
+    """Bake this object's map set again with its own settings, and show them in the panels"""  # noqa: D400  (a tooltip)
 
     bl_idname = "rsibr.bake_again"
     bl_label = "Bake Again"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether it is known how."""
+        """Whether the settings of its bake are known."""
         known = context.object is not None and context.object.is_property_set("rsibr_baked")
         if not known:
             cls.poll_message_set("It was not baked here: choose settings, and press Bake")

@@ -1,4 +1,4 @@
-"""Bake what the scene's settings say for the active object, in a Blender of its own."""
+"""Bake for the active object in a background Blender, by the scene's settings."""
 
 import bpy
 
@@ -11,14 +11,14 @@ from .at_once import Undoable
 
 
 class RSIBR_OT_bake(Undoable, bpy.types.Operator):
-    """Bake a map set for the active object in the background, and shade the object from it when it is done"""  # noqa: D400  (a tooltip)
+    """Bake a map set for the active object in the background, then shade the object from it"""  # noqa: D400  (a tooltip)
 
     bl_idname = "rsibr.bake"
     bl_label = "Bake"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether nothing is missing; the button's tooltip says what is."""
+        """Whether the bake can start; if not, the button's tooltip says why."""
         try:
             request_for(context.scene, context.object)
         except RsibrError as error:

@@ -19,7 +19,7 @@ from .stepwise import Stepwise
 
 
 class _BakeKind(Stepwise):
-    """What these operators share; the properties of the method's settings and of the light come besides."""
+    """Base of the operators; their properties are the settings of the method and of the light."""
 
     bl_options = {"REGISTER"}  # noqa: RUF012  (Blender reads the class)
     interrupted = "Bake interrupted; started again, a capture goes on"
@@ -38,7 +38,7 @@ class _BakeKind(Stepwise):
         self.report({"INFO"}, f"Baked {result.path}")
 
     def _own_material(self, context: bpy.types.Context) -> str:
-        """The active object's, where the settings take one and none is given."""
+        """The active object's material, if the settings take one and none is given."""
         missing = [
             each.name
             for each in declared_options(self.SETTINGS)

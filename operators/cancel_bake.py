@@ -1,4 +1,4 @@
-"""End a bake of the queue, or put one away that has ended."""
+"""Cancel a bake of the queue, or remove one that has ended."""
 
 import bpy
 

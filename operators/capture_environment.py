@@ -15,7 +15,7 @@ from .makes_light import MakesLight
 
 
 class RSIBR_OT_capture_environment(MakesLight, bpy.types.Operator):
-    """Render the light that arrives somewhere into a latitude-longitude picture"""  # noqa: D400  (a tooltip)
+    """Render the light that arrives at a point into a latitude-longitude picture"""  # noqa: D400  (a tooltip)
 
     bl_idname = "rsibr.capture_environment"
     bl_label = "Capture Environment"

@@ -11,14 +11,14 @@ from .at_once import AtOnce
 
 
 class RSIBR_OT_compare(AtOnce, bpy.types.Operator):
-    """Measure in the background how far the preview is from what Cycles shows, and open a report"""  # noqa: D400  (a tooltip)
+    """Compare the preview with Cycles in the background, and open a report"""  # noqa: D400  (a tooltip)
 
     bl_idname = "rsibr.compare"
     bl_label = "Compare"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether there is a map set with a truth to compare with; the button's tooltip says why not."""
+        """Whether the map set has a reference to compare with; if not, the button's tooltip says why."""
         if context.object is None or not context.object.rsibr.map_set:
             return False
         try:

@@ -4,7 +4,7 @@ import bpy
 
 
 class RSIBR_OT_drag_split(bpy.types.Operator):
-    """Move the line beyond which Blender's own shading shows; click to leave it there"""  # noqa: D400  (a tooltip)
+    """Move the line right of which Blender's own shading shows; click to set it"""  # noqa: D400  (a tooltip)
 
     bl_idname = "rsibr.drag_split"
     bl_label = "Drag the Line"

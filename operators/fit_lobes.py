@@ -15,7 +15,7 @@ from .stepwise import Stepwise
 
 
 class RSIBR_OT_fit_lobes(Stepwise, bpy.types.Operator):
-    """Approximate how a material reflects by a few round lobes for each view elevation, into a file"""  # noqa: D400  (a tooltip)
+    """Fit a few round lobes to a material's reflection at each view elevation, and write them to a file"""  # noqa: D400  (a tooltip)
 
     bl_idname = "rsibr.fit_lobes"
     bl_label = "Fit Lobes"

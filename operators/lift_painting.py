@@ -13,7 +13,7 @@ from .from_pictures import FromPictures
 
 
 class RSIBR_OT_lift_painting(FromPictures, bpy.types.Operator):
-    """Make an environment from a picture of 8 or 16 bits, whose whites become lamps; of a layout in several files select one of them"""  # noqa: D400, E501  (a tooltip)
+    """Make an environment from a painted picture (8 or 16 bits): its whites become lamps. If a layout has several files, select one"""  # noqa: D400, E501  (a tooltip)
 
     bl_idname = "rsibr.lift_painting"
     bl_label = "Lift Painting"

@@ -12,7 +12,7 @@ from .from_pictures import FromSeveralPictures
 
 
 class RSIBR_OT_merge_brackets(FromSeveralPictures, bpy.types.Operator):
-    """Merge photographs at several exposures into one picture of radiance, laid out as they are"""  # noqa: D400  (a tooltip)
+    """Merge photographs at several exposures into one picture of radiance with the same layout"""  # noqa: D400  (a tooltip)
 
     bl_idname = "rsibr.merge_brackets"
     bl_label = "Merge Brackets"

@@ -11,7 +11,7 @@ from .at_once import AtOnce
 
 
 class RSIBR_OT_open_report(AtOnce, bpy.types.Operator):
-    """Show all that the active object's map set holds: its maps, its settings and the error it promises"""  # noqa: D400  (a tooltip)
+    """Show the active object's map set in the browser: its maps, settings and error bound"""  # noqa: D400  (a tooltip)
 
     bl_idname = "rsibr.open_report"
     bl_label = "Report"

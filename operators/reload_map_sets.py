@@ -7,14 +7,14 @@ from .at_once import AtOnce
 
 
 class RSIBR_OT_reload_map_sets(AtOnce, bpy.types.Operator):
-    """Read the map sets' files again, and try again what failed"""  # noqa: D400  (a tooltip)
+    """Read the files of all map sets again, and retry what failed"""  # noqa: D400  (a tooltip)
 
     bl_idname = "rsibr.reload_map_sets"
     bl_label = "Reload Map Sets"
     bl_options = {"REGISTER"}  # noqa: RUF012  (Blender reads the class)
 
     def work(self, context: bpy.types.Context) -> None:
-        """Let go of what is uploaded; the next redraw reads it."""
+        """Release what is uploaded; the next redraw reads the files."""
         previews.reload()
         for window in context.window_manager.windows:
             for area in window.screen.areas:

@@ -12,7 +12,7 @@ from .reporting import reporting
 
 
 class Stepwise:
-    """To be derived from together with `bpy.types.Operator`, which then has a property `filepath`.
+    """Base of operators that do long work, beside `bpy.types.Operator`; adds the property `filepath`.
 
     Called from a script it works at a stretch; from the interface it asks for the file and takes one step per
     tick of a timer, until Escape.

@@ -8,7 +8,7 @@ from .at_once import Undoable
 
 
 class RSIBR_OT_unpack(Undoable, bpy.types.Operator):
-    """Write the active object's packed map set to where baked files go, and shade from that file"""  # noqa: D400  (a tooltip)
+    """Write the active object's packed map set to the folder of baked files, and shade the object from it"""  # noqa: D400  (a tooltip)
 
     bl_idname = "rsibr.unpack"
     bl_label = "Unpack"

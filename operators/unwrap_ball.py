@@ -13,7 +13,7 @@ from .from_pictures import FromSeveralPictures
 
 
 class RSIBR_OT_unwrap_ball(FromSeveralPictures, bpy.types.Operator):
-    """Make an environment from a photograph of a mirrored ball, or two from two sides; merge exposures before"""  # noqa: D400, E501  (a tooltip)
+    """Make an environment from one photograph of a mirrored ball, or from two sides of it. Merge exposures first"""  # noqa: D400, E501  (a tooltip)
 
     bl_idname = "rsibr.unwrap_ball"
     bl_label = "Unwrap Mirror Ball"

@@ -1,4 +1,4 @@
-"""What is to be made: one description for panels, the command line and farms."""
+"""Jobs: one description of the work for panels, the command line and farms."""
 
 import json
 from dataclasses import dataclass, field

@@ -1,4 +1,4 @@
-"""What a Blender file keeps of ours: each object's map set, and how it is to be shaded."""
+"""Properties of an object: its map set, and how it is shaded."""
 
 from collections.abc import Iterable
 from typing import Any
@@ -49,8 +49,8 @@ class RSIBR_PG_live(bpy.types.PropertyGroup):
     )
     budget = bpy.props.IntProperty(
         name="Budget (ms)",
-        description="What a frame may spend on new light after a change: as many of the six faces as fit, at "
-        "least one. Less keeps Blender quick, more lets the light follow sooner",
+        description="Time that a frame may spend on new light after a change; it renders at least one of six "
+        "faces. Less keeps Blender quick, more lets the light follow sooner",
         default=20,
         min=1,
         soft_max=200,
@@ -102,7 +102,9 @@ class RSIBR_PG_view(bpy.types.PropertyGroup):
     """How viewports show previews, for as long as Blender runs."""
 
     split = bpy.props.BoolProperty(
-        name="Split", description="Show something else right of a line", update=_notice
+        name="Split",
+        description="Show Blender's shading, another look or a difference right of a line",
+        update=_notice,
     )
     beyond = bpy.props.EnumProperty(
         name="Right of It",
@@ -123,7 +125,7 @@ class RSIBR_PG_view(bpy.types.PropertyGroup):
     )
     line = bpy.props.FloatProperty(
         name="Line",
-        description="Where the one ends and the other begins",
+        description="Position of the line",
         update=_notice,
         subtype="FACTOR",
         default=0.5,

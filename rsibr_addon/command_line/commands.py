@@ -83,14 +83,19 @@ def parser() -> Parser:
         "--progress",
         choices=["auto", "bar", "json", "none"],
         default="auto",
-        help="on standard error: a bar, a JSON object a line, or nothing (default: a bar on a terminal)",
+        help="progress on standard error: a bar, JSON lines or nothing (default: a bar on a terminal)",
     )
     heard = common.add_mutually_exclusive_group()
     heard.add_argument(
-        "--verbose", action="store_true", help="on standard error, also what Blender and its libraries say"
+        "--verbose",
+        action="store_true",
+        help="show the output of Blender and its libraries too, on standard error",
     )
     heard.add_argument(
-        "--log", metavar="FILE", default=os.devnull, help="add what Blender and its libraries say to a file"
+        "--log",
+        metavar="FILE",
+        default=os.devnull,
+        help="append the output of Blender and its libraries to a file",
     )
     parser = Parser(prog="rsibr", description="Prefiltered reflection maps with Blender.")
     commands = parser.add_subparsers(metavar="COMMAND", required=True)

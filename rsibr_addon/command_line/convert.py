@@ -19,7 +19,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "NAME-px.exr, NAME-nx.exr, -py, -ny, -pz, -nz; for dual_paraboloid and orthographic NAME.exr, for "
         "NAME-front.exr and NAME-back.exr",
     )
-    parser.add_argument("output", metavar="OUT.exr|OUT.hdr", type=Path, help="named as IN")
+    parser.add_argument(
+        "output", metavar="OUT.exr|OUT.hdr", type=Path, help="the new map, named in the same way"
+    )
     add_options(parser, ConvertSettings)
     parser.add_argument("--force", action="store_true", help="replace what exists")
 

@@ -29,7 +29,7 @@ PR_SET_PDEATHSIG = 1
 def guarded(work: Callable[[], int], argv: Sequence[str]) -> int:
     """Do work in a child process, and see to its end.
 
-    To be called before anything heavy is imported and any thread is started.
+    Call it before any heavy import and before any thread starts.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ def _temporary_folder() -> Iterator[None]:
 
 
 def _work(work: Callable[[], int]) -> NoReturn:
-    """Work to the end; without Blender's own, which takes time and has nothing left to do."""
+    """Do the work, and exit without Blender's own exit, which takes time and does nothing needed."""
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
     endings.listen(_end)

@@ -18,7 +18,7 @@ REASON_LETTERS = 500
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what `run` reads."""
-    parser.add_argument("job", metavar="JOB.json", type=Path, help="what is to be made, as JSON")
+    parser.add_argument("job", metavar="JOB.json", type=Path, help="the job, as JSON")
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:

@@ -102,7 +102,7 @@ def run(argv: Sequence[str]) -> int:
 
 
 def _done(arguments: argparse.Namespace, told: Outlet) -> tuple[dict[str, Any], list[str]]:
-    """Do what is asked for; what is to be said of it to programs and to people."""
+    """Run a command; its result for programs, and its lines for people."""
     from .console import Console
 
     console = Console(arguments.progress, told)

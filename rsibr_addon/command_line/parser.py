@@ -19,7 +19,7 @@ class Parser(argparse.ArgumentParser):
         return found, unknown
 
     def _refuse_unknown_options(self, args: Sequence[str]) -> None:
-        """Before argparse misses an option that is only misspelt."""
+        """Refuse a misspelt option before argparse says that another is missing."""
         for word in args:
             name = word.partition("=")[0]
             if name == "--" or (self._subparsers and not name.startswith("-")):

@@ -14,6 +14,10 @@ class ComparisonOptions(SceneOptions):
         128, label="Size", help="Width and height of a picture", unit="pixels", least=1, most=1024
     )
     views: int = option(
-        30, label="Views", help="View directions, at random evenly over the sphere", least=1, most=2**16
+        30,
+        label="Views",
+        help="View directions, random and evenly distributed over the sphere",
+        least=1,
+        most=2**16,
     )
-    seed: int = option(0, label="Seed", help="Seed of everything random", least=0)
+    seed: int = option(0, label="Seed", help="Seed of all random numbers", least=0)

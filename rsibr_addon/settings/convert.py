@@ -14,13 +14,13 @@ PARAMETERS = {"overscan": "dual_paraboloid", "distance": "mirror_ball"}
 
 @dataclass(frozen=True, kw_only=True)
 class ConvertSettings(BallDistance, Clamp):
-    """How a map is laid out, and how it shall be."""
+    """The layouts of a map before and after."""
 
     source_layout: str = option(
-        label="From", help="How IN is laid out", choices=LAYOUTS, flag="--from", metavar="LAYOUT"
+        label="From", help="Layout of IN", choices=LAYOUTS, flag="--from", metavar="LAYOUT"
     )
     target_layout: str = option(
-        label="To", help="How OUT shall be laid out", choices=LAYOUTS, flag="--to", metavar="LAYOUT"
+        label="To", help="Layout of OUT", choices=LAYOUTS, flag="--to", metavar="LAYOUT"
     )
     size: int = option(
         label="Size",

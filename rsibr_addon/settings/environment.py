@@ -71,7 +71,7 @@ class Capture(EnvironmentSize):
     samples: int = option(
         128,
         label="Samples",
-        help="Samples of Cycles for each texel; of six faces for each pixel, some three of a texel",
+        help="Samples of Cycles for each texel; with six faces for each pixel, about three to a texel",
         least=1,
         most=1 << 24,
     )
@@ -138,11 +138,11 @@ class PaintedSettings(EnvironmentSize):
     )
     white: tuple[float, float, float] = option(
         label="White",
-        help="Radiance that white becomes, in red, green and blue; the darker a colour the less it is lifted",
+        help="Radiance of white in red, green and blue; darker colours are lifted less",
         least=1.0,
         start=(10.0, 10.0, 10.0),
         metavar="RADIANCE|R,G,B",
     )
     knee: float = option(
-        0.7, label="Knee", help="Linear luminance up to which nothing is lifted", least=0.0, most=0.99
+        0.7, label="Knee", help="Linear luminance below which nothing is lifted", least=0.0, most=0.99
     )

@@ -20,7 +20,7 @@ class Fitting(Options):
     lobes: int = option(
         3,
         label="Lobes",
-        help="Lobes for each layer of the material, at most; more follow its reflectance more closely",
+        help="Greatest number of lobes for each layer of the material; more lobes fit its reflectance better",
         least=1,
         most=12,
         draft=2,
@@ -30,7 +30,7 @@ class Fitting(Options):
     slices: int = option(
         16,
         label="Elevations",
-        help="View elevations that the lobes are fitted at",
+        help="View elevations at which the lobes are fitted",
         least=1,
         most=256,
         draft=8,
@@ -52,10 +52,10 @@ class Fitting(Options):
     taps: int | None = option(
         None,
         label="Taps",
-        help="Directions in which each lobe's map is looked up",
+        help="Lookups into each lobe's map",
         least=1,
         most=9,
-        none="as many as pay",
+        none="as many as lower the error",
         none_as=0,
         advanced=True,
         metavar="T",
@@ -63,7 +63,7 @@ class Fitting(Options):
     error: float | None = option(
         None,
         label="Error",
-        help="Add lobes only until the error is at most this",
+        help="Add lobes until the error is at most this",
         least=1e-6,
         most=1.0,
         none="all lobes",

@@ -12,11 +12,11 @@ class Clamp(Options):
     clamp: float | None = option(
         None,
         label="Clamp",
-        help="Take brighter radiance, also where it is infinite, as this, and say how many values that are",
+        help="Greatest radiance: brighter and infinite values become this, and a warning counts them",
         least=1e-30,
         most=1e30,
         soft_most=1e5,
-        none="what is infinite is taken as the greatest value that is not",
+        none="infinite values become the greatest finite one",
         none_as=0.0,
         metavar="VALUE",
     )
@@ -29,7 +29,7 @@ class Light(Clamp):
     environment: str | None = option(
         None,
         label="Environment",
-        help="Latitude-longitude picture (EXR or HDR), or the bare name of one of Blender's own, as forest",
+        help="Latitude-longitude picture (EXR or HDR), or the name of one of Blender's own, such as forest",
         none="the world of the open file",
         none_as="",
         metavar="FILE",

@@ -43,8 +43,8 @@ class MipChainSettings(MethodSettings):
     roughness: str | tuple[float, ...] = option(
         "linear",
         label="Roughness",
-        help="How roughness grows from mip to mip of the filter ggx; or ascending numbers from 0 to 1, "
-        "as many as there shall be mips",
+        help="How roughness grows from mip to mip of the filter ggx; or the roughness of each mip, "
+        "ascending from 0 to 1",
         choices={
             "linear": Choice("Linear", "mip / last, the same step from each mip to the next"),
             "quadratic": Choice("Quadratic", "1 - sqrt(1 - mip / last), finer where highlights are sharp"),

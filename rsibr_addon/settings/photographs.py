@@ -116,7 +116,7 @@ class BallSettings(EnvironmentSize, BallDistance, Clamp):
     field_of_view: float | None = option(
         None,
         label="Field of View",
-        help="What the longer side of the photographs shows, not cropped, which tells the distance",
+        help="Angle of view of the uncropped photographs' longer side; it gives the distance",
         unit="degrees",
         least=1.0,
         most=179.0,

@@ -34,7 +34,7 @@ class RadianceViewsSettings(MethodSettings):
     views: int = option(
         12,
         label="Views",
-        help="Directions to capture the material from; more show its changing look more truly",
+        help="Directions from which the material is captured; more follow its changing look better",
         choices={
             count: Choice(str(count), f"{count} views, {degrees} degrees apart")
             for count, degrees in ((12, 63), (42, 36), (162, 18))
@@ -54,7 +54,7 @@ class RadianceViewsSettings(MethodSettings):
     samples: int = option(
         32,
         label="Samples",
-        help="Samples of Cycles for each texel; more make less noise",
+        help="Samples of Cycles for each texel; more samples make less noise",
         least=2,
         most=1 << 24,
         draft=16,

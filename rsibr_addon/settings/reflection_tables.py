@@ -33,7 +33,7 @@ class ReflectionTablesSettings(MethodSettings):
     material: str | None = option(
         None,
         label="Material",
-        help=f"Parts to start from: {', '.join(PRESETS)}; parts that are given replace its own",
+        help=f"Parts to start from: {', '.join(PRESETS)}; given parts replace those of the preset",
         none="only the parts that are given",
         metavar="PRESET",
         materials=Materials(
@@ -84,7 +84,7 @@ class ReflectionTablesSettings(MethodSettings):
         unit="texels",
         least=1,
         most=LARGEST,
-        none="what the lobes need; of a mirror, as the environment",
+        none="what the lobes need; for a mirror, the environment's own",
         none_as=0,
         draft=128,
         final=1024,

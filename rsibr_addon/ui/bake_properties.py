@@ -1,4 +1,4 @@
-"""What a scene keeps of ours: what is to be baked, and how; and each object, of what it is shaded from."""
+"""Properties of a scene, what to bake and how, and of an object, how its map set was baked."""
 
 import bpy
 
@@ -42,7 +42,7 @@ def _studio_items(group: bpy.types.PropertyGroup, context: bpy.types.Context | N
 
 @_with_methods
 class RSIBR_PG_bake(bpy.types.PropertyGroup):
-    """What is to be baked for the active object."""
+    """What to bake for the active object."""
 
     light = bpy.props.EnumProperty(
         name="Light",
@@ -88,4 +88,4 @@ POINTERS = {
     "rsibr_bake": (bpy.types.Scene, RSIBR_PG_bake),
     "rsibr_baked": (bpy.types.Object, RSIBR_PG_bake),
 }
-"""Name of a property -> what has it, and the group it points to: what is to be baked, and what was."""
+"""Name of a property -> its owner, and the group it points to: what to bake, and what was baked."""

@@ -17,7 +17,7 @@ class RSIBR_PT_live(InSidebar, bpy.types.Panel):
         self.layout.prop(context.object.rsibr.live, "on", text="")
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Show how fine the light is, and what a frame may spend on it."""
+        """Show the light's resolution, and the time that a frame may spend on it."""
         self.layout.use_property_split = True
         self.layout.prop(context.object.rsibr.live, "size")
         self.layout.prop(context.object.rsibr.live, "budget")

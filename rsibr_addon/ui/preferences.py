@@ -12,8 +12,8 @@ class RSIBR_AP_preferences(bpy.types.AddonPreferences):
 
     folder = bpy.props.StringProperty(
         name="Baked Files",
-        description="Folder for baked map sets; // is that of the open file. For files that are not saved "
-        "yet, a folder of the user's own is taken",
+        description="Folder for baked map sets; // is the folder of the open file. Files that are not saved "
+        "yet use a folder of the user",
         subtype="DIR_PATH",
         options={"PATH_SUPPORTS_BLEND_RELATIVE"},
         default=FOLDER,

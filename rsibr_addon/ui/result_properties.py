@@ -1,4 +1,4 @@
-"""What is looked at in the Result panel; kept by no file."""
+"""What the Result panel shows; no file keeps it."""
 
 import math
 

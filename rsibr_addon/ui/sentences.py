@@ -33,7 +33,7 @@ def tell(layout: bpy.types.UILayout, message: str, width: int, icon: str = "ERRO
 
 
 def duration(seconds: float) -> str:
-    """A time as one says it."""
+    """A duration in words."""
     if seconds < 10:
         return "a few seconds"
     if seconds < 90:
@@ -44,7 +44,7 @@ def duration(seconds: float) -> str:
 
 
 def amount(size: float) -> str:
-    """A number of bytes as one says it."""
+    """A number of bytes in words."""
     megabytes = size / 1e6
     if megabytes >= 1000:
         return f"{megabytes / 1000:.1f} GB"

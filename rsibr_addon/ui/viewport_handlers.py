@@ -1,4 +1,4 @@
-"""Previews come into viewports, and leave them without a trace."""
+"""Handlers that draw previews in viewports."""
 
 from collections.abc import Callable
 from contextlib import ExitStack

@@ -116,7 +116,7 @@ class Bake:
 
     @property
     def seconds_left(self) -> float | None:
-        """Judged by the steps so far; None before one is done."""
+        """Seconds left, by the steps so far; None before one is done."""
         if self.progress is None or self._first_step is None:
             return None
         since, first = self._first_step
@@ -131,7 +131,7 @@ class Bake:
         return self.state not in (State.WAITING, State.RUNNING)
 
     def start(self) -> None:
-        """Start its process; one that cannot be started has failed."""
+        """Start its process; a bake that cannot start has failed."""
         try:
             self._process = subprocess.Popen(
                 self.command,
@@ -183,7 +183,7 @@ class Bake:
             )
 
     def cancel(self) -> None:
-        """End it; what it has finished stays, and the same bake goes on from there."""
+        """End its process. Finished views stay, and the same bake goes on from there."""
         if self._process is not None and self._process.poll() is None:
             self._process.terminate()
             try:
@@ -225,12 +225,12 @@ class BakeQueue[B: Bake]:
         self.bakes: list[B] = []
 
     def add(self, bake: B) -> None:
-        """Start a bake, or have it wait for those before it."""
+        """Start a bake, or let it wait for those before it."""
         self.bakes.append(bake)
         self.update()
 
     def update(self) -> list[B]:
-        """Notice what has happened; to be called now and then.
+        """Notice what has happened; a timer calls this.
 
         Returns
         -------
@@ -255,7 +255,7 @@ class BakeQueue[B: Bake]:
         return any(not bake.ended for bake in self.bakes)
 
     def forget_ended(self) -> None:
-        """Drop those that have ended."""
+        """Remove ended bakes from the queue."""
         self.bakes = [bake for bake in self.bakes if not bake.ended]
 
     def close(self) -> None:

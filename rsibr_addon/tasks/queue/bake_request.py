@@ -1,4 +1,4 @@
-"""From what an artist has chosen to a bake in the background, and the file that it makes."""
+"""Bakes of what the artist has chosen: the request, its file, and the job in the background."""
 
 import hashlib
 import json
@@ -52,7 +52,7 @@ COMPARED_VIEWS = 6
 
 @dataclass(frozen=True)
 class BakeRequest:
-    """What is to be baked.
+    """What to bake.
 
     Attributes
     ----------
@@ -75,7 +75,7 @@ class BakeRequest:
 
     @property
     def needs_file(self) -> bool:
-        """Whether the world or the material are those of the open file."""
+        """Whether the world or the material comes from the open file."""
         return self.light.environment is None or self.own_material is not None
 
     @property
@@ -92,7 +92,7 @@ class BakeRequest:
         return cost
 
     def job(self, output: Path) -> BakeJob[Any]:
-        """What makes `output`, and replaces what is there: that is damaged, or it would not be made."""
+        """The job that makes `output`. It replaces a file there: a whole one would have been used."""
         return BakeJob(self.settings, str(output), self.light, force=True)
 
 
@@ -115,7 +115,7 @@ class ObjectBake(Bake):
     reads: ExitStack = field(default_factory=ExitStack, repr=False)
 
     def tidy(self) -> None:
-        """Remove what it has read, once it has ended."""
+        """Remove its input files after it has ended."""
         self.reads.close()
 
 

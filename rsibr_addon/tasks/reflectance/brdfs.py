@@ -30,7 +30,7 @@ TOLERATED_DIFFERENCE = 0.03
 
 
 def load_brdf(spec: str) -> Steps[Brdf]:
-    """Make the model that a text describes; measure it, where that is a material.
+    """Make the model that a text describes; a material is measured.
 
     Parameters
     ----------
@@ -166,7 +166,7 @@ def measure_material(material: str) -> Steps[MeasuredMaterial]:
 
 
 def _compare_with_furnace(brdf: MeasuredMaterial, material: str) -> None:
-    """Tell when a table does not hold what the material sends back in a white furnace."""
+    """Warn if a table's albedo differs from what the material reflects in a white furnace."""
     with temporary_scene() as scene:
         sent = float(directional_albedo(scene, load_material(material), seed=0).sum(axis=0)[CHECKED].sum())
     held = float(table_albedo(brdf, (np.arange(COSINES) + 0.5)[CHECKED] / COSINES).sum())

@@ -27,7 +27,7 @@ from .fit_plots import check_plots, write_plots
 
 @dataclass(frozen=True)
 class FitResult:
-    """What came out.
+    """A fit, and its figures.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What to tell of a map set at a glance; files are read again only when they change."""
+"""Facts of map sets for panels; a file is read again only after it has changed."""
 
 import os
 from collections.abc import Callable
@@ -16,7 +16,7 @@ from ...files.pictures import split_layer
 
 
 def read_once[*More, Told](read: Callable[[Path, *More], Told]) -> Callable[[Path, *More], Told]:
-    """Have a function of a file called again only when the file's time or size is another.
+    """Make a function of a file remember its result until the file's time or size changes.
 
     Parameters
     ----------

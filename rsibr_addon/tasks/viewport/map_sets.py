@@ -68,7 +68,7 @@ def stamp_of(path: Path) -> Stamp | None:
 
 
 class UnusedMapSets:
-    """Map sets that objects were shaded from lately: going back to one takes no time."""
+    """Map sets that objects used lately: they need no upload when they are used again."""
 
     def __init__(self) -> None:
         self._kept: dict[str, UploadedMapSet] = {}
@@ -77,13 +77,13 @@ class UnusedMapSets:
         return len(self._kept)
 
     def keep(self, name: str, map_set: UploadedMapSet) -> None:
-        """Keep a map set of a file, and let go of the oldest that `KEPT_BYTES` have no room for."""
+        """Keep a map set of a file, and release the oldest ones beyond `KEPT_BYTES`."""
         if map_set.stamp is not None:
             self._kept[name] = map_set
         while sum(each.size for each in self._kept.values()) > KEPT_BYTES:
             del self._kept[next(iter(self._kept))]
 
     def take(self, name: str, path: Path) -> UploadedMapSet | None:
-        """A map set that was kept under a name, unless its file is another by now."""
+        """A map set that was kept under a name, if its file has not changed since."""
         map_set = self._kept.pop(name, None)
         return map_set if map_set and map_set.stamp == stamp_of(path) else None

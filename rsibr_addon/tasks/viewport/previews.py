@@ -47,7 +47,7 @@ class _Contents:
 
     @property
     def moved(self) -> bool:
-        """Whether a map set has been packed or found elsewhere, of which Blender tells nobody."""
+        """Whether a map set was packed or moved; Blender sends no notice of that."""
         return any(map_set_of(item) != path for item, path in self.paths.items())
 
 

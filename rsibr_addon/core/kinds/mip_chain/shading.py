@@ -55,7 +55,7 @@ class MipLook(Options):
     mip: float = option(
         0.0,
         label="Mip",
-        help="Mip that glossy light comes from, linear between two; beyond the last, that",
+        help="Mip that glossy light comes from; fractions blend two mips",
         least=0.0,
         most=1e3,
         soft_most=10.0,
@@ -66,7 +66,7 @@ class MipLook(Options):
     roughness: float | None = option(
         None,
         label="Roughness",
-        help="Roughness that glossy light is filtered for, instead of a mip; of chains of the filter ggx",
+        help="Roughness that chooses the mip, for chains of the filter ggx",
         least=0.0,
         most=1.0,
         none="that of the mip",
@@ -80,7 +80,7 @@ class MipLook(Options):
     borders: Borders = option(
         Borders.SEAMLESS,
         label="Borders",
-        help="What a lookup near a face's border interpolates with",
+        help="What lookups interpolate with near a face's border",
         choices={
             Borders.SEAMLESS: Choice("Seamless", "the neighbouring face's texels"),
             Borders.CLAMPED: Choice("Clamped", "the face's own texels, as the hardware of 2004"),

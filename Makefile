@@ -1,4 +1,4 @@
-# Every target sets up what it needs; the virtual environment is made once and again when its versions change.
+# Every target sets up what it needs. The virtual environment is made once, and again when its versions change.
 VENV := .venv
 PYTHON := $(VENV)/bin/python
 READY := $(VENV)/.ready
@@ -7,13 +7,13 @@ READY := $(VENV)/.ready
 
 help:
 	@echo "make demo        capture two materials, preview them and compare with Cycles; pictures under demo/"
-	@echo "make test        all tests but those in a window (make test-quick: without shaders and renders)"
-	@echo "make lint        ruff and mypy"
-	@echo "make docs        the documentation site: site/index.html"
-	@echo "make extension   dist/rsibr-*.zip, to be installed in Blender"
-	@echo "make test-gui    the built extension in a Blender of its own, which .ci/window/blender installs (root on Debian)"
-	@echo "make test-faults kills and signals at 300 moments, 100,000 damaged files; hours"
-	@echo "make bench       how long captures, previews and filtering take here; tables for docs"
+	@echo "make test        run all tests but those in a window (make test-quick: without shaders and renders)"
+	@echo "make lint        run ruff and mypy"
+	@echo "make docs        build the documentation site: site/index.html"
+	@echo "make extension   build dist/rsibr-*.zip: drop it on Blender's window"
+	@echo "make test-gui    test the extension in Blender's window; .ci/window/blender installs a Blender for it (root on Debian)"
+	@echo "make test-faults kill commands at 300 moments and read 100,000 damaged files; takes hours"
+	@echo "make bench       measure captures, previews and filtering on this machine; prints the docs' tables"
 	@echo "make clean       remove everything that these targets made"
 
 $(READY): pyproject.toml .python-version .ci/constraints.txt

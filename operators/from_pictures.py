@@ -66,5 +66,5 @@ class FromSeveralPictures(FromPictures):
             None was.
         """
         folder = Path(bpy.path.abspath(self.directory))
-        # A browser in which no file is selected gives one without a name
+        # With no file selected, the browser gives one without a name
         return tuple(folder / file.name for file in self.files if file.name) or (self.source(),)

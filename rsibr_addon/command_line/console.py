@@ -89,7 +89,7 @@ class Console:
             filled = BAR_WIDTH * progress.done // max(progress.total, 1)
             bar = "#" * filled + "." * (BAR_WIDTH - filled)
             line = f"[{bar}] {progress.done}/{progress.total} {progress.what}"
-            # Back at the line's begin, so that what comes next writes over the bar
+            # Back to the line's begin, so that the next output overwrites the bar
             self.told.control(CLEAR_LINE)
             self.told.write(line[: self.told.columns - 1])
             self.told.control("\r")

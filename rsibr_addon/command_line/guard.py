@@ -66,7 +66,7 @@ def guarded(work: Callable[[], int], argv: Sequence[str]) -> int:
 def _temporary_folder() -> Iterator[None]:
     """Have all temporary files, Blender's too, in a folder that goes with the guard, or with the next one."""
     with contextlib.ExitStack() as stack:
-        # Without one, what needs a temporary file will say so
+        # Without a folder, whatever needs a temporary file will say so
         with contextlib.suppress(OSError):
             folder = stack.enter_context(staging_folder(Path(tempfile.gettempdir())))
             os.environ["TMPDIR"] = tempfile.tempdir = str(folder)

@@ -67,7 +67,7 @@ def run_alone(argv: Sequence[str], temporary: str | None = None) -> int:
     tempfile.tempdir = temporary
     with contextlib.ExitStack() as stack:
         if temporary:
-            # So that the next of us knows it for one of ours, and removes it if this process is killed
+            # The next command then knows the folder as RSIBR's, and removes it if this process is killed
             with contextlib.suppress(OSError):
                 stack.enter_context(held(Path(temporary)))
         return run(argv)

@@ -51,7 +51,7 @@ class Outlet(io.TextIOBase):
             return DEFAULT_COLUMNS
 
     def _put(self, text: str) -> None:
-        # Names that are no UTF-8 go out as the bytes that they are
+        # Names that are not UTF-8 are written as their bytes
         data = text.encode("utf-8", "surrogateescape")
         try:
             while data:

@@ -15,7 +15,7 @@ MODELS = Materials(own="blend::{}", model=GALLERY["Metals"]["Brushed copper"])
 
 @dataclass(frozen=True, kw_only=True)
 class Fitting(Options):
-    """What every fit of lobes is told."""
+    """Settings of every fit of lobes."""
 
     lobes: int = option(
         3,
@@ -97,6 +97,6 @@ class Fitting(Options):
 
 @dataclass(frozen=True, kw_only=True)
 class FitSettings(Fitting):
-    """What is fitted, and how."""
+    """Settings of a fit: the model, and how it is fitted."""
 
     brdf: str = option(label="Model", help=MODEL_HELP, metavar="SPEC", materials=MODELS)

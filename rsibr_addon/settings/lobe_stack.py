@@ -106,4 +106,4 @@ class StackComparison(ComparisonOptions):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.perspective is not None:
-            raise RangeError("Exact references are seen from afar: leave the perspective out.")
+            raise RangeError("Exact references are orthographic: leave the perspective out.")

@@ -1,4 +1,4 @@
-"""What the settings of every method say."""
+"""Base of all methods' settings."""
 
 from typing import ClassVar
 

@@ -83,7 +83,7 @@ class BracketSettings(Options):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.times is not None and self.times_file is not None:
-            raise RangeError("Exposure times are given, and a file of them too: leave one of the two out.")
+            raise RangeError("Exposure times and a file of them are both given: leave one of the two out.")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -110,7 +110,7 @@ class BallDistance(Options):
 
 @dataclass(frozen=True, kw_only=True)
 class BallSettings(EnvironmentSize, BallDistance, Clamp):
-    """How photographs of a mirrored ball were taken; those of two sides show what one cannot."""
+    """How photographs of a mirrored ball were taken. Two sides together show all directions."""
 
     circle: tuple[float, float, float] | None = _circle("Circle", "The ball's outline")
     field_of_view: float | None = option(

@@ -36,7 +36,7 @@ class RadianceViewsSettings(MethodSettings):
         label="Views",
         help="Directions from which the material is captured; more follow its changing look better",
         choices={
-            count: Choice(str(count), f"{count} views, {degrees} degrees apart")
+            count: Choice(str(count), f"{degrees} degrees apart")
             for count, degrees in ((12, 63), (42, 36), (162, 18))
         },
         final=42,

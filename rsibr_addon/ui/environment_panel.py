@@ -21,7 +21,7 @@ class RSIBR_MT_pictures(bpy.types.Menu):
     bl_label = "Make from Pictures"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """List the ways; what they make is baked with, but merged exposures need not be an environment."""
+        """List the ways. The result becomes the light, but merged exposures need not be an environment."""
         self.layout.operator("rsibr.merge_brackets", text="Merge Brackets...")
         self.layout.operator("rsibr.unwrap_ball", text="Unwrap Mirror Ball...").use = True
         self.layout.operator("rsibr.assemble_faces", text="Assemble Faces...").use = True
@@ -49,7 +49,7 @@ class RSIBR_PT_environment(InSidebar, bpy.types.Panel):
                 layout.prop(chosen, "picture", text="")
                 if chosen.image is not None:
                     layout.prop(chosen, "layer")
-                    # Whatever keeps it from being used is told with the button
+                    # The button tells why it cannot be used
                     with suppress(RsibrError):
                         for remark in light_remarks(Path(chosen_environment(context.scene) or "")):
                             tell(layout, remark, context.region.width)

@@ -66,7 +66,7 @@ def _show_look(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup | N
         if setting.identifier in bpy.types.PropertyGroup.bl_rna.properties:
             continue
         if setting.type == "ENUM" and setting.is_enum_flag:
-            # In a row, as it would be, there is room for one letter of each
+            # In a row there would be room for one letter of each
             layout.label(text=setting.name)
             flow = layout.column_flow(columns=2, align=True)
             flow.use_property_split = False

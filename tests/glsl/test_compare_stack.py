@@ -101,7 +101,7 @@ def test_the_command_tells_the_table(path: Path, capfd: pytest.CaptureFixture[st
     [
         (["--warp", "split"], "option --warp is for radiance_views, not for lobe_stack"),
         (["--samples", "16"], "option --samples is for radiance_views, not for lobe_stack"),
-        (["--perspective", "40"], "seen from afar: leave the perspective out"),
+        (["--perspective", "40"], "are orthographic: leave the perspective out"),
         (["--rings", "3"], "Rings cannot be 3"),
         (["--size", "5000"], "choose 1 to 1024"),
     ],

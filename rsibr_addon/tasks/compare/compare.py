@@ -1,4 +1,4 @@
-"""Hold pictures drawn from a map set against the truth, as numbers and as a report for people."""
+"""Compare pictures drawn from a map set with a reference: figures, and a report."""
 
 import json
 from pathlib import Path
@@ -19,7 +19,7 @@ from .truth import Truth
 
 
 def truth_of(map_set: Path) -> Truth:
-    """What a map set can be held against.
+    """The reference that a map set can be compared with.
 
     Raises
     ------
@@ -36,7 +36,7 @@ def truth_of(map_set: Path) -> Truth:
 def compare(
     map_set: Path, settings: ComparisonOptions, output: Path, force: bool = False
 ) -> Steps[Comparison]:
-    """See random views as they truly are, draw the same views from a map set, and tell the difference.
+    """Make references of random views, draw the same views from a map set, and measure the difference.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What a comparison found: plain data."""
+"""Results of a comparison: plain data."""
 
 import math
 from collections.abc import Callable

@@ -61,7 +61,7 @@ def draw(
     material: dict[str, Any],
     settings: StackComparison,
 ) -> Steps[Drawn]:
-    """Light a sphere exactly, and show a mesh as it and from the stack: see `Truth.draw`.
+    """Integrate a sphere's reflection exactly; draw a mesh from that and from the stack: see `Truth.draw`.
 
     Notes
     -----

@@ -1,4 +1,4 @@
-"""What a comparison has found of a map set, for as long as it is the same."""
+"""Errors that a comparison measured of a map set that has not changed since."""
 
 from pathlib import Path
 from typing import Any
@@ -56,7 +56,7 @@ def measured_facts(map_set: Path, look: Any = None) -> dict[str, str]:
 
 @read_once
 def _comparison(path: Path, settings: type, way: type) -> Comparison | None:
-    """What a comparison has written; None where there is none.
+    """The comparison in a folder; None if there is none.
 
     Raises
     ------

@@ -61,7 +61,7 @@ def save_sheets(folder: Path, references: list[Array], drawn: dict[Way, list[Arr
 
 
 def difference_picture(ours: Array, reference: Array, full: float) -> Array:
-    """Show where a drawing is too bright and where too dark.
+    """Show where a drawing is too bright and where it is too dark.
 
     Parameters
     ----------

@@ -117,7 +117,7 @@ def _captured(
     material = settings.material or told["spec"]
     if settings.material is None and names_other_file(material):
         raise InputFileError(
-            f"{map_set} says that its material is {material}, in a file that is opened only if you name it: "
+            f"{map_set} names the material {material}, in a file that is opened only if you name it: "
             f"do so with --material."
         )
     check_material(material, told["fingerprint"])

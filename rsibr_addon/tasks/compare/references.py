@@ -1,4 +1,4 @@
-"""What Cycles shows of the material that was captured, in the environment it was captured in."""
+"""References of radiance views: Cycles renders the captured material in its environment."""
 
 from dataclasses import dataclass
 

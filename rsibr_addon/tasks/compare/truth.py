@@ -1,4 +1,4 @@
-"""What pictures drawn from map sets of a kind are held against."""
+"""References for pictures drawn from map sets of a kind."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

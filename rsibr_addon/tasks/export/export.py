@@ -26,7 +26,7 @@ def format_of(output: Path) -> str:
 
 
 def export(map_set: Path, output: Path, settings: Any = None, force: bool = False) -> Steps[list[Path]]:
-    """Write a map set's maps as other programs take them, into one file or several: all of them, or none.
+    """Write a map set's maps for other programs, into one file or several; all files appear, or none.
 
     Parameters
     ----------

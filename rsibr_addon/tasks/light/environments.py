@@ -1,4 +1,4 @@
-"""Environments by what a user calls them."""
+"""Environments by file, by the names of Blender's own, or the world."""
 
 from pathlib import Path
 
@@ -46,11 +46,11 @@ def load_environment(spec: str | None, clamp: float | None = None) -> Environmen
     if spec is None:
         return sample_world(world_of(find_scene(None)), WORLD_HEIGHT, clamp)
     own = studio_environments()
-    # A folder may well be called as one of Blender's own
+    # A folder may have the name of one of Blender's own
     if spec in own and not Path(spec).is_file():
         spec = str(own[spec])
     if Path(spec) in own.values():
-        # Some hold negative values, of which a warning would be of no use: nobody can mend the file
+        # Some hold negative values; a warning would not help, as nobody can mend the file
         radiance = read_radiance(spec)
         radiance = np.where(radiance < 0.0, np.float32(0.0), radiance)
         return environment_from_pixels(radiance, Path(spec).name, clamp)

@@ -11,13 +11,13 @@ from ...files.radiance_pictures import describe_radiance, holds_radiance, read_r
 from ..report.facts import read_once
 
 NO_RADIANCE = (
-    "This picture is no radiance: its lamps end at white. Give OpenEXR or Radiance HDR, or make one from it."
+    "This picture holds no radiance: its lamps end at white. Give OpenEXR or Radiance HDR, or make one of it."
 )
 
 
 @read_once
 def light_remarks(path: Path) -> tuple[str, ...]:
-    """What one should know of a picture before it is baked with, by its header alone.
+    """Remarks on a picture of light before a bake, by its header alone.
 
     Parameters
     ----------

@@ -47,7 +47,7 @@ OVERLAP = 16
 def illuminate_from_scene(light: SceneLight, output: Path, force: bool = False) -> Steps[Path]:
     """Render the light around a point of the open file into a latitude-longitude map.
 
-    Between two steps nothing of ours is in the open file.
+    Between two steps, the open file holds nothing that this adds.
 
     Raises
     ------
@@ -114,7 +114,7 @@ def _parts(light: SceneLight) -> list[tuple[int | None, Sampling]]:
 
 
 def _small_lamps(around: Surroundings, size: int) -> tuple[list[LampLight], frozenset[str]]:
-    """What arrives from lamps that rays would miss; and the names of those lamps."""
+    """Light of the lamps that rays would miss, and the names of those lamps."""
     with surroundings_scene(around) as scene:
         lamps = [
             lamp for lamp in lamps_around(scene, around.point) if lamp.width < SEEN_WIDTH * 2.0 * np.pi / size

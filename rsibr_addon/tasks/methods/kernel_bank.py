@@ -1,4 +1,4 @@
-"""An environment to a bank of kernels, in a map set: materials are chosen while one looks."""
+"""An environment to a kernel bank, in a map set: the material is chosen in the preview."""
 
 from math import log2
 

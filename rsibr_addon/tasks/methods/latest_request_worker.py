@@ -25,7 +25,7 @@ class _Request:
 
 
 class LatestRequestWorker:
-    """Works off requests in a thread of its own.
+    """Works on requests in a thread of its own.
 
     A view requests anew at every redraw, so only the last request counts: at most one urgent request waits,
     and one other. Work that can be shown already makes room for an urgent request, and is requested again.
@@ -65,7 +65,7 @@ class LatestRequestWorker:
             thread.join()
 
     def request(self, key: Hashable, steps: Iterator[bool], is_urgent: bool) -> None:
-        """Have something made, unless it is being made.
+        """Request something, unless it is being made.
 
         Parameters
         ----------
@@ -81,7 +81,7 @@ class LatestRequestWorker:
                 self._changed.notify()
 
     def take_news(self) -> bool:
-        """Whether something new can be shown since one asked last."""
+        """Whether something new can be shown since the last call."""
         with self._changed:
             news, self._has_news = self._has_news, False
         return news

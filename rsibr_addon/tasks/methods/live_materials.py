@@ -1,4 +1,4 @@
-"""Reflectance models that are chosen while one looks, shaded from one kernel bank without a bake."""
+"""Reflectance models that are chosen in the preview, and shaded from a kernel bank without a bake."""
 
 import warnings
 from collections.abc import Generator, Iterator
@@ -89,7 +89,7 @@ class LiveMaterials:
         self._uploads = 0
 
     def is_ready(self, look: BankLook) -> bool:
-        """Whether a look can be drawn, if only from a draft; what lacks is made.
+        """Whether a look can be drawn, perhaps from a draft; what is missing is made.
 
         Returns
         -------
@@ -116,7 +116,7 @@ class LiveMaterials:
         return True
 
     def newest(self, looks: list[BankLook]) -> BankLook | None:
-        """The last of some looks that can be drawn. The very last one is made, where it cannot.
+        """The last of some looks that can be drawn. If the very last cannot be drawn, it is made.
 
         Parameters
         ----------
@@ -200,7 +200,7 @@ def _fit(brdf: Brdf, spec: str, quality: _Quality, sharpest: float) -> Steps[Fit
 
 
 def _unshown[Result](steps: Steps[Result]) -> Generator[bool, None, Result]:
-    """Steps after which there is nothing to be shown."""
+    """Steps after which nothing new can be shown."""
     while True:
         try:
             next(steps)

@@ -31,7 +31,7 @@ RGB = 3 * 4
 
 @dataclass(frozen=True)
 class Cost:
-    """What making a map set takes, roughly.
+    """Estimated cost of making a map set.
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ class Cost:
 
     @property
     def seconds(self) -> float:
-        """By the clock, where all cores are free; what a single one does is a small part."""
+        """Estimated duration if all cores are free; work on a single core is a small part."""
         return self.processor_seconds / (os.cpu_count() or 1)
 
 
@@ -117,7 +117,7 @@ def read_light(job: BakeJob[Any]) -> Steps[Environment]:
 
 
 def afforded_by(job: BakeJob[Any], besides: float) -> Callable[[float, int], None]:
-    """What refuses maps that are too large for this machine's memory: bytes needed and width to None.
+    """A function of bytes needed and width that refuses maps too large for this machine's memory.
 
     Parameters
     ----------

@@ -64,7 +64,7 @@ def cost(settings: RadianceViewsSettings) -> Cost:
 
 
 def bake(job: BakeJob[RadianceViewsSettings]) -> Steps[Baked]:
-    """Render the views of a material. Between two steps nothing of ours is in the open file.
+    """Render the views of a material. Between two steps, the open file holds nothing that this adds.
 
     Raises
     ------
@@ -93,7 +93,7 @@ def bake(job: BakeJob[RadianceViewsSettings]) -> Steps[Baked]:
     output = Path(job.output)
     figures = {"views": asked.views, "size": asked.size}
     done = Baked(output, f"{asked.views} views of {asked.size}x{asked.size}", figures)
-    # A capture that was killed at its very end has named its output, and its views are still there
+    # A capture killed at its very end has written its output, and its views are still there
     named = not job.force and output.is_file() and work_folder_beside(output).is_dir()
     check_map_set_target(output, job.force or named)
     yield Progress(0, asked.views, "reading the environment")
@@ -149,7 +149,7 @@ class _Captured:
         check_memory(view, str(output), (size, size), BYTES_BESIDES + light)
 
     def is_in(self, path: Path) -> bool:
-        """Whether a map set is a capture of this, with the same settings."""
+        """Whether a map set is a capture with this identity."""
         try:
             found = read_map_set_header(path)
         except MapSetError:
@@ -171,7 +171,7 @@ class _Captured:
             return directional_albedo(scene, self._material(), self.settings.seed)
 
     def _material(self) -> Any:
-        """The material as Blender has it, if it is still what it was."""
+        """The material in Blender, if it has not changed."""
         material = load_material(self.settings.material)
         if fingerprint(material) != self.fingerprint:
             raise SceneError(

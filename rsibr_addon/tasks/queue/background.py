@@ -55,7 +55,7 @@ def blender_command(blender: str, extension: str, blend: Path | None, job: Path)
         The job's JSON.
     """
     return [
-        # First of all: what it forbids is what is opened after it
+        # First of all, as it forbids only what is opened after it
         *(blender, "--background", "--disable-autoexec", *(() if blend is None else (str(blend),))),
         *("--addons", extension, "--command", "rsibr"),
         *("bake", str(job), "--json", "--progress", "json"),

@@ -280,7 +280,7 @@ def _in_background(
         title=title,
         output=output,
         command=blender_command(program, EXTENSION, blend, path),
-        # What its Blender leaves, ended amid its start, goes with the folder
+        # What a Blender leaves that is ended while it starts goes with the folder
         variables={ORIGINAL: open_file(), "TMPDIR": str(folder)},
         items=[item.session_uid],
         reads=reads,

@@ -97,7 +97,7 @@ def check_told_brdf(spec: str) -> None:
 
 def _refuse_file(name: str, path: str) -> NoReturn:
     raise InputFileError(
-        f"The map set says that its model is in {path}, a file that is opened only if you name it: do so "
+        f"The map set names a model in {path}, a file that is opened only if you name it: do so "
         f"with --brdf {name}:..."
     )
 

@@ -58,7 +58,10 @@ def test_a_world(illuminate: Command) -> None:
             ["scene", "studio.blend", "--point", "0,inf,0", "-o", "out.exr"],
             "Point cannot be inf",
         ),
-        (["scene", "studio.blend", "--object", "Car", "-o", "out.exr"], "holds no object Car: choose one of"),
+        (
+            ["scene", "studio.blend", "--object", "Car", "-o", "out.exr"],
+            "holds no object Car (did you mean Camera?): choose one of",
+        ),
         (
             ["scene", "studio.blend", "--scene", "Set", "-o", "out.exr"],
             "no scene Set: choose one of Bare, Scene",

@@ -101,7 +101,7 @@ def test_a_capture_is_whole(job: BakeJob, environment: Environment, partial: Pat
     assert map_set.header["material"]["spec"] == map_set.header["material"]["name"] == "copper"
     assert map_set.header["software"].endswith(f"Blender {bpy.app.version_string}")
     assert 0.0 < map_set.header["error_bound"]["relative_noise"] < 10.0
-    views = open_map_set(Path(job.output)).subject
+    views = open_map_set(Path(job.output)).content
     assert views.size == 12
     assert not np.any(views.diffuse)  # copper is a metal
     # Filled beyond the rim: corners repeat what is there.
@@ -111,7 +111,7 @@ def test_a_capture_is_whole(job: BakeJob, environment: Environment, partial: Pat
 def test_a_lit_texel_lands_in_every_view_where_the_conventions_say(job: BakeJob) -> None:
     size = 48
     drain(bake(changed(job, material="mirror", size=size, samples=8)))
-    views = open_map_set(Path(job.output)).subject
+    views = open_map_set(Path(job.output)).content
     lit = equirect.direction_from_uv(texel_centres(32, 16)[LIT])
     inside = sphere_map.texel_solid_angle(size) * size**2 / 16.0 > 0.999
     for view_dir, frame, glossy in zip(views.sphere.vertices, views.frames, views.glossy, strict=True):

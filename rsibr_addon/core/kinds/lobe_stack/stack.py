@@ -16,7 +16,7 @@ LARGEST = 1024
 
 
 class StackMaps:
-    """Of maps of any number, whose last axes are sheets, height, width and channels, in one of `LAYOUTS`."""
+    """Base of stacks of maps in one of `LAYOUTS`; their last axes are sheets, height, width and channels."""
 
     layout: str
     maps: Array

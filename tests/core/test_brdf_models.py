@@ -215,7 +215,7 @@ def test_car_paints_are_paints(name: str) -> None:
         (lambda: Index(eta=0.0), "eta is 0, but it must be greater than 0"),
         (lambda: Schlick(f0=2.0), "f0 is 2, but"),
         (lambda: HeTorrance(sigma=3.0, tau=1.0, fresnel=MIRROR), "sigma is 3, but"),
-        (lambda: CarPaint(name="ford"), 'no car paint "ford": choose one of ford_f8'),
+        (lambda: CarPaint(name="ford"), 'no car paint "ford" (did you mean ford_f8?): choose one of ford_f8'),
         (lambda: Sum(parts=()), "at least one part"),
     ],
 )

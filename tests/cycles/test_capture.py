@@ -144,7 +144,7 @@ def test_an_interrupted_capture_goes_on(job: BakeJob, partial: Path, rendered: l
 
 
 def test_a_killed_capture_goes_on_bit_for_bit(job: BakeJob, partial: Path, rendered: list[int]) -> None:
-    job = replace(job, denoise=True)
+    job = changed(job, denoise=True)
     drain(bake(job))
     uninterrupted = Path(job.output).read_bytes()
     Path(job.output).unlink()

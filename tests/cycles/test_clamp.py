@@ -13,7 +13,17 @@ from rsibr.rsibr_addon.job import CommandJob
 
 OUTPUT = "out.rsibr.exr"
 COMMANDS = {
-    "bake": ("--brdf", "ggx:alpha=0.9,metal=copper", "--lobes", "1", "--slices", "2", "--size", "16"),
+    "bake": (
+        "--brdf",
+        "ggx:alpha=0.9,metal=copper",
+        "--lobes",
+        "1",
+        "--slices",
+        "2",
+        "--size",
+        "16",
+        "--no-half",
+    ),
     "tables": ("--material", "chrome", "--rows", "8"),
     "mips": ("--filter", "box", "--size", "8"),
     "bank": ("--size", "16"),
@@ -44,7 +54,7 @@ def test_the_light_is_clamped_and_the_file_says_so(
     kept = read_map_set(OUTPUT).maps["environment"]
     np.testing.assert_array_equal(kept, np.minimum(light, np.float32(2.5)))
     assert run(["info", OUTPUT]) == 0
-    assert "light.exr, 64x32, clamped to 2.5" in capfd.readouterr().out
+    assert "light.exr, 64 x 32, clamped to 2.5" in capfd.readouterr().out
 
 
 def test_without_it_the_file_says_nothing(light: np.ndarray) -> None:
@@ -63,10 +73,21 @@ def test_a_picture_is_previewed_clamped_and_a_map_set_is_not(
     assert "is a map set, whose light is filtered already: clamp where it is baked" in capfd.readouterr().err
 
 
-@pytest.mark.parametrize("value", ["0", "-1", "nan", "inf", "bright"])
-def test_what_is_no_radiance_is_refused(value: str, capfd: pytest.CaptureFixture[str]) -> None:
-    assert run(["mips", "--environment", "forest", f"--clamp={value}", "-o", OUTPUT]) == 2
-    assert f"'{value}' is not a radiance" in capfd.readouterr().err
+@pytest.mark.parametrize(
+    ("value", "code", "told"),
+    [
+        ("0", 1, "Clamp cannot be 0: choose 1e-30 to 1e+30"),
+        ("-1", 1, "Clamp cannot be -1"),
+        ("nan", 1, "Clamp cannot be nan"),
+        ("inf", 1, "Clamp cannot be inf"),
+        ("bright", 2, "'bright' is not a number"),
+    ],
+)
+def test_what_is_no_radiance_is_refused(
+    value: str, code: int, told: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["mips", "--environment", "forest", f"--clamp={value}", "-o", OUTPUT]) == code
+    assert told in capfd.readouterr().err
 
 
 def test_the_world_is_clamped_too(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:

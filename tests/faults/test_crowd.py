@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.files.map_set import read_map_set
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
-from rsibr.rsibr_addon.job import BakeJob
+from rsibr.rsibr_addon.job import CommandJob
 from rsibr.tests.faults.processes import Running
 
 pytestmark = [pytest.mark.needs("bpy"), pytest.mark.slow]
@@ -27,7 +27,7 @@ def test_all_is_right_and_nothing_is_left(time: int, tmp_path: Path) -> None:
     work = tmp_path / "work"
     work.mkdir()
     write_radiance(work / "light.exr", np.random.default_rng(1).random((64, 128, 3)))
-    (work / "job.json").write_text(BakeJob((*BAKE.split(), "--force")).to_json())  # as the panel writes it
+    (work / "job.json").write_text(CommandJob((*BAKE.split(), "--force")).to_json())  # as the panel writes it
     started = {
         name: Running(tmp_path, *command.split())
         for name, command in (COMMANDS | dict.fromkeys(("one", "other"), "bake job.json")).items()

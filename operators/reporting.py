@@ -1,11 +1,11 @@
 """How operators tell of errors and warnings."""
 
-import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Protocol
 
-from ..rsibr_addon.core.errors import RsibrError, RsibrWarning
+from ..rsibr_addon.core.errors import RsibrError
+from ..rsibr_addon.core.recorded_warnings import recorded_warnings
 
 
 class Reporter(Protocol):
@@ -18,10 +18,10 @@ class Reporter(Protocol):
 @contextmanager
 def reporting(operator: Reporter) -> Iterator[None]:
     """Turn our errors, which end the block, and our warnings into an operator's reports."""
-    with warnings.catch_warnings(record=True, action="always", category=RsibrWarning) as caught:
+    with recorded_warnings() as warnings:
         try:
             yield
         except (RsibrError, OSError) as error:
             operator.report({"ERROR"}, str(error))
-    for warning in caught:
-        operator.report({"WARNING"}, str(warning.message))
+    for warning in warnings:
+        operator.report({"WARNING"}, warning)

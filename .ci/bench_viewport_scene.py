@@ -11,7 +11,7 @@ import bpy
 import gpu
 import in_window
 import numpy as np
-from in_window import ROOT, drawn, region, run, view, window
+from in_window import ROOT, drawn, region, run, session, view, window
 from mathutils import Quaternion
 
 in_window.SECONDS = 1500.0
@@ -22,7 +22,7 @@ ALLOCATED = ("GPUTexture", "GPUUniformBuf", "GPUFrameBuffer", "GPUBatch", "GPUVe
 KINDS = ("mips", "tables", "stack", "views")
 MODES = ("paper", "texel", "fragment")
 
-tasks = importlib.import_module(f"{ROOT}.rsibr_addon.tasks.viewport.previews")
+map_sets = importlib.import_module(f"{ROOT}.rsibr_addon.tasks.viewport.map_sets")
 stage = importlib.import_module(f"{ROOT}.rsibr_addon.device.preview_stage")
 
 
@@ -58,11 +58,11 @@ class Meter:
 
     def __init__(self, device: Device) -> None:
         self._device = device
-        self._draw = tasks.previews.draw
+        self._draw = session().previews.draw
         self.cpu: list[float] = []
         self.python: list[float] = []
         self.synchronous = True
-        tasks.previews.draw = self._measured
+        session().previews.draw = self._measured
 
     def _measured(self, seen: Any) -> bool:
         if self.synchronous:
@@ -121,16 +121,16 @@ def scenario(told: dict[str, Any]) -> Iterator[None]:
     device = Device()
     item, meter = sphere(), Meter(device)
     told["switch"] = {}
-    upload = tasks.upload_map_set
+    upload = map_sets.upload_map_set
 
-    def timed_upload(path: Any) -> Any:
+    def timed_upload(path: Any, fits: Any) -> Any:
         start, cpu = time.perf_counter(), time.process_time()
-        uploaded = upload(path)
+        uploaded = upload(path, fits)
         took = time.perf_counter() - start, time.process_time() - cpu
         told["switch"][path.name.partition(".")[0]] = [1e3 * each for each in took]
         return uploaded
 
-    tasks.upload_map_set = timed_upload
+    map_sets.upload_map_set = timed_upload
 
     def measure(name: str) -> Iterator[None]:
         yield from drawn()
@@ -140,7 +140,7 @@ def scenario(told: dict[str, Any]) -> Iterator[None]:
         yield from meter.frames(synchronous=False)
         python, made = float(np.median(meter.python)), device.allocations - before
         told[name] = {"cpu": cpu, "python": python, "allocations": made}
-        assert not tasks.previews.fault(item), tasks.previews.fault(item)
+        assert not session().previews.faults.message(item), session().previews.faults.message(item)
 
     for kind in KINDS:
         item.rsibr.map_set = f"/job/{kind}.rsibr.exr"
@@ -150,10 +150,10 @@ def scenario(told: dict[str, Any]) -> Iterator[None]:
         for mode in MODES:
             item.rsibr.radiance_views.mode = mode
             yield from measure(f"views {mode}")
-    flat(tasks.previews._map_sets["/job/views.rsibr.exr"].gpu_map_set)
+    flat(session().previews._map_sets.used["/job/views.rsibr.exr"].gpu_map_set)
     yield from measure("flat")
 
-    tasks.previews.reload()
+    session().previews.reload()
     for kind in KINDS:  # Once more, now that the programs are built
         item.rsibr.map_set = f"/job/{kind}.rsibr.exr"
         yield from drawn()

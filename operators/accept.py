@@ -3,7 +3,7 @@
 import bpy
 
 from ..rsibr_addon.host.map_sets import remember_content
-from ..rsibr_addon.tasks.viewport.previews import previews
+from ..rsibr_addon.session.running import session
 from .at_once import Undoable
 
 
@@ -21,4 +21,4 @@ class RSIBR_OT_accept(Undoable, bpy.types.Operator):
     def work(self, context: bpy.types.Context) -> None:
         """Accept it; how it was baked is not known."""
         remember_content(context.object.rsibr)
-        previews.reload()
+        session().previews.reload()

@@ -4,6 +4,7 @@ import bpy
 
 from ..rsibr_addon.core.errors import RsibrError
 from ..rsibr_addon.host.bake_settings import assign
+from ..rsibr_addon.session.running import session
 from ..rsibr_addon.tasks.queue.bake_request import bake_of, is_baked, output_for, request_for
 from ..rsibr_addon.tasks.report.facts import map_set_content
 from . import background
@@ -53,7 +54,7 @@ def queue_bake(context: bpy.types.Context, content: str = "") -> str:
     item = context.object
     request = request_for(context.scene, item)
     output = output_for(request, context.scene, item)
-    if (unfinished := background.queue.unfinished(output)) is not None:
+    if (unfinished := session().bakes.unfinished(output)) is not None:
         unfinished.items.append(item.session_uid)
         return f"Being baked already: {output.name}"
     if is_baked(output) and content in ("", map_set_content(output)):

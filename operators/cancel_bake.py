@@ -2,7 +2,7 @@
 
 import bpy
 
-from . import background
+from ..rsibr_addon.session.running import session
 
 
 class RSIBR_OT_cancel_bake(bpy.types.Operator):
@@ -17,12 +17,13 @@ class RSIBR_OT_cancel_bake(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Cancel the bake, or remove it from the list."""
-        if not 0 <= self.number < len(background.queue.bakes):
+        bakes = session().bakes.bakes
+        if not 0 <= self.number < len(bakes):
             self.report({"ERROR"}, f"There is no bake number {self.number}: the queue has changed.")
             return {"CANCELLED"}
-        bake = background.queue.bakes[self.number]
+        bake = bakes[self.number]
         if bake.ended:
-            background.queue.bakes.remove(bake)
+            bakes.remove(bake)
         else:
             bake.cancel()
             bake.tidy()

@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..rsibr_addon.tasks.viewport.previews import previews
+from ..rsibr_addon.session.running import session
 from .at_once import AtOnce
 
 
@@ -15,7 +15,7 @@ class RSIBR_OT_reload_map_sets(AtOnce, bpy.types.Operator):
 
     def work(self, context: bpy.types.Context) -> None:
         """Release what is uploaded; the next redraw reads the files."""
-        previews.reload()
+        session().previews.reload()
         for window in context.window_manager.windows:
             for area in window.screen.areas:
                 area.tag_redraw()

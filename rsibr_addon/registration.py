@@ -16,10 +16,11 @@ def register() -> None:
     from . import properties, ui
     from .host.map_sets import unpacked
     from .host.overrides import complete_overrides
+    from .session.running import begun_session
     from .ui import bake_properties, export_menu, result_properties, viewport_handlers
-    from .ui.map_pictures import map_pictures
 
     with ExitStack() as undo:
+        undo.enter_context(begun_session(has_windows=not bpy.app.background))
         for cls in (*properties.CLASSES, *operators.CLASSES, *ui.CLASSES):
             properties.annotate(cls)
             bpy.utils.register_class(cls)
@@ -36,8 +37,7 @@ def register() -> None:
         undo.callback(unpacked.remove)
         viewport_handlers.start(undo)
         export_menu.start(undo)
-        map_pictures.start(undo)
-        background.start(undo)
+        undo.callback(background.stop)
         command = bpy.utils.register_cli_command("rsibr", _run_command)
         undo.callback(bpy.utils.unregister_cli_command, command)
         _registered.push(undo.pop_all())

@@ -87,3 +87,24 @@ class GpuMapSet(Protocol):
         look : object
             The look of this kind of map set: see `core.kinds`.
         """
+
+
+class LiveGpuMapSet(GpuMapSet, Protocol):
+    """What is uploaded of a kind whose looks are made while one looks."""
+
+    def newest(self, looks: list[Any]) -> Any:
+        """The last of some looks that can be drawn. If the very last cannot be drawn, it is made.
+
+        Parameters
+        ----------
+        looks : list
+            At least one, oldest first.
+
+        Returns
+        -------
+        object or None
+            None where none can be drawn yet.
+        """
+
+    def warning(self, look: Any) -> str:
+        """What there is to be said of a look that can be drawn; empty for nothing."""

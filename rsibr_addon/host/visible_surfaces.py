@@ -32,12 +32,15 @@ class Surface:
         Number of the mesh: equal for equal meshes, and new whenever Blender evaluates a mesh again.
     matrix : ndarray, shape (4, 4)
         World from object coordinates.
+    path : str
+        See `map_set_of`.
     """
 
     item: bpy.types.Object
     shown_by: bpy.types.Object
     mesh: int
     matrix: Array
+    path: str
 
 
 @dataclass(frozen=True)
@@ -161,4 +164,5 @@ def surfaces(depsgraph: bpy.types.Depsgraph) -> Iterator[tuple[Surface, bpy.type
             continue
         item = evaluated.original
         shown_by = instance.parent.original if instance.is_instance else item
-        yield Surface(item, shown_by, evaluated.data.session_uid, np.array(instance.matrix_world)), evaluated
+        mesh, matrix = evaluated.data.session_uid, np.array(instance.matrix_world)
+        yield Surface(item, shown_by, mesh, matrix, map_set_of(item)), evaluated

@@ -2,8 +2,8 @@
 
 import bpy
 
-from ...operators.background import queue
 from ..core.errors import RsibrError
+from ..session.running import session
 from ..tasks.queue.background import Bake, State
 from ..tasks.queue.bake_request import request_for
 from .sentences import amount, capital, duration, tell
@@ -28,7 +28,7 @@ class RSIBR_PT_bake(InSidebar, bpy.types.Panel):
         row = layout.row()
         row.scale_y = 1.5
         row.operator("rsibr.bake", text="Bake", icon="RENDER_STILL")
-        for number, bake in enumerate(queue.bakes):
+        for number, bake in enumerate(session().bakes.bakes):
             _draw_bake(layout.box(), bake, number, width)
 
 

@@ -7,8 +7,8 @@ from ..host.bake_settings import chosen_picture, use_picture
 from ..host.option_properties import group_of, properties_of
 from ..host.worlds import studio_environments
 from ..properties import keep_in_overrides
+from ..session.map_pictures import Item
 from ..settings.light import Clamp
-from .map_pictures import Item
 
 METHOD_GROUPS = {
     kind: group_of(f"RSIBR_PG_bake_{kind}", f"{settings.LABEL}: {settings.SUMMARY}.", properties_of(settings))

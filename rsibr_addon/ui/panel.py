@@ -3,8 +3,8 @@
 import bpy
 
 from ..host.world_light import world_light
+from ..session.running import session
 from ..tasks.methods.kinds import KINDS
-from ..tasks.viewport.previews import previews
 from .sentences import tell
 from .sidebar import InSidebar
 
@@ -38,7 +38,8 @@ class RSIBR_PT_preview(InSidebar, bpy.types.Panel):
         layout.prop(item.rsibr, "follow_world")
         if item.rsibr.follow_world and world_light(context.scene.world) is None:
             tell(layout, NOT_FOLLOWED, context.region.width)
-        for message in filter(None, (previews.fault(item), previews.trouble)):
+        previews = session().previews
+        for message in previews.messages(item):
             tell(layout, message, context.region.width)
         kind = previews.kind(item)
         if kind is None:

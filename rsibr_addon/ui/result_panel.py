@@ -6,9 +6,9 @@ import bpy
 
 from ..core.errors import RsibrError
 from ..host.map_sets import written_path
+from ..session.running import session
 from ..tasks.compare.measured_error import measured_facts
 from ..tasks.report.facts import is_picture, map_set_facts, map_set_fit, map_set_header
-from .map_pictures import map_pictures
 from .map_set_file import draw_file, draw_remedies
 from .sentences import tell
 from .sidebar import InSidebar
@@ -72,6 +72,7 @@ class RSIBR_PT_result_maps(InSidebar, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Show one of them large; a click on it shows all."""
+        map_pictures = session().map_pictures
         map_pictures.show(written_path(context.object.rsibr))
         if map_pictures.fault:
             tell(self.layout, map_pictures.fault, context.region.width)
@@ -106,6 +107,7 @@ class RSIBR_PT_result_lobes(InSidebar, bpy.types.Panel):
         if fit is None:  # The file has been replaced since `poll`
             return
         shown = context.window_manager.rsibr_result
+        map_pictures = session().map_pictures
         map_pictures.show(path)
         layout.template_icon(map_pictures.lobes(fit, math.cos(shown.angle)), scale=LOBES_SCALE)
         row = layout.row()

@@ -4,16 +4,17 @@ import math
 
 import bpy
 
-from .map_pictures import Item, map_pictures
+from ..session.map_pictures import Item
+from ..session.running import session
 
 
 def _items(group: bpy.types.PropertyGroup, context: bpy.types.Context | None) -> list[Item]:
-    return map_pictures.items
+    return session().map_pictures.items
 
 
 def _number(group: "RSIBR_PG_result") -> int:
     """Another map set may have fewer maps."""
-    return min(group.number, len(map_pictures.items) - 1)
+    return min(group.number, len(session().map_pictures.items) - 1)
 
 
 def _set_number(group: "RSIBR_PG_result", number: int) -> None:

@@ -3,14 +3,14 @@
 from collections.abc import Callable
 from contextlib import ExitStack
 from functools import wraps
+from typing import Concatenate
 
 import bpy
 from bpy.app.handlers import persistent
 
 from ..device.shaders import release_programs
 from ..host.visible_surfaces import current_view
-from ..tasks.methods.latest_request_worker import workshop
-from ..tasks.viewport.previews import previews
+from ..session.running import Session, session
 
 RETRY_SECONDS = 0.5
 """While a render goes on, no data may come and go for the display's table."""
@@ -29,10 +29,7 @@ def start(undo: ExitStack) -> None:
     """
     if bpy.app.background:
         return
-    workshop.open()
-    undo.callback(workshop.close)
     undo.callback(release_programs)
-    undo.callback(previews.release)
     for function, when in ((_draw, "POST_VIEW"), (_render_surroundings, "POST_PIXEL")):
         handle = bpy.types.SpaceView3D.draw_handler_add(function, (), "WINDOW", when)
         undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handle, "WINDOW")
@@ -43,44 +40,48 @@ def start(undo: ExitStack) -> None:
         undo.callback(handlers.remove, function)
 
 
-def _guarded[**Given, Result](function: Callable[Given, Result]) -> Callable[Given, Result | None]:
-    """Have what goes wrong in a function that Blender calls told once, by `previews`."""
+def _guarded[**Given, Result](
+    function: Callable[Concatenate[Session, Given], Result],
+) -> Callable[Given, Result | None]:
+    """Have what goes wrong in a function that Blender calls told once; it is given the session."""
 
     @wraps(function)
     def run(*given: Given.args, **named: Given.kwargs) -> Result | None:
-        with previews.guarded():
-            return function(*given, **named)
+        running = session()
+        with running.previews.faults.guarded():
+            return function(running, *given, **named)
         return None
 
     return run
 
 
 @_guarded
-def _draw() -> None:
-    if not previews.draw(current_view()) and not bpy.app.timers.is_registered(_add_displays):
+def _draw(running: Session) -> None:
+    if not running.previews.draw(current_view()) and not bpy.app.timers.is_registered(_add_displays):
         bpy.app.timers.register(_add_displays, first_interval=0.0)
-    if workshop.is_busy and not bpy.app.timers.is_registered(_show_news):
+    if running.worker.is_busy and not bpy.app.timers.is_registered(_show_news):
         bpy.app.timers.register(_show_news, first_interval=NEWS_SECONDS)
 
 
 @_guarded
-def _render_surroundings() -> None:
+def _render_surroundings(running: Session) -> None:
     """Blender renders no view while it draws another, but when it comes to what lies over it."""
-    if previews.render_surroundings(current_view()) and not bpy.app.timers.is_registered(_draw_again):
+    changed = running.previews.render_surroundings(current_view())
+    if changed and not bpy.app.timers.is_registered(_draw_again):
         bpy.app.timers.register(_draw_again, first_interval=0.0)
 
 
 @_guarded
-def _show_news() -> float | None:
+def _show_news(running: Session) -> float | None:
     """While materials are made, show what there is of them."""
-    goes_on = workshop.is_busy
-    if workshop.take_news():
+    goes_on = running.worker.is_busy
+    if running.worker.take_news():
         _draw_again()
     return NEWS_SECONDS if goes_on else None
 
 
 @_guarded
-def _draw_again() -> None:
+def _draw_again(_: Session) -> None:
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
@@ -88,12 +89,12 @@ def _draw_again() -> None:
 
 
 @_guarded
-def _add_displays() -> float | None:
+def _add_displays(running: Session) -> float | None:
     """Learn how the scenes in the windows show radiance, and have them drawn again."""
     if bpy.app.is_job_running("RENDER"):
         return RETRY_SECONDS
     for scene in {window.scene for window in bpy.context.window_manager.windows}:
-        previews.add_display(scene)
+        running.previews.add_display(scene)
     _draw_again()
     return None
 
@@ -105,21 +106,21 @@ def _stop_timers() -> None:
 
 @persistent
 @_guarded
-def _scene_changed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+def _scene_changed(running: Session, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     if depsgraph.mode == "VIEWPORT":  # A render evaluates scenes too, in a thread of its own.
-        previews.scene_changed()
+        running.previews.scene_changed()
 
 
 @persistent
 @_guarded
-def _data_replaced(*_: object) -> None:
-    previews.data_replaced()
+def _data_replaced(running: Session, *_: object) -> None:
+    running.previews.data_replaced()
 
 
 @persistent
 @_guarded
-def _file_closed(*_: object) -> None:
-    previews.release()
+def _file_closed(running: Session, *_: object) -> None:
+    running.previews.release()
 
 
 _HANDLERS: dict[str, Callable[..., None]] = {

@@ -11,7 +11,7 @@ from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import Role
 from rsibr.rsibr_addon.files.kinds.registry import look_types
 from rsibr.rsibr_addon.host.option_properties import options_of
 from rsibr.rsibr_addon.host.visible_surfaces import is_wanted, map_set_of, surfaces
-from rsibr.rsibr_addon.tasks.viewport.previews import _settings
+from rsibr.rsibr_addon.tasks.viewport.faults import settings_of
 
 pytestmark = pytest.mark.usefixtures("registered")
 
@@ -32,11 +32,11 @@ def test_an_untouched_object_is_shaded_by_its_kind_s_defaults(kind: str) -> None
 
 def test_settings_reach_the_look_and_are_told_apart() -> None:
     cube = bpy.data.objects["Cube"]
-    before = _settings(cube)
-    assert _settings(cube) == before
+    before = settings_of(cube)
+    assert settings_of(cube) == before
     cube.rsibr.mip_chain.k_d = (0.25, 0.5, 1.0)  # as files of version 0.1 hold it
     assert options_of(MipLook, cube.rsibr.mip_chain).kd == (0.25, 0.5, 1.0)
-    assert _settings(cube) != before
+    assert settings_of(cube) != before
     assert options_of(MipLook, cube.rsibr.mip_chain).roughness is None
     cube.rsibr.mip_chain.use_roughness = True
     assert options_of(MipLook, cube.rsibr.mip_chain).roughness == pytest.approx(0.3)

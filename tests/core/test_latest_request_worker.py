@@ -13,10 +13,10 @@ SECONDS = 20.0
 @pytest.fixture
 def worker() -> Iterator[LatestRequestWorker]:
     worker = LatestRequestWorker()
-    worker.open()
     yield worker
     worker.close()
-    assert not worker.is_open
+    assert worker._thread is not None
+    assert not worker._thread.is_alive()
 
 
 class Work:
@@ -106,7 +106,6 @@ def test_of_several_requests_the_last_is_made_and_none_twice(worker: LatestReque
 
 def test_closing_ends_the_thread_after_a_step() -> None:
     worker, work = LatestRequestWorker(), Work(False, False, False)
-    worker.open()
     worker.request("a", work.steps(), is_urgent=True)
     work.allow()
     closing = threading.Thread(target=worker.close)

@@ -20,7 +20,9 @@ from rsibr.rsibr_addon.device.shaders import release_programs
 from rsibr.rsibr_addon.files.map_set import MapSet, write_map_set
 from rsibr.rsibr_addon.host.map_sets import use_map_set
 from rsibr.rsibr_addon.host.visible_surfaces import View
+from rsibr.rsibr_addon.session.running import session
 from rsibr.rsibr_addon.tasks import viewport
+from rsibr.rsibr_addon.tasks.methods.live_materials import LiveFits
 from rsibr.rsibr_addon.tasks.viewport import live_light
 from rsibr.rsibr_addon.tasks.viewport.previews import Previews
 from rsibr.rsibr_addon.ui import viewport_handlers as ui
@@ -121,9 +123,19 @@ def frame(view: View) -> Callable[..., tuple[np.ndarray, dict[Place, str], Any]]
             gpu.matrix.load_matrix(Matrix.Identity(4))
             gpu.matrix.load_projection_matrix(PROJECTION)
             gpu.state.depth_test_set("NONE")
-            if not previews.draw(view):
+            guarded = previews.faults.guarded
+            with guarded():
+                if previews.draw(view):
+                    return
+            with guarded():
                 previews.add_display(view.scene)
+            with guarded():
                 previews.draw(view)
+
+    def lit(previews: Previews) -> bool:
+        with previews.faults.guarded():
+            return previews.render_surroundings(view)
+        return False
 
     def draw(
         previews: Previews, place: Place | None, where: int = CALLS
@@ -131,7 +143,7 @@ def frame(view: View) -> Callable[..., tuple[np.ndarray, dict[Place, str], Any]]
         ours = bpy.context.temp_override(window=window, area=area, region=region)
         with ours, fault_at(place, where) as found:
             shown(previews)
-            while previews.render_surroundings(view):
+            while lit(previews):
                 shown(previews)
         state = gpu.state.depth_test_get(), gpu.state.depth_mask_get(), gpu.state.blend_get()
         with target.bind():
@@ -174,27 +186,27 @@ def test_a_fault_in_any_call_or_read_is_told_once_and_passes(
     for map_set in (*map_sets(), None):
         item = shade(map_set)
         release_programs()
-        expected, names, state = frame(Previews(), None, where)
+        expected, names, state = frame(Previews(LiveFits()), None, where)
         assert expected[..., 3].max() == 1.0
         new = [place for place in names if place not in done]
         done.update(new)
         for place in new[::STRIDE]:
             name = names[place]
-            previews = Previews()
+            previews = Previews(LiveFits())
             release_programs()
             _, reached, state_after = frame(previews, place, where)
             assert place in reached
-            told = previews.trouble or previews.fault(item)
+            told = previews.faults.trouble or previews.faults.message(item)
             assert told is not None, name
             assert name.endswith("_set") or state_after == state, name
             _, later, _ = frame(previews, None)
-            assert (previews.trouble or previews.fault(item)) == told
-            assert previews.trouble is None or not later
+            assert (previews.faults.trouble or previews.faults.message(item)) == told
+            assert previews.faults.trouble is None or not later
             assert capsys.readouterr().err.count("Traceback") <= 1
             previews.reload()
             # What the fault has left goes during the first of two frames
             picture = [frame(previews, None)[0] for _ in range(2)][-1]
-            assert (previews.trouble, previews.fault(item)) == (None, None), name
+            assert (previews.faults.trouble, previews.faults.message(item)) == (None, None), name
             np.testing.assert_array_equal(picture, expected, name)
     assert len(done) > 50
 
@@ -209,8 +221,8 @@ def test_what_blender_calls_never_raises(
     monkeypatch.setattr(ui, "current_view", fail)
     for handler in (ui._draw, ui._render_surroundings, ui._draw):
         handler()
-    assert ui.previews.trouble is not None
-    assert "no view" in ui.previews.trouble
+    assert session().previews.faults.trouble is not None
+    assert "no view" in session().previews.faults.trouble
     assert capsys.readouterr().err.count("Traceback") == 1
-    ui.previews.reload()
-    assert ui.previews.trouble is None
+    session().previews.reload()
+    assert session().previews.faults.trouble is None

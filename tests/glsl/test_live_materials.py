@@ -1,9 +1,11 @@
 """Materials chosen while one looks: drawn from a kernel bank, they are what a bake would have made."""
 
+import warnings
 from collections.abc import Iterator
 
 import numpy as np
 import pytest
+from rsibr.rsibr_addon.core.brdf.model import Brdf
 from rsibr.rsibr_addon.core.brdf.spec import brdf_from_spec
 from rsibr.rsibr_addon.core.errors import RangeError, RsibrWarning
 from rsibr.rsibr_addon.core.geometry.camera import Camera
@@ -19,7 +21,7 @@ from rsibr.rsibr_addon.device.kinds.lobe_stack import GpuLobeStack
 from rsibr.rsibr_addon.device.preview import PreviewRenderer
 from rsibr.rsibr_addon.tasks.methods import live_materials
 from rsibr.rsibr_addon.tasks.methods.latest_request_worker import LatestRequestWorker
-from rsibr.rsibr_addon.tasks.methods.live_materials import KEPT, SLICES, LiveMaterials
+from rsibr.rsibr_addon.tasks.methods.live_materials import KEPT, SLICES, LiveFits, LiveMaterials
 from rsibr.tests.core.test_latest_request_worker import wait_until_idle
 from rsibr.tests.glsl.test_preview_renderer import SPHERE
 
@@ -36,10 +38,8 @@ def filtered() -> FilteredBank:
 
 
 @pytest.fixture
-def worker(monkeypatch: pytest.MonkeyPatch) -> Iterator[LatestRequestWorker]:
+def worker() -> Iterator[LatestRequestWorker]:
     worker = LatestRequestWorker()
-    monkeypatch.setattr(live_materials, "workshop", worker)
-    worker.open()
     yield worker
     worker.close()
 
@@ -60,13 +60,14 @@ def test_a_look_is_drawn_as_the_stack_that_a_bake_makes(filtered: FilteredBank) 
 
 
 def test_going_back_fits_nothing(filtered: FilteredBank, monkeypatch: pytest.MonkeyPatch) -> None:
-    materials, other = LiveMaterials(filtered), BankLook("ward:alpha=0.5,ks=0.7", lobe_count=1)
+    fits = LiveFits()
+    materials, other = LiveMaterials(filtered, fits), BankLook("ward:alpha=0.5,ks=0.7", lobe_count=1)
     first = picture(materials, LOOK)
     assert not np.array_equal(picture(materials, other), first)
     monkeypatch.setattr(live_materials, "layered_fit", lambda *_, **__: pytest.fail("fitted again"))
     assert np.array_equal(picture(materials, LOOK), first)
     # In another light too
-    assert LiveMaterials(filtered).is_ready(LOOK)
+    assert LiveMaterials(filtered, fits).is_ready(LOOK)
 
 
 def test_stacks_that_are_not_drawn_any_more_are_let_go(filtered: FilteredBank) -> None:
@@ -95,7 +96,10 @@ def test_a_lobe_too_sharp_for_the_maps_is_told(filtered: FilteredBank) -> None:
 
 
 def test_in_a_worker_a_draft_comes_first(filtered: FilteredBank, worker: LatestRequestWorker) -> None:
-    materials, look = LiveMaterials(filtered), BankLook("ward:alpha=0.45,ks=0.6", lobe_count=2)
+    materials, look = (
+        LiveMaterials(filtered, LiveFits(worker)),
+        BankLook("ward:alpha=0.45,ks=0.6", lobe_count=2),
+    )
     empty = picture(materials, look)
     assert not empty.any()
     drafts = []
@@ -107,15 +111,13 @@ def test_in_a_worker_a_draft_comes_first(filtered: FilteredBank, worker: LatestR
     assert worker.take_news()
     final = picture(materials, look)
     assert final.any()
-    monkey = LiveMaterials(filtered)
-    worker.close()
-    assert np.array_equal(picture(monkey, look), final)
+    assert np.array_equal(picture(LiveMaterials(filtered), look), final)
 
 
 def test_until_a_look_is_there_the_one_before_it_is_shown(
     filtered: FilteredBank, worker: LatestRequestWorker
 ) -> None:
-    materials = LiveMaterials(filtered)
+    materials = LiveMaterials(filtered, LiveFits(worker))
     looks = [BankLook(f"ward:alpha={0.3 + 0.1 * n:g},ks=0.5", lobe_count=1) for n in range(4)]
     assert materials.newest(looks[:1]) is None
     while materials.newest(looks[:1]) is None:
@@ -135,8 +137,26 @@ def test_until_a_look_is_there_the_one_before_it_is_shown(
 
 
 def test_errors_come_out_of_the_worker(filtered: FilteredBank, worker: LatestRequestWorker) -> None:
-    materials, look = LiveMaterials(filtered), BankLook("gold")
+    materials, look = LiveMaterials(filtered, LiveFits(worker)), BankLook("gold")
     assert not materials.is_ready(look)
     wait_until_idle(worker)
     with pytest.raises(RangeError, match='There is no BRDF model "gold"'):
         materials.is_ready(look)
+
+
+def test_warnings_come_out_of_the_worker(
+    filtered: FilteredBank, worker: LatestRequestWorker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def read(name: str, path: str) -> Brdf:
+        warnings.warn("The file is odd.", RsibrWarning, stacklevel=2)
+        return brdf_from_spec(LOOK.spec, lambda *_: pytest.fail("nothing is measured"))
+
+    monkeypatch.setattr(live_materials, "read_measured", read)
+    materials = LiveMaterials(filtered, LiveFits(worker))
+    odd, sharp = BankLook("merl:path=odd", lobe_count=1), BankLook("ggx:alpha=0.02,f0=0.5", lobe_count=1)
+    for look, said in ((odd, "The file is odd."), (sharp, "bake a larger kernel bank"), (LOOK, "")):
+        assert materials.warning(look) == ""
+        while not materials.is_ready(look):
+            wait_until_idle(worker)
+        assert said in materials.warning(look)
+        assert bool(materials.warning(look)) == bool(said)

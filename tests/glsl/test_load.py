@@ -16,7 +16,8 @@ from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.host.map_sets import use_map_set
 from rsibr.rsibr_addon.host.visible_surfaces import View
 from rsibr.rsibr_addon.tasks.methods import live_materials
-from rsibr.rsibr_addon.tasks.methods.latest_request_worker import workshop
+from rsibr.rsibr_addon.tasks.methods.latest_request_worker import LatestRequestWorker
+from rsibr.rsibr_addon.tasks.methods.live_materials import LiveFits
 from rsibr.rsibr_addon.tasks.viewport.previews import Previews
 from rsibr.tests.faults.small_map_sets import map_sets
 
@@ -49,10 +50,11 @@ def draw(view: View) -> Draw:
         with target.bind(), gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
             gpu.matrix.load_matrix(Matrix.Identity(4))
             gpu.matrix.load_projection_matrix(Matrix.Diagonal((0.5, 0.5, -0.02, 1.0)))
-            if not previews.draw(view):
-                previews.add_display(view.scene)
-                previews.draw(view)
-        assert previews.trouble is None
+            with previews.faults.guarded():
+                if not previews.draw(view):
+                    previews.add_display(view.scene)
+                    previews.draw(view)
+        assert previews.faults.trouble is None
 
     return frame
 
@@ -75,9 +77,9 @@ def path(request: pytest.FixtureRequest, tmp_path: Path) -> Path:
 def test_a_redraw_reads_no_file(path: Path, draw: Draw, monkeypatch: pytest.MonkeyPatch) -> None:
     global _opened
     shade(bpy.context.object, path)
-    previews = Previews()
+    previews = Previews(LiveFits())
     draw(previews)
-    assert previews.fault(bpy.context.object) is None
+    assert previews.faults.message(bpy.context.object) is None
     touched: list[str] = []
     stat = os.stat
 
@@ -96,6 +98,22 @@ def test_a_redraw_reads_no_file(path: Path, draw: Draw, monkeypatch: pytest.Monk
     finally:
         _opened = None
     assert touched == []
+
+
+def test_a_warning_of_the_thread_reaches_the_panel(tmp_path: Path, draw: Draw) -> None:
+    (bank,) = (each for each in map_sets() if each.kind == "kernel_bank")
+    write_map_set(tmp_path / "bank.rsibr.exr", bank)
+    item, worker = bpy.context.object, LatestRequestWorker()
+    shade(item, tmp_path / "bank.rsibr.exr")
+    previews = Previews(LiveFits(worker))
+    try:
+        draw(previews)
+        while worker.is_busy:
+            draw(previews)
+    finally:
+        worker.close()
+    (message,) = previews.messages(item)
+    assert message.startswith("Maps of 4 texels blur")
 
 
 def calls_in(work: Callable[[], None]) -> int:
@@ -122,7 +140,7 @@ def calls_in(work: Callable[[], None]) -> int:
 def test_work_grows_as_the_number_of_objects(path: Path, draw: Draw) -> None:
     mesh = bpy.context.object.data
     bpy.data.objects.remove(bpy.context.object)
-    redraws, changes, previews = {}, {}, Previews()
+    redraws, changes, previews = {}, {}, Previews(LiveFits())
     for count in (100, 1000):
         while len(bpy.context.collection.objects) < count + 2:  # a camera and a lamp
             item = bpy.data.objects.new("Cube", mesh)
@@ -145,10 +163,10 @@ def test_work_grows_as_the_number_of_objects(path: Path, draw: Draw) -> None:
 def test_memory_stays_level_in_a_day_of_edits(
     path: Path, draw: Draw, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    item, previews, levels = bpy.context.object, Previews(), []
+    item, worker, levels = bpy.context.object, LatestRequestWorker(), []
+    previews = Previews(LiveFits(worker))
     monkeypatch.setattr(live_materials, "FITS_KEPT", 8)  # else the level rises for a long time
     shade(item, path)
-    workshop.open()
     tracemalloc.start()
     try:
         for number in range(EDITS + 1):
@@ -157,14 +175,14 @@ def test_memory_stays_level_in_a_day_of_edits(
             previews.scene_changed()
             draw(previews)
             if number % (EDITS // 5) == 0:
-                while workshop.is_busy:
+                while worker.is_busy:
                     draw(previews)
-                assert previews.fault(item) is None
+                assert previews.faults.message(item) is None
                 gc.collect()
                 levels.append(tracemalloc.get_traced_memory()[0])
     finally:
         tracemalloc.stop()
-        workshop.close()
+        worker.close()
     # The first ones are those of a beginning
     assert levels[-1] - levels[2] < 200_000
 

@@ -13,6 +13,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import bmesh  # noqa: F401
 import bpy
@@ -87,6 +88,11 @@ def drawn() -> Iterator[None]:
                 viewport.tag_redraw()
             yield
         settled = 0 if previews_wait() else settled + 1
+
+
+def session() -> Any:
+    """What the extension keeps in memory."""
+    return importlib.import_module(ROOT + ".rsibr_addon.session.running").session()
 
 
 def previews_wait() -> bool:

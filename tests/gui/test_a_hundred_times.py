@@ -21,10 +21,7 @@ import addon_utils, gc, gpu, threading
 
 DEVICE = tuple(kind for name, kind in vars(gpu.types).items() if name.startswith("GPU"))
 
-def previews():
-    return importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport.previews").previews
-
-def gpu_map_set():
+def on_gpu():
     # How many objects of Blender's graphics Python holds: they are in no list, but whatever holds them is
     gc.collect()
     holders = gc.get_objects()
@@ -51,7 +48,7 @@ def traces():
         *(name for kind in kinds for name in ours(getattr(getattr(kind, "draw", None), "_draw_funcs", ()))),
         *ours(timers),
         *dir(bpy.ops.rsibr),
-        *map(str, gpu_map_set().items()),
+        *map(str, on_gpu().items()),
         *(f"process {number}" for number in children()),
         *(thread.name for thread in threading.enumerate() if thread is not threading.main_thread()),
     ]
@@ -85,16 +82,17 @@ def hundred(told, once):
         yield from drawn() if number % 10 == 0 else iter([None])
         told["memory"].append(megabytes())
         if number in (10, 100):
-            told[f"on the device, {number}"] = gpu_map_set()
-    told["trouble"] = [previews().trouble, *map(previews().fault, bpy.data.objects)]
+            told[f"on the device, {number}"] = on_gpu()
+    faults = session().previews.faults
+    told["trouble"] = [faults.trouble, *map(faults.message, bpy.data.objects)]
 
 def drawn_by():
     # How often a viewport's draw calls us
-    calls, draw = [], previews().draw
-    previews().draw = lambda view: (calls.append(0), draw(view))[1]
+    calls, draw = [], session().previews.draw
+    session().previews.draw = lambda view: (calls.append(0), draw(view))[1]
     before = draws.total()
     yield from drawn()
-    del previews().draw
+    del session().previews.draw
     return len(calls) / (draws.total() - before)
 """
 
@@ -132,7 +130,7 @@ def scenario(told):
     told["draws"] = yield from drawn_by()
     with bpy.context.temp_override(window=window()):
         bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    told["of an empty file"] = {name: many for name, many in gpu_map_set().items() if name != "GPUShader"}
+    told["of an empty file"] = {name: many for name, many in on_gpu().items() if name != "GPUShader"}
     addon_utils.disable(ROOT)
     told["traces"] = traces()
 """

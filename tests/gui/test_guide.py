@@ -141,7 +141,7 @@ def scenario(told):
     picture("guide-settings", SIDEBAR)
     hold(2)
     yield from push("bpy.ops.rsibr.bake(")
-    first = background.queue.bakes[0]
+    first = session().bakes.bakes[0]
     yield from scroll()
     cross = yield from find("bpy.ops.rsibr.cancel_bake(", share=0.92)
     yield from done(lambda: finished_views(first) == 2)
@@ -151,7 +151,7 @@ def scenario(told):
     picture("guide-cancelled", SIDEBAR)
     let_go()
     yield from push("bpy.ops.rsibr.bake(")
-    second = background.queue.bakes[0]
+    second = session().bakes.bakes[0]
     told["the same"] = second is not first and second.output == first.output
     yield from done()
     told["state"], told["message"] = str(second.state), second.message

@@ -56,8 +56,7 @@ def scenario(told):
         bpy.ops.ed.undo_push(message="packed")
         yield from drawn()
         told["packed"] = [cube.rsibr.image.packed_file is not None, as_at_first()]
-        module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport.previews")
-        told["shaded as"] = module.previews.kind(cube)
+        told["shaded as"] = session().previews.kind(cube)
         bpy.ops.ed.undo()
         yield from drawn()
         told["undone"] = [bpy.data.objects["Cube"].rsibr.image.packed_file is None, as_at_first()]
@@ -100,8 +99,7 @@ def scenario(told):
     with bpy.context.temp_override(window=window()):
         bpy.ops.wm.open_mainfile(filepath="/job/lasting/elsewhere/scene.blend")
     yield from looked_at()
-    module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport.previews")
-    told["missing library"] = [len(pixels()) > 0, module.previews.trouble]
+    told["missing library"] = [len(pixels()) > 0, session().previews.faults.trouble]
     bpy.context.view_layer.objects.active = bpy.data.objects["Cube"]
     order = importlib.import_module(ROOT + ".rsibr_addon.tasks.queue.bake_request")
     try:
@@ -111,8 +109,6 @@ def scenario(told):
 """
 
 AGAIN = """
-background = importlib.import_module(ROOT + ".operators.background")
-module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport.previews")
 orders = importlib.import_module(ROOT + ".rsibr_addon.tasks.queue.bake_request")
 
 def scenario(told):
@@ -133,13 +129,13 @@ def scenario(told):
     bpy.ops.rsibr.reload_map_sets()
     yield from drawn()
     fault = f"{path} does not exist: check the name and the folder."
-    told["missing"] = [as_at_first(), module.previews.fault(cube) == fault]
+    told["missing"] = [as_at_first(), session().previews.faults.message(cube) == fault]
     bpy.ops.rsibr.bake_again()
-    told["baking"] = background.queue.busy
-    while background.queue.busy:
+    told["baking"] = session().bakes.busy
+    while session().bakes.busy:
         yield
     yield from drawn()
-    told["again"] = [as_at_first(), module.previews.fault(cube), path.is_file()]
+    told["again"] = [as_at_first(), session().previews.faults.message(cube), path.is_file()]
     path.rename("/job/lasting/elsewhere/" + path.name)
     bpy.ops.rsibr.reload_map_sets()
     yield from drawn()

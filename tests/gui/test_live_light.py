@@ -6,7 +6,7 @@ type Told = Callable[[str], dict]
 
 PRELUDE = """
 from bpy_extras.view3d_utils import location_3d_to_region_2d
-previews = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport.previews").previews
+previews = session().previews
 
 SIDES = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
 
@@ -36,7 +36,7 @@ def mirror():
     return cube
 
 def only_light():
-    (light,) = previews._live.values()
+    (light,) = previews._map_sets.lights.values()
     return light
 
 def own():
@@ -76,13 +76,14 @@ def scenario(told):
     for _ in range(25):
         yield
     told["idle"] = [len(updates), len(draws)]
-    told["faults"] = [previews.fault(cube), previews.trouble, previews.kind(cube)]
+    told["faults"] = [previews.faults.message(cube), previews.faults.trouble, previews.kind(cube)]
     cube.rsibr.mip_chain.use_roughness = True
     yield from drawn()
-    told["roughness"] = previews.fault(cube)
+    told["roughness"] = previews.faults.message(cube)
     cube.rsibr.live.on = False
     yield from drawn()
-    told["off"] = [int(own().sum()), len(previews._live), len(previews._map_sets), previews.fault(cube)]
+    map_sets = previews._map_sets
+    told["off"] = [int(own().sum()), len(map_sets.lights), len(map_sets.used), previews.faults.message(cube)]
 """
 
 

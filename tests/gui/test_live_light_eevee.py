@@ -71,7 +71,7 @@ def scenario(told):
     bpy.data.objects.remove(wall)
     yield from drawn()
     told["not the world's"] = others((203, 149, 108), among)
-    told["faults"] = [previews.fault(cube), previews.trouble]
+    told["faults"] = [previews.faults.message(cube), previews.faults.trouble]
 """
 
 

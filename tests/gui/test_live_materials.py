@@ -26,7 +26,7 @@ def _bank(job: Path) -> None:
 
 PRELUDE = """
 import threading
-module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport.previews")
+map_sets = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport.map_sets")
 
 def workers():
     return [thread.name for thread in threading.enumerate() if thread.name.startswith("rsibr")]
@@ -55,8 +55,8 @@ def scenario(told):
     yield from drawn()
     told["workers"] = workers()
     before = pixels()
-    bank = module.previews._map_sets["/job/bank.rsibr.exr"].gpu_map_set
-    module.open_map_set = lambda path: 1 / 0  # Nothing is read or uploaded anew
+    bank = session().previews._map_sets.used["/job/bank.rsibr.exr"].gpu_map_set
+    map_sets.open_map_set = lambda path: 1 / 0  # Nothing is read or uploaded anew
     material.brdf = "ggx:alpha=0.15,metal=copper"
     seen = [before]
     while len(seen) == 1 or previews_wait():
@@ -76,8 +76,8 @@ def scenario(told):
     material.use_roughness = False
     yield from drawn()
     told["back"] = int(np.abs(pixels() - copper).max())
-    told["same bank"] = module.previews._map_sets["/job/bank.rsibr.exr"].gpu_map_set is bank
-    told["trouble"] = module.previews.trouble
+    told["same bank"] = session().previews._map_sets.used["/job/bank.rsibr.exr"].gpu_map_set is bank
+    told["trouble"] = session().previews.faults.trouble
 """
 
 
@@ -107,8 +107,8 @@ def scenario(told):
             seen.append(now)
     told["pictures"] = len(seen)
     yield from drawn()
-    told["trouble"] = module.previews.trouble
-    asked = next(iter(module.previews._looks.values()))
+    told["trouble"] = session().previews.faults.trouble
+    asked = next(iter(session().previews._looks.asked.values()))
     told["asked"] = [[round(look.roughness, 4), look.lobe_count] for look in asked]
     told["value"] = round(material.roughness, 4)
 """
@@ -139,10 +139,10 @@ def scenario(told):
     told["bright and dark"] = left_and_right(pixels())
     material.brdf = "gold"
     yield from drawn()
-    told["faults"] = [module.previews.fault(item) for item in (cube, other)]
+    told["faults"] = [session().previews.faults.message(item) for item in (cube, other)]
     material.brdf = "lambert:kd=0.3"
     yield from drawn()
-    told["after"] = module.previews.fault(cube)
+    told["after"] = session().previews.faults.message(cube)
     told["both dark"] = left_and_right(pixels())
 """
 

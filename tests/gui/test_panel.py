@@ -58,7 +58,7 @@ def press(command):
             return True
     return False
 
-def done(until=lambda: not background.queue.busy):
+def done(until=lambda: not session().bakes.busy):
     while not until():
         yield
 
@@ -87,14 +87,14 @@ def scenario(told):
         yield from drawn()
     before = pixels()
     told["pressed"] = yield from press("bpy.ops.rsibr.bake(")
-    told["bakes"] = len(background.queue.bakes)
+    told["bakes"] = len(session().bakes.bakes)
     told["file"] = bpy.data.filepath
     yield from done()
-    told["state"] = [str(each.state) for each in background.queue.bakes]
-    told["message"] = [each.message for each in background.queue.bakes]
+    told["state"] = [str(each.state) for each in session().bakes.bakes]
+    told["message"] = [each.message for each in session().bakes.bakes]
     told["map set"] = os.path.basename(monkey.rsibr.map_set)
     # Of each its job, in a folder of its own
-    folders = [each.command[-4] for each in background.queue.bakes]
+    folders = [each.command[-4] for each in session().bakes.bakes]
     told["left behind"] = [each for each in folders if os.path.exists(each)]
     for _ in range(3):
         yield from drawn()
@@ -111,7 +111,7 @@ def scenario(told):
         told["redone"] = bpy.context.object.rsibr.map_set == path
     bpy.context.object.rsibr.map_set = ""
     told["again"] = bake()
-    told["bakes again"], told["taken"] = len(background.queue.bakes), bpy.context.object.rsibr.map_set == path
+    told["bakes again"], told["taken"] = len(session().bakes.bakes), bpy.context.object.rsibr.map_set == path
 """
 
 CANCEL = """
@@ -123,7 +123,7 @@ def scenario(told):
     hold(3)
     told["baked"] = bake()
     told["file"] = bpy.data.filepath, bpy.data.is_dirty
-    first = background.queue.bakes[0]
+    first = session().bakes.bakes[0]
     yield from done(lambda: finished_views(first) == 3)
     told["cancelled"] = list(bpy.ops.rsibr.cancel_bake(number=0))
     told["state"], told["process"] = str(first.state), first._process.poll() is not None
@@ -131,9 +131,9 @@ def scenario(told):
     let_go()
     yield from done()
     told["assigned"] = cube.rsibr.map_set
-    told["forgotten"] = list(bpy.ops.rsibr.cancel_bake(number=0)), len(background.queue.bakes)
+    told["forgotten"] = list(bpy.ops.rsibr.cancel_bake(number=0)), len(session().bakes.bakes)
     bake()
-    second = background.queue.bakes[0]
+    second = session().bakes.bakes[0]
     yield from done(lambda: second.progress is not None and second.progress.done >= 3)
     yield from done()
     told["warnings"] = list(second.warnings)
@@ -148,7 +148,7 @@ def scenario(told):
     cube = bpy.data.objects["Cube"]
     hold(0)
     bake()
-    killed = background.queue.bakes[0]
+    killed = session().bakes.bakes[0]
     yield from done(lambda: killed.progress is not None)
     os.kill(killed._process.pid, signal.SIGKILL)
     yield from done()
@@ -160,7 +160,7 @@ def scenario(told):
     told["without a world"] = bpy.ops.rsibr.bake.poll()
     bpy.context.scene.rsibr_bake.light = "STUDIO"
     bake()
-    gone = background.queue.bakes[0]
+    gone = session().bakes.bakes[0]
     bpy.data.objects.remove(cube)
     yield from done()
     told["object gone"] = str(gone.state), gone.message
@@ -173,13 +173,13 @@ def scenario(told):
     settings()
     hold(1)
     bake()
-    running = background.queue.bakes[0]
+    running = session().bakes.bakes[0]
     yield from done(lambda: finished_views(running) == 1)
     addon_utils.disable(ROOT)
     told["ended"], told["state"] = running._process.poll() is not None, str(running.state)
     told["folder"] = os.path.exists(running.command[-4])
     told["timer"] = bpy.app.timers.is_registered(background._look)
-    told["queue"] = len(background.queue.bakes)
+    told["queue"] = len(session().bakes.bakes)
     yield
 """
 

@@ -14,7 +14,7 @@ def scenario(told):
     settings()
     hold(1)
     bake()
-    running = background.queue.bakes[0]
+    running = session().bakes.bakes[0]
     yield from done(lambda: finished_views(running) == 1)
     # It will not go on before this is done, so whatever waited for it here would wait for ever
     before = draws.total()

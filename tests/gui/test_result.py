@@ -6,7 +6,6 @@ from rsibr.tests.gui.test_panel import PRELUDE
 
 PICTURES = """
 facts = importlib.import_module(ROOT + ".rsibr_addon.tasks.report.facts")
-panels = importlib.import_module(ROOT + ".rsibr_addon.ui.map_pictures")
 
 def look():
     # With what timers bring meanwhile
@@ -38,8 +37,8 @@ def scenario(told):
     lobes.bl_options = set()
     bpy.utils.register_class(lobes)
     yield from look()
-    yield from done(lambda: panels.map_pictures.items)
-    told["mips"] = [each[1] for each in panels.map_pictures.items]
+    yield from done(lambda: session().map_pictures.items)
+    told["mips"] = [each[1] for each in session().map_pictures.items]
     yield from look()
     before = shown()
     bpy.context.window_manager.rsibr_result.part = "environment"
@@ -47,10 +46,10 @@ def scenario(told):
     told["another map"] = bool((abs(shown() - before).max(axis=-1) > 30).sum() > 2000)
     bpy.ops.rsibr.assign(filepath="/job/stack.rsibr.exr")
     yield from look()
-    yield from done(lambda: panels.map_pictures.items)
+    yield from done(lambda: session().map_pictures.items)
     # The environment was the eighth
     told["of another"] = bpy.context.window_manager.rsibr_result.part
-    told["stack"] = [each[1] for each in panels.map_pictures.items]
+    told["stack"] = [each[1] for each in session().map_pictures.items]
     yield from look()
     # From here on nothing is read, however often and whatever is drawn of the same file
     def refuse(*arguments):
@@ -70,7 +69,7 @@ def scenario(told):
     told["find"] = yield from press("bpy.ops.rsibr.assign(")
     with bpy.context.temp_override(window=window()):
         bpy.ops.wm.read_homefile(app_template="")
-    told["after loading"] = len(panels.map_pictures.items)
+    told["after loading"] = len(session().map_pictures.items)
 
 READING = [(facts, "read_map_set_header"), (panels, "map_set_pictures")]
 """

@@ -16,7 +16,7 @@ def another_blender(cube):
     # A bake of the same that is in another Blender's queue
     order = bake_order.request_for(bpy.context.scene, cube)
     output = bake_order.output_for(order, bpy.context.scene, cube)
-    queue = type(background.queue)()
+    queue = type(session().bakes)()
     queue.add(bake_order.bake_of(order, cube, output))
     return queue
 
@@ -40,11 +40,11 @@ def scenario(told):
     bake()
     yield from done()
     let_go()
-    told["folder"] = f"{background.queue.bakes[0].output}.partial"
-    told["ours"], told["assigned"] = told_of(background.queue.bakes[0]), cube.rsibr.map_set
+    told["folder"] = f"{session().bakes.bakes[0].output}.partial"
+    told["ours"], told["assigned"] = told_of(session().bakes.bakes[0]), cube.rsibr.map_set
     told["other's"] = told_of((yield from ended(others)))
     bake()
-    told["then"] = [len(background.queue.bakes), os.path.basename(cube.rsibr.map_set)]
+    told["then"] = [len(session().bakes.bakes), os.path.basename(cube.rsibr.map_set)]
     told["files"] = os.listdir(others.bakes[0].output.parent)
 """
 
@@ -56,7 +56,7 @@ def scenario(told):
     bake()
     yield from done()
     other = yield from ended(others)
-    told["ours"], told["other's"] = told_of(background.queue.bakes[0]), told_of(other)
+    told["ours"], told["other's"] = told_of(session().bakes.bakes[0]), told_of(other)
     told["output"], told["assigned"] = str(other.output), os.path.basename(cube.rsibr.map_set)
     told["whole"] = bake_order.is_baked(other.output)
     told["files"] = os.listdir(other.output.parent)

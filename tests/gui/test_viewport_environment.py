@@ -18,7 +18,6 @@ def _pictures(job: Path) -> None:
 
 
 SCENARIO = """
-module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport.previews")
 
 def purple():
     return int(like(pixels(), (188, 0, 188)).sum())
@@ -31,16 +30,16 @@ def scenario(told):
     for name in ("even.exr", "even.hdr"):
         settings.map_set = "/job/" + name
         yield from drawn()
-        told[name], told["kind"] = purple(), module.previews.kind(cube)
+        told[name], told["kind"] = purple(), session().previews.kind(cube)
     settings.environment.antialiased = False
     yield from drawn()
     told["interpolated"] = purple()
     settings.environment.f_lambda = (0.1, 0.1, 0.1)
     yield from drawn()
-    told["dim"], told["fault"] = purple(), module.previews.fault(cube)
+    told["dim"], told["fault"] = purple(), session().previews.faults.message(cube)
     settings.map_set = "/job/square.exr"
     yield from drawn()
-    told["square"] = module.previews.fault(cube)
+    told["square"] = session().previews.faults.message(cube)
 """
 
 

@@ -18,18 +18,17 @@ def _flat(job: Path) -> None:
 
 
 PRELUDE = """
-module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport.previews")
 
 def purple(number=0):
     return int(like(pixels(number), (188, 0, 188)).sum())
 
-def held():
-    previews = module.previews
-    return [len(previews._meshes), len(previews._map_sets), len(previews._contents)]
+def held(previews=None):
+    previews = previews or session().previews
+    return [len(previews._layers.meshes), len(previews._map_sets.used), len(previews._layers.layers)]
 
 def uploaded():
-    previews = module.previews
-    return [*previews._meshes._uploaded.values(), *previews._map_sets.values()]
+    previews = session().previews
+    return [*previews._layers.meshes._uploaded.values(), *previews._map_sets.used.values()]
 
 def previewed_cube():
     bare(view())
@@ -62,7 +61,7 @@ def scenario(told):
         told["removed"], told["held"] = purple(), held()
         bpy.ops.ed.undo()
         yield from drawn()
-        told["back"], told["trouble"] = purple(), module.previews.trouble
+        told["back"], told["trouble"] = purple(), session().previews.faults.trouble
 """
 
 
@@ -85,7 +84,7 @@ def scenario(told):
     with bpy.context.temp_override(window=window()):
         bpy.ops.wm.save_as_mainfile(filepath="/job/flat.blend")
         bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    told["held by an empty file"] = [*held(), len(module.previews._unused)]
+    told["held by an empty file"] = [*held(), len(session().previews._map_sets.unused)]
     yield from drawn()
     with bpy.context.temp_override(window=window()):
         bpy.ops.wm.open_mainfile(filepath="/job/flat.blend")
@@ -107,10 +106,11 @@ def scenario(told):
     previewed_cube()
     yield from drawn()
     told["before"] = purple()
+    previews = session().previews
     addon_utils.disable(ROOT)
     yield from drawn()
     told["disabled"] = purple()
-    told["held"] = [*held(), len(module.previews._unused)]
+    told["held"] = [*held(previews), len(previews._map_sets.unused)]
     told["handlers"] = [
         function.__module__
         for name in dir(bpy.app.handlers)
@@ -143,24 +143,24 @@ def scenario(told):
     other.rsibr.map_set = "/job/flat.rsibr.exr"
     cube.rsibr.map_set = "/job/later.rsibr.exr"
     yield from drawn()
-    told["missing"] = [purple(), module.previews.fault(cube), module.previews.fault(other)]
+    told["missing"] = [purple(), *map(session().previews.faults.message, (cube, other))]
     shutil.copy("/job/flat.rsibr.exr", "/job/later.rsibr.exr")
     yield from drawn()
     told["still off"] = purple()
     cube.rsibr.show = False
     yield from drawn()
-    told["hidden"] = [purple(), module.previews.fault(cube)]
+    told["hidden"] = [purple(), session().previews.faults.message(cube)]
     cube.rsibr.show = True
     yield from drawn()
-    told["tried again"] = [purple(), module.previews.fault(cube), module.previews.kind(cube)]
+    told["tried again"] = [purple(), session().previews.faults.message(cube), session().previews.kind(cube)]
 
     def broken(*arguments):
         told["draws"] = told.get("draws", 0) + 1
         raise OSError("the card is on fire")
 
-    module.previews._map_sets["/job/later.rsibr.exr"].gpu_map_set.draw = broken
+    session().previews._map_sets.used["/job/later.rsibr.exr"].gpu_map_set.draw = broken
     yield from drawn()
-    told["broken"] = [purple(), module.previews.fault(cube)]
+    told["broken"] = [purple(), session().previews.faults.message(cube)]
 """
 
 
@@ -238,7 +238,7 @@ def scenario(told):
     columns = np.flatnonzero(like(pixels(), (188, 0, 188)).any(axis=0))
     told["dragged"] = int(columns[-1] - (x - part.x))
     # The other side in another look
-    gpu_map_set = next(iter(module.previews._map_sets.values())).gpu_map_set
+    gpu_map_set = next(iter(session().previews._map_sets.used.values())).gpu_map_set
     draw, looks = gpu_map_set.draw, []
 
     def recorded(mesh, placed, look):
@@ -301,15 +301,15 @@ def scenario(told):
     scene.view_settings.view_transform = "AgX"
     for _ in range(3):
         yield from drawn()
-    told["while rendering"] = [bpy.app.is_job_running("RENDER"), len(module.previews._displays)]
+    told["while rendering"] = [bpy.app.is_job_running("RENDER"), len(session().previews._displays.textures)]
     may_begin.set()
     while bpy.app.is_job_running("RENDER"):
         yield from drawn()
     yield from drawn()
-    told["displays"] = len(module.previews._displays)
+    told["displays"] = len(session().previews._displays.textures)
     scene.view_settings.view_transform = "Standard"
     yield from drawn()
-    told["after"], told["trouble"] = purple(), module.previews.trouble
+    told["after"], told["trouble"] = purple(), session().previews.faults.trouble
 """
 
 
@@ -328,7 +328,7 @@ def scenario(told):
     cube.modifiers.new("Smooth", "SUBSURF").levels = 2
     yield from drawn()
     before = uploaded()
-    seen, gpu_map_set = [], next(iter(module.previews._map_sets.values())).gpu_map_set
+    seen, gpu_map_set = [], next(iter(session().previews._map_sets.used.values())).gpu_map_set
     draw = gpu_map_set.draw
 
     def recorded(mesh, placed, look):

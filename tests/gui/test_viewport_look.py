@@ -138,10 +138,9 @@ def scenario(told):
     cube.rsibr.map_set = "/job/mirror.rsibr.exr"
     yield from drawn()
     yield from drawn()
-    module = importlib.import_module(ROOT + ".rsibr_addon.tasks.viewport.previews")
 
     def coverage():
-        stage = module.previews._stage
+        stage = session().previews._stage
         part = region(view())
         seen = np.array(stage._radiance.read()).reshape(*stage._size[::-1], 4)[: part.height, : part.width]
         return seen[..., 3] == 1.0

@@ -46,6 +46,4 @@ def bake(job: BakeJob[KernelBankSettings]) -> Steps[Baked]:
     )
 
 
-KIND = Kind(
-    from_map_set, LiveMaterials, Method(bake, cost), newest=LiveMaterials.newest, menu="RSIBR_MT_live_models"
-)
+KIND = Kind(from_map_set, LiveMaterials, Method(bake, cost), live=True, menu="RSIBR_MT_live_models")

@@ -19,20 +19,20 @@ class Kind:
     from_map_set : callable
         The file's path, for messages, and a `MapSet` to what it holds, its content.
     upload : callable
-        The content to a `GpuMapSet`.
+        The content to a `GpuMapSet`; of a live kind, the content and `LiveFits` or None to a `LiveGpuMapSet`.
     method : Method or None
         What makes it; None for pictures of environments.
     truth : Truth or None
         What pictures drawn from it are compared with; None for nothing.
-    newest : callable
-        What is uploaded and looks that were asked for, oldest first, to the last that can be drawn, or None.
+    live : bool
+        Whether its looks are made while one looks.
     menu : str
         A menu of Blender that its preview offers beside its look; empty for none.
     """
 
     from_map_set: Callable[[Path, MapSet], Any]
-    upload: Callable[[Any], GpuMapSet]
+    upload: Callable[..., GpuMapSet]
     method: Any = None
     truth: Truth | None = None
-    newest: Callable[[Any, list[Any]], Any] = lambda gpu_map_set, looks: looks[-1]
+    live: bool = False
     menu: str = ""

@@ -13,6 +13,7 @@ from ...files.kinds import environment
 from ...files.map_set import read_map_set, read_map_set_header
 from . import kernel_bank, lobe_stack, mip_chain, radiance_views, reflection_tables
 from .kind import Kind
+from .live_materials import LiveFits
 
 KINDS: dict[str, Kind] = {
     "radiance_views": radiance_views.KIND,
@@ -48,8 +49,13 @@ class OpenedMapSet:
     material: dict[str, Any]
     texels: int
 
-    def upload(self) -> GpuMapSet:
+    def upload(self, fits: LiveFits | None = None) -> GpuMapSet:
         """Put the content on the GPU.
+
+        Parameters
+        ----------
+        fits : LiveFits, optional
+            Makes looks of a kind that is live; without, they are made at once when they are drawn.
 
         Raises
         ------
@@ -57,7 +63,8 @@ class OpenedMapSet:
             There is no graphics driver, or it refuses a shader.
         """
         ensure_context()
-        return KINDS[self.kind].upload(self.content)
+        kind = KINDS[self.kind]
+        return kind.upload(self.content, fits) if kind.live else kind.upload(self.content)
 
 
 def kind_of(path: Path) -> str:

@@ -25,7 +25,7 @@ class _Request:
 
 
 class LatestRequestWorker:
-    """Works on requests in a thread of its own.
+    """Works on requests in a thread of its own, which starts with the first.
 
     A view requests anew at every redraw, so only the last request counts: at most one urgent request waits,
     and one other. Work that can be shown already makes room for an urgent request, and is requested again.
@@ -35,13 +35,9 @@ class LatestRequestWorker:
         self._changed = threading.Condition()
         self._waiting: dict[bool, _Request] = {}
         self._at_work: _Request | None = None
-        self._thread: threading.Thread | None = None
         self._has_news = False
-
-    @property
-    def is_open(self) -> bool:
-        """Whether there is a thread; without one, whoever needs something makes it."""
-        return self._thread is not None
+        self._is_open = True
+        self._thread: threading.Thread | None = None
 
     @property
     def is_busy(self) -> bool:
@@ -49,20 +45,14 @@ class LatestRequestWorker:
         with self._changed:
             return bool(self._at_work or self._waiting)
 
-    def open(self) -> None:
-        """Start the thread."""
-        self._thread = threading.Thread(target=self._work, name="rsibr worker", daemon=True)
-        self._thread.start()
-
     def close(self) -> None:
         """Drop all requests and end the thread, which takes as long as a step."""
-        thread, self._thread = self._thread, None
         with self._changed:
+            self._is_open = self._has_news = False
             self._waiting.clear()
-            self._has_news = False
             self._changed.notify()
-        if thread is not None:
-            thread.join()
+        if self._thread is not None:
+            self._thread.join()
 
     def request(self, key: Hashable, steps: Iterator[bool], is_urgent: bool) -> None:
         """Request something, unless it is being made.
@@ -79,6 +69,9 @@ class LatestRequestWorker:
             if self._at_work is None or self._at_work.key != key:
                 self._waiting[is_urgent] = _Request(key, steps, is_urgent)
                 self._changed.notify()
+            if self._thread is None:
+                self._thread = threading.Thread(target=self._work, name="rsibr worker", daemon=True)
+                self._thread.start()
 
     def take_news(self) -> bool:
         """Whether something new can be shown since the last call."""
@@ -92,19 +85,15 @@ class LatestRequestWorker:
                 with self._changed:
                     self._has_news |= can_be_shown
                     request.is_urgent &= not can_be_shown
-                    if self._thread is None or (True in self._waiting and not request.is_urgent):
+                    if not self._is_open or (True in self._waiting and not request.is_urgent):
                         break
 
     def _next(self) -> _Request | None:
         """The next request; None when the worker closes."""
         with self._changed:
             self._at_work = None
-            self._changed.wait_for(lambda: self._waiting or self._thread is None)
-            if self._thread is None:
+            self._changed.wait_for(lambda: self._waiting or not self._is_open)
+            if not self._is_open:
                 return None
             self._at_work = self._waiting.pop(max(self._waiting))
             return self._at_work
-
-
-workshop = LatestRequestWorker()
-"""The worker of this Blender; closed where there are no viewports."""

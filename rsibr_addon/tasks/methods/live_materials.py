@@ -17,10 +17,11 @@ from ...core.lobes.fit import Fit
 from ...core.lobes.layers import layered_fit
 from ...core.lobes.target import elevation_slices, target_slices
 from ...core.progress import Steps
+from ...core.recorded_warnings import recorded_warnings
 from ...device.drawing import Draw, GpuMesh
 from ...device.kinds.lobe_stack import GpuLobeStack
 from ...files.brdfs import read_measured
-from .latest_request_worker import workshop
+from .latest_request_worker import LatestRequestWorker
 
 SLICES = 16
 """View elevations of a fit."""
@@ -40,8 +41,45 @@ KEPT = 8
 
 type _Quality = tuple[int, int, int | None]
 
-_fits: dict[tuple[str, _Quality, float], Fit] = {}
-"""By model, quality and sharpest kernel; they are the same in every light."""
+
+class LiveFits:
+    """Fits, which are the same in every light, and where stacks are made of them.
+
+    Parameters
+    ----------
+    worker : LatestRequestWorker or None
+        Makes stacks, drafts first; without one, whoever needs a stack waits for it.
+    """
+
+    def __init__(self, worker: LatestRequestWorker | None = None) -> None:
+        self.worker = worker
+        self._kept: dict[tuple[str, _Quality, float], Fit] = {}
+
+    def fit(self, brdf: Brdf, spec: str, quality: _Quality, sharpest: float) -> Steps[Fit]:
+        """Fit a model, unless that fit is kept.
+
+        Parameters
+        ----------
+        brdf : Brdf
+        spec : str
+            What `brdf` was made of.
+        quality : (int, int, int or None)
+            Lobes, elevations and taps.
+        sharpest : float
+            Concentration of the sharpest kernel.
+
+        Returns
+        -------
+        Fit
+        """
+        key = (spec, quality, sharpest)
+        if key not in self._kept:
+            lobes, slices, taps = quality
+            mu = elevation_slices(slices)
+            self._kept[key] = yield from layered_fit(brdf, mu, lobes, taps=taps, sharpest=sharpest)
+            for forgotten in list(self._kept)[:-FITS_KEPT]:
+                del self._kept[forgotten]
+        return self._kept[key]
 
 
 @dataclass(frozen=True)
@@ -51,6 +89,7 @@ class _Made:
     stack: LobeStack | None
     error: Exception | None
     is_final: bool
+    warning: str = ""
 
 
 @dataclass
@@ -64,6 +103,8 @@ class _Shown:
         Why there is none.
     is_final : bool
         False for a draft.
+    warning : str
+        What there is to be said of it; empty for nothing.
     used_at : int
         How many uploads there had been when it was needed last.
     """
@@ -71,19 +112,23 @@ class _Shown:
     gpu_map_set: GpuLobeStack | None
     error: Exception | None
     is_final: bool
+    warning: str
     used_at: int
 
 
 class LiveMaterials:
-    """A kernel bank, and the stacks of the looks that are drawn from it: a `GpuMapSet`.
+    """A kernel bank, and the stacks of the looks that are drawn from it: a `LiveGpuMapSet`.
 
     Parameters
     ----------
     filtered : FilteredBank
+    fits : LiveFits, optional
+        Without them, looks are made at once, and their warnings are Python's.
     """
 
-    def __init__(self, filtered: FilteredBank) -> None:
+    def __init__(self, filtered: FilteredBank, fits: LiveFits | None = None) -> None:
         self._filtered = filtered
+        self._fits = fits or LiveFits()
         self._made: dict[BankLook, _Made] = {}
         self._shown: dict[BankLook, _Shown] = {}
         self._uploads = 0
@@ -94,7 +139,7 @@ class LiveMaterials:
         Returns
         -------
         bool
-            False only where `workshop` is open, which then makes it; else that is done at once.
+            False only where a worker makes it.
 
         Raises
         ------
@@ -116,21 +161,15 @@ class LiveMaterials:
         return True
 
     def newest(self, looks: list[BankLook]) -> BankLook | None:
-        """The last of some looks that can be drawn. If the very last cannot be drawn, it is made.
-
-        Parameters
-        ----------
-        looks : list of BankLook
-            At least one.
-
-        Raises
-        ------
-        RsibrError, OSError
-            As `is_ready`, of the last look.
-        """
+        """See `LiveGpuMapSet.newest`; raises as `is_ready` does, of the last look."""
         if self.is_ready(looks[-1]):
             return looks[-1]
         return next(filter(self._can_be_drawn, reversed(looks)), None)
+
+    def warning(self, look: BankLook) -> str:
+        """See `LiveGpuMapSet.warning`."""
+        made = self._made.get(look) or self._shown.get(look)
+        return made.warning if made else ""
 
     def draw(self, mesh: GpuMesh, draw: Draw, look: BankLook) -> None:
         """See `GpuMapSet.draw`; a look that is not ready is not drawn."""
@@ -149,11 +188,13 @@ class LiveMaterials:
 
     def _have_made(self, look: BankLook, is_urgent: bool) -> None:
         steps = self._making(look)
-        if workshop.is_open:
-            workshop.request((id(self), look), steps, is_urgent)
-        else:
-            for _ in steps:
-                pass
+        if self._fits.worker:
+            self._fits.worker.request((id(self), look), steps, is_urgent)
+            return
+        for _ in steps:
+            pass
+        if warning := self.warning(look):
+            warnings.warn(warning, RsibrWarning, stacklevel=2)
 
     def _taken(self, look: BankLook) -> _Shown | None:
         """Upload what has been made, if it has."""
@@ -162,7 +203,7 @@ class LiveMaterials:
             return None
         self._uploads += 1
         gpu_map_set = None if made.stack is None else GpuLobeStack(made.stack)
-        self._shown[look] = _Shown(gpu_map_set, made.error, made.is_final, self._uploads)
+        self._shown[look] = _Shown(gpu_map_set, made.error, made.is_final, made.warning, self._uploads)
         oldest = self._uploads - KEPT
         self._shown = {each: shown for each, shown in self._shown.items() if shown.used_at >= oldest}
         return self._shown[look]
@@ -170,14 +211,15 @@ class LiveMaterials:
     def _making(self, look: BankLook) -> Iterator[bool]:
         """Make a look's stacks, the draft first; in the thread, where there is one. True with each stack."""
         try:
-            brdf = brdf_from_spec(look.spec, read_measured)
+            with recorded_warnings() as warned:
+                brdf = brdf_from_spec(look.spec, read_measured)
+            warned += _blunt(self._filtered, brdf, look.spec)
             final = (look.lobe_count, SLICES, None)
-            for quality in (DRAFT, final) if workshop.is_open else (final,):
-                fit = yield from _unshown(_fit(brdf, look.spec, quality, self._filtered.sharpest))
+            for quality in (DRAFT, final) if self._fits.worker else (final,):
+                fit = yield from _unshown(self._fits.fit(brdf, look.spec, quality, self._filtered.sharpest))
                 stack, _ = stack_from_bank(self._filtered, fit)
-                self._hand_over(look, _Made(stack, None, quality == final))
+                self._hand_over(look, _Made(stack, None, quality == final, " ".join(warned)))
                 yield True
-            _tell_if_blunt(self._filtered, brdf, look.spec)
         except Exception as error:  # Told by whoever asks for the look
             self._hand_over(look, _Made(None, error, is_final=True))
             yield True
@@ -186,17 +228,6 @@ class LiveMaterials:
         self._made[look] = made
         for forgotten in list(self._made)[:-KEPT]:
             self._made.pop(forgotten, None)
-
-
-def _fit(brdf: Brdf, spec: str, quality: _Quality, sharpest: float) -> Steps[Fit]:
-    key = (spec, quality, sharpest)
-    if key not in _fits:
-        lobes, slices, taps = quality
-        mu = elevation_slices(slices)
-        _fits[key] = yield from layered_fit(brdf, mu, lobes, taps=taps, sharpest=sharpest)
-        for forgotten in list(_fits)[:-FITS_KEPT]:
-            del _fits[forgotten]
-    return _fits[key]
 
 
 def _unshown[Result](steps: Steps[Result]) -> Generator[bool, None, Result]:
@@ -210,12 +241,12 @@ def _unshown[Result](steps: Steps[Result]) -> Generator[bool, None, Result]:
         yield False
 
 
-def _tell_if_blunt(filtered: FilteredBank, brdf: Brdf, spec: str) -> None:
+def _blunt(filtered: FilteredBank, brdf: Brdf, spec: str) -> list[str]:
+    """A warning where maps are too small for a model."""
     radius = min(target_slices(layer, [1.0])[0].radius for layer in brdf.layers)
-    if filtered.sharpest * radius**2 < RESOLVED:
-        warnings.warn(
-            f"Maps of {filtered.size} texels blur {spec}, whose lobe is {np.degrees(2.0 * radius):.2g} "
-            f"degrees wide: bake a larger kernel bank.",
-            RsibrWarning,
-            stacklevel=2,
-        )
+    if filtered.sharpest * radius**2 >= RESOLVED:
+        return []
+    return [
+        f"Maps of {filtered.size} texels blur {spec}, whose lobe is {np.degrees(2.0 * radius):.2g} "
+        f"degrees wide: bake a larger kernel bank."
+    ]

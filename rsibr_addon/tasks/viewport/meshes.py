@@ -17,17 +17,12 @@ class UploadedMeshes:
     def __init__(self) -> None:
         self._contents: dict[int, bytes] = {}
         self._uploaded: dict[bytes, GpuMesh] = {}
-        self._standing: dict[Surface, GpuMesh] = {}
 
     def __len__(self) -> int:
         return len(self._uploaded)
 
-    def __getitem__(self, surface: Surface) -> GpuMesh:
-        """What a surface is drawn with, once it is `there`."""
-        return self._standing[surface]
-
-    def there(self, surface: Surface, evaluated: Any, depsgraph: Any) -> bool:
-        """Whether a surface can be drawn: it has faces, and is uploaded from now on.
+    def of(self, surface: Surface, evaluated: Any, depsgraph: Any) -> GpuMesh | None:
+        """What a surface is drawn with, uploaded from now on; None if it has no faces.
 
         Parameters
         ----------
@@ -46,13 +41,10 @@ class UploadedMeshes:
                     )
                 self._contents[surface.mesh] = content  # at last: what fails above is tried again
         uploaded = self._uploaded.get(self._contents[surface.mesh])
-        if uploaded is not None:
-            self._standing[surface] = uploaded.again()
-        return uploaded is not None
+        return None if uploaded is None else uploaded.again()
 
     def keep(self, surfaces: list[Surface]) -> None:
         """Let go of what none of these surfaces has."""
-        self._standing = {surface: self._standing[surface] for surface in surfaces}
         wanted = {surface.mesh for surface in surfaces}
         self._contents = {mesh: content for mesh, content in self._contents.items() if mesh in wanted}
         contents = set(self._contents.values())

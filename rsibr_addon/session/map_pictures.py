@@ -1,7 +1,6 @@
 """Pictures in panels: of the shown map set's maps and lobes, made aside while Blender goes on."""
 
 from concurrent.futures import Future, ThreadPoolExecutor
-from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +26,11 @@ type Item = tuple[str, str, str, int, int]
 class MapPictures:
     """Pictures of one map set at a time, kept while its file stays the same.
 
+    Parameters
+    ----------
+    has_windows : bool
+        Without windows, there is nothing to show in.
+
     Attributes
     ----------
     items : list of Item
@@ -35,33 +39,21 @@ class MapPictures:
         Why there will be none; empty else.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, has_windows: bool) -> None:
         self.items: list[Item] = []
         self.fault = ""
         self._shown: tuple[Path, tuple[int, int] | None] | None = None
-        self._icons: Any = None  # A bpy.utils.previews.ImagePreviewCollection from `start` on
-        self._reader: ThreadPoolExecutor | None = None
         self._read: Future[list[MapPicture]] | None = None
         self._lobes: float | None = None
-        # Blender knows a timer by its object, and each look at a method makes another.
+        # Blender knows a timer and a handler by their objects, and each look at a method makes another.
         self._timer = self._take
-
-    def start(self, undo: ExitStack) -> None:
-        """Be ready to show; a Blender without windows has nothing to show in.
-
-        Parameters
-        ----------
-        undo : ExitStack
-            Takes what ends it.
-        """
-        if bpy.app.background:
-            return
-        self._icons = bpy.utils.previews.new()
-        self._reader = ThreadPoolExecutor(1, "rsibr-map-pictures")
-        undo.callback(self._release)
-        closed = persistent(lambda *_: self._forget())
-        bpy.app.handlers.load_pre.append(closed)
-        undo.callback(bpy.app.handlers.load_pre.remove, closed)
+        self._closed = persistent(lambda *_: self._forget())
+        self._icons: Any = None  # A bpy.utils.previews.ImagePreviewCollection
+        self._reader: ThreadPoolExecutor | None = None
+        if has_windows:
+            self._icons = bpy.utils.previews.new()
+            self._reader = ThreadPoolExecutor(1, "rsibr-map-pictures")
+            bpy.app.handlers.load_pre.append(self._closed)
 
     def show(self, path: Path) -> None:
         """Have `items` be of this map set: at once, or when its file has been read."""
@@ -89,6 +81,14 @@ class MapPictures:
             self._lobes = mu
         return int(self._icons["lobes"].icon_id)
 
+    def close(self) -> None:
+        """Let go of everything."""
+        if self._reader is not None:
+            self._forget()
+            bpy.app.handlers.load_pre.remove(self._closed)
+            self._reader.shutdown()
+            bpy.utils.previews.remove(self._icons)
+
     def _take(self) -> float | None:
         """Take what has been read."""
         if self._read is None:
@@ -112,14 +112,3 @@ class MapPictures:
         self._icons.clear()
         self.fault = ""
         self._shown = self._read = self._lobes = None
-
-    def _release(self) -> None:
-        self._forget()
-        if self._reader is not None:
-            self._reader.shutdown()
-        bpy.utils.previews.remove(self._icons)
-        self._icons = self._reader = None
-
-
-map_pictures = MapPictures()
-"""The pictures in this Blender's panels."""

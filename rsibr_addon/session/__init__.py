@@ -1,0 +1,1 @@
+"""What lasts while the extension is enabled."""

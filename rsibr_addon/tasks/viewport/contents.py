@@ -1,0 +1,90 @@
+"""What view layers show: surfaces with a preview, and those that may hide them."""
+
+from dataclasses import dataclass
+
+from ...device.drawing import GpuMesh
+from ...host.visible_surfaces import Layer, Surface, View, is_wanted, map_set_of, shown_layers, surfaces
+from .faults import Faults
+from .meshes import UploadedMeshes
+
+
+@dataclass(frozen=True, eq=False)
+class Drawable:
+    """A surface, and what it is drawn with."""
+
+    surface: Surface
+    mesh: GpuMesh
+
+    def is_seen(self, view: View) -> bool:
+        """Whether a viewport shows it."""
+        return bool(self.surface.shown_by.visible_in_viewport_get(view.space))
+
+
+@dataclass
+class Contents:
+    """What a view layer shows.
+
+    Attributes
+    ----------
+    previews : list of Drawable
+        Surfaces with a preview.
+    others : list of Drawable or None
+        Surfaces without a preview, if they were asked for.
+    changed : bool
+        Whether the scene has changed since.
+    """
+
+    previews: list[Drawable]
+    others: list[Drawable] | None
+    changed: bool = False
+
+    def serves(self, with_others: bool) -> bool:
+        """Whether it is still right. Blender sends no notice of a map set that was packed or moved."""
+        paths = {each.surface.item: each.surface.path for each in self.previews}
+        return (
+            not self.changed
+            and (self.others is not None) == with_others
+            and all(map_set_of(item) == path for item, path in paths.items())
+        )
+
+
+class LayerContents:
+    """What the shown view layers show, and their meshes on the GPU."""
+
+    def __init__(self) -> None:
+        self.layers: dict[Layer, Contents] = {}
+        self.meshes = UploadedMeshes()
+
+    def scene_changed(self) -> None:
+        """Look at each layer anew when it is drawn next; what is the same stays uploaded."""
+        for contents in self.layers.values():
+            contents.changed = True
+
+    def collect(self, view: View, with_others: bool, faults: Faults) -> Contents:
+        """Find what a view layer shows, upload the meshes that are new, and let go of what nobody shows."""
+        contents = Contents([], [] if with_others else None)
+        if is_wanted():
+            self._fill(contents, view, faults)
+        else:
+            faults.clear()
+        self.layers[view.layer] = contents  # at last: what fails above is tried again
+        for layer in self.layers.keys() - shown_layers():
+            del self.layers[layer]
+        shown = [each for layer in self.layers.values() for each in (*layer.previews, *(layer.others or ()))]
+        self.meshes.keep([each.surface for each in shown])
+        return contents
+
+    def paths(self) -> set[str]:
+        """The files that anything shown is shaded from."""
+        return {each.surface.path for contents in self.layers.values() for each in contents.previews}
+
+    def _fill(self, contents: Contents, view: View, faults: Faults) -> None:
+        for surface, evaluated in surfaces(view.depsgraph):
+            if not surface.path:
+                faults.forget(surface.item)
+            found = contents.previews if surface.path else contents.others
+            if found is None:
+                continue
+            mesh = self.meshes.of(surface, evaluated, view.depsgraph)
+            if mesh is not None:
+                found.append(Drawable(surface, mesh))

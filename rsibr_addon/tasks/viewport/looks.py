@@ -1,0 +1,51 @@
+"""How objects are shaded: what their settings say, or what can be drawn of it as yet."""
+
+from typing import Any
+
+from ...files.kinds.registry import look_types
+from ...host.option_properties import options_of
+from ...host.visible_surfaces import Surface
+from ..methods.kinds import KINDS
+from .map_sets import UploadedMapSet
+
+
+class Looks:
+    """Looks of objects; of kinds that are live, those that were asked for since the last that is there.
+
+    Attributes
+    ----------
+    asked : dict
+        Number of an object, path and whether it is the other look -> looks, oldest first.
+    """
+
+    def __init__(self) -> None:
+        self._types = look_types()
+        self.asked: dict[tuple[int, str, bool], list[Any]] = {}
+
+    def of(self, surface: Surface, map_set: UploadedMapSet, other: bool) -> Any:
+        """An object's look: as before, while a new one is being made; None before there is any."""
+        look = self._said(surface.item, map_set.kind, other)
+        if not KINDS[map_set.kind].live:
+            return look
+        asked = self.asked.setdefault((surface.item.session_uid, surface.path, other), [])
+        if look in asked:
+            asked.remove(look)
+        asked.append(look)
+        newest = map_set.gpu_map_set.newest(asked)
+        if newest is not None:
+            del asked[: asked.index(newest)]
+        return newest
+
+    def warnings(self, item: Any, map_set: UploadedMapSet) -> list[str]:
+        """What the makers of an object's looks have to say of them."""
+        if not KINDS[map_set.kind].live:
+            return []
+        looks = [self._said(item, map_set.kind, other) for other in (False, True)]
+        return [warning for look in dict.fromkeys(looks) if (warning := map_set.gpu_map_set.warning(look))]
+
+    def keep(self, paths: set[str]) -> None:
+        """Forget what was asked of other map sets."""
+        self.asked = {shown: looks for shown, looks in self.asked.items() if shown[1] in paths}
+
+    def _said(self, item: Any, kind: str, other: bool) -> Any:
+        return options_of(self._types[kind], getattr(item.rsibr.other if other else item.rsibr, kind))

@@ -106,7 +106,7 @@ def options_of[Given: Options](options: type[Given], group: Any, own: str = "") 
 
 
 def said_by(options: type[Options], group: Any) -> tuple[Any, ...]:
-    """All that properties say, to tell whether anything has changed; never raises.
+    """All that properties say, to tell whether anything has changed; hashable, and never raises.
 
     Parameters
     ----------
@@ -118,7 +118,9 @@ def said_by(options: type[Options], group: Any) -> tuple[Any, ...]:
     for declared in declared_options(options):
         name = property_name(declared)
         value = getattr(group, name)
-        values.append(value if isinstance(value, str | float | int | set) else tuple(value))
+        if isinstance(value, set):
+            value = frozenset(value)
+        values.append(value if isinstance(value, str | float | int | frozenset) else tuple(value))
         if declared.option.switch is not None:
             values.append(getattr(group, f"use_{name}"))
     return tuple(values)

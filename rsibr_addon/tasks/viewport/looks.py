@@ -3,10 +3,13 @@
 from typing import Any
 
 from ...files.kinds.registry import look_types
-from ...host.option_properties import options_of
+from ...host.option_properties import options_of, said_by
 from ...host.visible_surfaces import Surface
 from ..methods.kinds import KINDS
 from .map_sets import UploadedMapSet
+
+LOOKS_KEPT = 1000
+"""Looks that are remembered: a slider makes one for each of its values."""
 
 
 class Looks:
@@ -20,6 +23,7 @@ class Looks:
 
     def __init__(self) -> None:
         self._types = look_types()
+        self._made: dict[object, Any] = {}
         self.asked: dict[tuple[int, str, bool], list[Any]] = {}
 
     def of(self, surface: Surface, map_set: UploadedMapSet, other: bool) -> Any:
@@ -48,4 +52,11 @@ class Looks:
         self.asked = {shown: looks for shown, looks in self.asked.items() if shown[1] in paths}
 
     def _said(self, item: Any, kind: str, other: bool) -> Any:
-        return options_of(self._types[kind], getattr(item.rsibr.other if other else item.rsibr, kind))
+        """The look that an object's properties say; it is checked once, as every frame asks for it."""
+        group = getattr(item.rsibr.other if other else item.rsibr, kind)
+        said = kind, said_by(self._types[kind], group)
+        if said not in self._made:
+            if len(self._made) >= LOOKS_KEPT:
+                self._made.clear()
+            self._made[said] = options_of(self._types[kind], group)
+        return self._made[said]

@@ -6,6 +6,7 @@ from rsibr.tests.gui.test_panel import PRELUDE
 
 PICTURES = """
 facts = importlib.import_module(ROOT + ".rsibr_addon.tasks.report.facts")
+panels = importlib.import_module(ROOT + ".rsibr_addon.session.map_pictures")
 
 def look():
     # With what timers bring meanwhile

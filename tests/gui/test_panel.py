@@ -173,13 +173,14 @@ def scenario(told):
     settings()
     hold(1)
     bake()
-    running = session().bakes.bakes[0]
+    bakes = session().bakes
+    running = bakes.bakes[0]
     yield from done(lambda: finished_views(running) == 1)
     addon_utils.disable(ROOT)
     told["ended"], told["state"] = running._process.poll() is not None, str(running.state)
     told["folder"] = os.path.exists(running.command[-4])
     told["timer"] = bpy.app.timers.is_registered(background._look)
-    told["queue"] = len(session().bakes.bakes)
+    told["queue"] = len(bakes.bakes)
     yield
 """
 

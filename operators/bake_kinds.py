@@ -63,17 +63,5 @@ def _operator(name: str, settings: type[MethodSettings]) -> type[bpy.types.Opera
     return type(f"RSIBR_OT_{name}", (_BakeKind, bpy.types.Operator), members)
 
 
-OLD_NAMES = {
-    "capture_views": "radiance_views",
-    "bake_tables": "reflection_tables",
-    "bake_mips": "mip_chain",
-    "bake_stack": "lobe_stack",
-    "bake_bank": "kernel_bank",
-}
-"""Operators of version 0.1 -> the kind that they make; they go with version 0.3."""
-
-CLASSES = (
-    *(_operator(f"bake_{kind}", settings) for kind, settings in METHOD_SETTINGS.items()),
-    *(_operator(name, METHOD_SETTINGS[kind]) for name, kind in OLD_NAMES.items()),
-)
+CLASSES = tuple(_operator(f"bake_{kind}", settings) for kind, settings in METHOD_SETTINGS.items())
 """Every operator's class."""

@@ -41,6 +41,12 @@ OLD_NAMES = {
 }
 """Commands of version 0.1 -> the kind that `bake` makes for them; they go with version 0.3."""
 
+OLD_DEFAULTS = {
+    "radiance-views": {"--samples": "--samples=64", "--denoise": "--no-denoise"},
+    "lobe-stack": {"--half": "--no-half"},
+}
+"""Kind -> options that had another default in version 0.1, and what gives that to its command."""
+
 
 def parsed(argv: Sequence[str]) -> argparse.Namespace:
     """What a command line asks for.
@@ -67,12 +73,19 @@ def _with_todays_names(argv: Sequence[str]) -> Sequence[str]:
     """`bake JOB.json` under the name of what does it, and what was called otherwise in version 0.1."""
     name, rest = (argv[0], argv[1:]) if argv else ("", argv)
     if name in OLD_NAMES:
-        return ["bake", OLD_NAMES[name], *rest]
+        return _as_in_version_01(OLD_NAMES[name], rest)
     if name == "bake" and rest and rest[0].endswith(".json"):
         return ["job", *rest]
     if name == "bake" and rest and rest[0].startswith("--") and rest[0] != "--help":
-        return ["bake", "lobe-stack", *rest]
+        return _as_in_version_01("lobe-stack", rest)
     return argv
+
+
+def _as_in_version_01(kind: str, rest: Sequence[str]) -> Sequence[str]:
+    """A command by its old name, with its old defaults: jobs of then leave options out."""
+    said = {word.partition("=")[0].replace("--no-", "--") for word in rest}
+    defaults = [given for option, given in OLD_DEFAULTS.get(kind, {}).items() if option not in said]
+    return ["bake", kind, *rest, *defaults]
 
 
 def parser() -> Parser:

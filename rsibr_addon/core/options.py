@@ -49,6 +49,8 @@ class Materials:
         The preset that is chosen first.
     model : str
         The reflectance model that is chosen first; empty where models cannot be taken.
+    spared : tuple of str
+        Names of the options that `instead` has no use for.
     instead : str
         Name of the option that can be given instead of a material, as a file; empty for none.
     """
@@ -58,6 +60,7 @@ class Materials:
     preset: str = ""
     model: str = ""
     instead: str = ""
+    spared: tuple[str, ...] = ()
 
 
 @dataclasses.dataclass(frozen=True)

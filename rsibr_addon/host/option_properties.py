@@ -99,9 +99,12 @@ def options_of[Given: Options](options: type[Given], group: Any, own: str = "") 
     values = {each.name: _value(each, group, own) for each in declared_options(options)}
     source = getattr(group, "source", None)
     for each in declared_options(options):
-        instead = each.option.materials.instead if each.option.materials else ""
-        if instead and source not in (None, instead.upper()):
-            values[instead] = None
+        materials = each.option.materials
+        if materials is None or not materials.instead or source is None:
+            continue
+        unused = materials.spared if source == materials.instead.upper() else (materials.instead,)
+        for name in unused:
+            del values[name]
     return options(**values)
 
 
@@ -231,7 +234,8 @@ def _property(declared: Declared, common: dict[str, Any], by_text: bool) -> Any:
 
 def _is_list(declared: Declared) -> bool:
     """Whether it is numbers, as many as one likes, which Blender has as a text."""
-    return declared.wanted is tuple and declared.count is None and not declared.option.choices
+    told = declared.option
+    return declared.wanted is tuple and declared.count is None and not (told.choices or told.switch)
 
 
 def _description(declared: Declared) -> str:

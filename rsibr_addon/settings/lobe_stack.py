@@ -26,6 +26,10 @@ def layout_option() -> Any:
     )
 
 
+FITTING = tuple(each.name for each in declared_options(Fitting))
+"""Options that a fit which was made before has no use for."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class LobeStackSettings(Fitting, MethodSettings):
     """Settings of lobe stacks: a model and how it is fitted, or a fit that was made before."""
@@ -40,7 +44,7 @@ class LobeStackSettings(Fitting, MethodSettings):
         help=MODEL_HELP,
         none="that of the fit",
         metavar="SPEC",
-        materials=replace(MODELS, instead="fit"),
+        materials=replace(MODELS, instead="fit", spared=FITTING),
     )
     fit: str | None = option(
         None,

@@ -21,8 +21,8 @@ def test_the_operator_writes_what_the_command_writes(tmp_path: Path, monkeypatch
     assert run([*command, "--size", "16", "--half", "-o", "command.exr"]) == 0
     options = {"environment": "light.exr", "brdf": SPEC, "lobes": 2, "slices": 4, "size": 16, "half": True}
     before = open_file_state()
-    assert bpy.ops.rsibr.bake_stack(filepath="operator.exr", **options) == {"FINISHED"}
+    assert bpy.ops.rsibr.bake_lobe_stack(filepath="operator.exr", **options) == {"FINISHED"}
     assert open_file_state() == before
     assert Path("operator.exr").read_bytes() == Path("command.exr").read_bytes()
     with pytest.raises(RuntimeError, match=r"operator\.exr exists: .*"):
-        bpy.ops.rsibr.bake_stack(filepath="operator.exr", **options)
+        bpy.ops.rsibr.bake_lobe_stack(filepath="operator.exr", **options)

@@ -42,11 +42,11 @@ def test_the_command_writes_what_the_library_makes(light, capfd: pytest.CaptureF
 def test_the_operator_does_the_same(light) -> None:
     rsibr.register()
     try:
-        assert bpy.ops.rsibr.bake_bank(filepath="b.rsibr.exr", environment="light.exr", size=16) == {
+        assert bpy.ops.rsibr.bake_kernel_bank(filepath="b.rsibr.exr", environment="light.exr", size=16) == {
             "FINISHED"
         }
         with pytest.raises(RuntimeError, match="exists"):
-            bpy.ops.rsibr.bake_bank(filepath="b.rsibr.exr", environment="light.exr", size=16)
+            bpy.ops.rsibr.bake_kernel_bank(filepath="b.rsibr.exr", environment="light.exr", size=16)
     finally:
         rsibr.unregister()
     expected = drain(bake_bank(light, "dual_paraboloid", 16)).filtered

@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.command_line import info
+from rsibr.rsibr_addon.command_line.commands import parsed
 from rsibr.rsibr_addon.command_line.endings import interrupted
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import RsibrError, RsibrWarning
@@ -297,3 +298,11 @@ def test_json_of_a_bake_has_the_figures_of_its_text(
     found = json.loads(capfd.readouterr().out)
     assert told
     assert told <= set(re.findall(r"[0-9]+", json.dumps(found)))
+
+
+def test_old_names_keep_their_defaults() -> None:
+    capture = parsed(["capture", "--material", "copper", "-o", "a.rsibr.exr"])
+    assert (capture.samples, capture.denoise) == (64, False)
+    assert parsed(["capture", "--material", "copper", "--denoise", "--samples=9", "-o", "a.exr"]).denoise
+    assert parsed(["bake", "--brdf", "lambert:kd=1", "-o", "a.rsibr.exr"]).half is False
+    assert "half" not in parsed(["bake", "lobe-stack", "--brdf", "lambert:kd=1", "-o", "a.rsibr.exr"])

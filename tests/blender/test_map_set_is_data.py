@@ -103,7 +103,7 @@ def test_the_report_plots_the_model_that_is_named(tmp_path: Path) -> None:
 @needs_gl
 def test_stacks_are_compared_with_files_that_are_named(tmp_path: Path) -> None:
     path, settings = write_stack(tmp_path / "a.rsibr.exr", ELSEWHERE[0]), StackComparison(views=1, size=8)
-    with pytest.raises(InputFileError, match=r"its model is in /etc/passwd, .* with --brdf"):
+    with pytest.raises(InputFileError, match=r"names a model in /etc/passwd, .* with --brdf"):
         drain(compare(path, settings, tmp_path / "out"))
     with pytest.raises(AssertionError, match="/etc/passwd is opened"):
         drain(compare(path, replace(settings, brdf=ELSEWHERE[0]), tmp_path / "out"))
@@ -118,7 +118,7 @@ def test_views_are_compared_with_files_that_are_named(tmp_path: Path) -> None:
     header = flat.header | {"material": flat.header["material"] | {"spec": spec}}
     write_map_set(path, MapSet(flat.kind, flat.maps, header))
     settings = ViewsComparison(views=1, size=8)
-    with pytest.raises(InputFileError, match=r"material is /art/evil\.blend:Evil, .* with --material"):
+    with pytest.raises(InputFileError, match=r"names the material /art/evil\.blend:Evil, .* with --material"):
         drain(compare(path, settings, tmp_path / "out"))
     with pytest.raises(AssertionError, match=r"/art/evil\.blend is opened"):
         drain(compare(path, replace(settings, material=spec), tmp_path / "out"))

@@ -143,12 +143,12 @@ def test_existing_files_are_kept(light: np.ndarray, capfd: pytest.CaptureFixture
 def test_the_operator_writes_what_the_command_writes(light: np.ndarray) -> None:
     before = open_file_state()
     options = {"filter": "bordered", "size": 64, "environment": "light.exr"}
-    assert bpy.ops.rsibr.bake_mips(filepath="operator.exr", **options) == {"FINISHED"}
+    assert bpy.ops.rsibr.bake_mip_chain(filepath="operator.exr", **options) == {"FINISHED"}
     assert open_file_state() == before
     bake("--filter", "bordered", "--size", "64")
     assert Path("operator.exr").read_bytes() == Path("out.rsibr.exr").read_bytes()
     with pytest.raises(RuntimeError, match=r"operator\.exr exists: .*"):
-        bpy.ops.rsibr.bake_mips(filepath="operator.exr", **options)
+        bpy.ops.rsibr.bake_mip_chain(filepath="operator.exr", **options)
 
 
 @pytest.mark.needs("cycles")
@@ -157,6 +157,6 @@ def test_the_operator_takes_the_world(tmp_path: Path, monkeypatch: pytest.Monkey
     monkeypatch.setattr("rsibr.rsibr_addon.tasks.light.environments.WORLD_HEIGHT", 16)
     path = tmp_path / "world.rsibr.exr"
     bpy.context.scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.1, 0.2, 0.3, 1.0)
-    assert bpy.ops.rsibr.bake_mips(filepath=str(path), filter="box", size=64) == {"FINISHED"}
+    assert bpy.ops.rsibr.bake_mip_chain(filepath=str(path), filter="box", size=64) == {"FINISHED"}
     chain = from_map_set(path, read_map_set(path))
     np.testing.assert_allclose(chain.mips[-1], np.broadcast_to((0.1, 0.2, 0.3), (6, 1, 1, 3)), rtol=1e-4)

@@ -145,7 +145,7 @@ def test_a_material_that_is_too_bright_gets_a_warning(
 @pytest.mark.usefixtures("registered")
 def test_the_operator_writes_what_the_command_writes(light: np.ndarray) -> None:
     before = open_file_state()
-    result = bpy.ops.rsibr.bake_tables(
+    result = bpy.ops.rsibr.bake_reflection_tables(
         filepath="op.exr", environment="light.exr", preset="plastic", specular="phong:n=9,ks=0.1", rows=12
     )
     assert result == {"FINISHED"}
@@ -153,9 +153,9 @@ def test_the_operator_writes_what_the_command_writes(light: np.ndarray) -> None:
     bake("--material", "plastic", "--specular", "phong:n=9,ks=0.1", "--rows", "12")
     assert Path("op.exr").read_bytes() == Path("out.rsibr.exr").read_bytes()
     with pytest.raises(RuntimeError, match=r"op\.exr exists: "):
-        bpy.ops.rsibr.bake_tables(filepath="op.exr", environment="light.exr", preset="matte")
+        bpy.ops.rsibr.bake_reflection_tables(filepath="op.exr", environment="light.exr", preset="matte")
     with pytest.raises(RuntimeError, match="A material needs a table at least"):
-        bpy.ops.rsibr.bake_tables(filepath="new.exr", environment="light.exr", preset="none")
+        bpy.ops.rsibr.bake_reflection_tables(filepath="new.exr", environment="light.exr", preset="none")
     assert not Path("new.exr").exists()
 
 
@@ -164,7 +164,7 @@ def test_the_operator_writes_what_the_command_writes(light: np.ndarray) -> None:
 def test_the_operator_takes_the_world(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("rsibr.rsibr_addon.tasks.light.environments.WORLD_HEIGHT", 16)
     path = tmp_path / "world.rsibr.exr"
-    assert bpy.ops.rsibr.bake_tables(filepath=str(path), preset="matte") == {"FINISHED"}
+    assert bpy.ops.rsibr.bake_reflection_tables(filepath=str(path), preset="matte") == {"FINISHED"}
     tables = from_map_set(path, read_map_set(path))
     # The factory file's world is an even grey.
     grey = bpy.context.scene.world.node_tree.nodes["Background"].inputs["Color"].default_value[0]

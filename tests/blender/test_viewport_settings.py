@@ -5,12 +5,14 @@ from dataclasses import fields
 import bpy
 import numpy as np
 import pytest
+from rsibr.rsibr_addon.core.kinds.lobe_stack.shading import StackLook
 from rsibr.rsibr_addon.core.kinds.mip_chain.shading import MipLook
 from rsibr.rsibr_addon.core.kinds.reflection_tables.shading import TablesLook
 from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import Role
 from rsibr.rsibr_addon.files.kinds.registry import look_types
 from rsibr.rsibr_addon.host.option_properties import options_of
 from rsibr.rsibr_addon.host.visible_surfaces import is_wanted, map_set_of, surfaces
+from rsibr.rsibr_addon.settings.lobe_stack import LobeStackSettings
 from rsibr.rsibr_addon.tasks.viewport.faults import settings_of
 
 pytestmark = pytest.mark.usefixtures("registered")
@@ -101,3 +103,18 @@ def test_a_mesh_has_a_new_number_when_it_changes_and_no_other_time() -> None:
         change()
         assert number() not in seen
         seen.append(number())
+
+
+def test_a_single_lobe_is_a_number_as_files_of_version_0_1_hold_it() -> None:
+    group = bpy.data.objects["Cube"].rsibr.lobe_stack
+    assert options_of(StackLook, group).lobes == ()
+    group.use_lobes = True
+    group.bl_system_properties_get(do_create=True)["lobes"] = 5
+    assert options_of(StackLook, group).lobes == (5,)
+
+
+def test_a_fit_spares_what_fits_are_told() -> None:
+    group = bpy.context.scene.rsibr_bake.lobe_stack
+    group.source, group.fit, group.lobes, group.brdf = "FIT", "fit.json", 5, "lambert:kd=1"
+    settings = options_of(LobeStackSettings, group)
+    assert (settings.brdf, settings.fit, settings.lobes) == (None, "fit.json", 3)

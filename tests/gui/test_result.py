@@ -21,8 +21,9 @@ def shown():
 
 def scenario(told):
     with bpy.context.temp_override(window=window()):
-        bpy.ops.rsibr.bake_mips(filepath="/job/mips.rsibr.exr", environment="sunset", size=64, filter="box")
-        bpy.ops.rsibr.bake_stack(
+        light = {"filepath": "/job/mips.rsibr.exr", "environment": "sunset"}
+        bpy.ops.rsibr.bake_mip_chain(**light, size=64, filter="box")
+        bpy.ops.rsibr.bake_lobe_stack(
             filepath="/job/stack.rsibr.exr", environment="city", brdf="ward:alpha=0.3,ks=1", size=16, slices=4
         )
         bpy.ops.rsibr.assign(filepath="/job/mips.rsibr.exr")

@@ -8,7 +8,7 @@ from ...host.visible_surfaces import Surface
 from ..methods.kinds import KINDS
 from .map_sets import UploadedMapSet
 
-LOOKS_KEPT = 1000
+LOOKS_KEPT = 64
 """Looks that are remembered: a slider makes one for each of its values."""
 
 

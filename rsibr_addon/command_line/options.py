@@ -11,6 +11,9 @@ from typing import Any
 from ..core.errors import RangeError
 from ..core.options import Declared, Options, declared_options, number_text, value_from_text
 
+SEVERAL = "several kinds"
+"""Title of the options that more than one kind has, but not all."""
+
 
 def add_options(parser: Any, options: type[Options]) -> None:
     """Declare the arguments of a dataclass of options.
@@ -70,17 +73,23 @@ def add_options_of(parser: argparse.ArgumentParser, owners: Mapping[str, type[Op
     owners : mapping of str to type
         What has the options, a kind of map sets for example, -> them. What several have is declared once.
     """
-    several = parser.add_argument_group("several kinds")
-    groups = {owner: parser.add_argument_group(owner.replace("_", " ")) for owner in owners}
+    groups: dict[str, Any] = {}
+
+    def group(title: str) -> Any:
+        if title not in groups:
+            groups[title] = parser.add_argument_group(title)
+        return groups[title]
+
     for declared in _by_flag(owners).values():
         texts = {owner.replace("_", " "): help_of(each) for owner, each in declared.items()}
         first = next(iter(declared.values()))
         if len(declared) == 1:
-            add_option(groups[next(iter(declared))], first, help_of(first))
+            add_option(group(next(iter(texts))), first, help_of(first))
         elif len(set(texts.values())) == 1:
-            add_option(several if len(declared) < len(owners) else parser, first, help_of(first))
+            add_option(group(SEVERAL) if len(declared) < len(owners) else parser, first, help_of(first))
         else:
-            add_option(several, first, "; ".join(f"of {owner}, {text}" for owner, text in texts.items()))
+            told = "; ".join(f"of {owner}, {text}" for owner, text in texts.items())
+            add_option(group(SEVERAL), first, told)
 
 
 def given_of(arguments: argparse.Namespace, owners: Mapping[str, type[Options]], owner: str) -> Any:

@@ -240,10 +240,10 @@ def _is_list(declared: Declared) -> bool:
 
 def _description(declared: Declared) -> str:
     told = declared.option
-    unit = f", in {told.unit}" if told.unit else ""
+    unit = f" ({told.unit})" if told.unit else ""
     if told.none and told.none_as is not None:
         stands = "empty" if told.none_as == "" else "0"
-        return f"{told.help}{unit}; {stands} for {told.none}"
+        return f"{told.help}{unit}; {stands}: {told.none}"
     return f"{told.help}{unit}"
 
 

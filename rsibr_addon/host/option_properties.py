@@ -94,7 +94,7 @@ def options_of[Given: Options](options: type[Given], group: Any, own: str = "") 
     RangeError
         Values do not go together.
     InputFileError
-        A measured material's file is not there, or not of a known format.
+        A file is not there, or not of a known format.
     """
     values = {each.name: _value(each, group, own) for each in declared_options(options)}
     source = getattr(group, "source", None)
@@ -105,6 +105,9 @@ def options_of[Given: Options](options: type[Given], group: Any, own: str = "") 
         unused = materials.spared if source == materials.instead.upper() else (materials.instead,)
         for name in unused:
             del values[name]
+        if materials.instead in values:
+            file = values[materials.instead] or ""
+            values[materials.instead] = existing(file, materials.instead, "its file")
     return options(**values)
 
 

@@ -1,10 +1,12 @@
 """What objects say of their previews, and the looks that tasks make of it."""
 
 from dataclasses import fields
+from pathlib import Path
 
 import bpy
 import numpy as np
 import pytest
+from rsibr.rsibr_addon.core.errors import InputFileError
 from rsibr.rsibr_addon.core.kinds.lobe_stack.shading import StackLook
 from rsibr.rsibr_addon.core.kinds.mip_chain.shading import MipLook
 from rsibr.rsibr_addon.core.kinds.reflection_tables.shading import TablesLook
@@ -113,8 +115,12 @@ def test_a_single_lobe_is_a_number_as_files_of_version_0_1_hold_it() -> None:
     assert options_of(StackLook, group).lobes == (5,)
 
 
-def test_a_fit_spares_what_fits_are_told() -> None:
+def test_a_fit_spares_what_fits_are_told(tmp_path: Path) -> None:
     group = bpy.context.scene.rsibr_bake.lobe_stack
-    group.source, group.fit, group.lobes, group.brdf = "FIT", "fit.json", 5, "lambert:kd=1"
+    fit = tmp_path / "fit.json"
+    group.source, group.fit, group.lobes, group.brdf = "FIT", str(fit), 5, "lambert:kd=1"
+    with pytest.raises(InputFileError, match=r"There is no file .*fit\.json: choose another"):
+        options_of(LobeStackSettings, group)
+    fit.touch()
     settings = options_of(LobeStackSettings, group)
-    assert (settings.brdf, settings.fit, settings.lobes) == (None, "fit.json", 3)
+    assert (settings.brdf, settings.fit, settings.lobes) == (None, str(fit), 3)

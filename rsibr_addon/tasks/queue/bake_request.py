@@ -62,7 +62,7 @@ class BakeRequest:
     own_material : str or None
         Name of the material, where it is one of the open file.
     measured : str or None
-        Path of the file that holds the material, where there is one.
+        Path of the file that holds the material or its fit, where there is one.
     shown : dict
         All that the scene says, to bake the same again.
     """
@@ -141,6 +141,7 @@ def request_for(scene: Any, item: Any) -> BakeRequest:
     own = own_material(item).name if source == OWN else None
     measured = existing(chosen.path, "measured material", "its file") if source == FILE else None
     settings = options_of(METHOD_SETTINGS[scene.rsibr_bake.kind], chosen, own or "")
+    measured = measured or getattr(settings, "fit", None)
     light = Light(environment=chosen_environment(scene), clamp=options_of(Clamp, scene.rsibr_bake).clamp)
     request = BakeRequest(settings, light, own, measured, plain_settings(scene.rsibr_bake))
     _ = request.cost  # which a text that describes no model has not

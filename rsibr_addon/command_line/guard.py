@@ -12,11 +12,12 @@ import signal
 import sys
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import NoReturn
 
 from ..files.memory import address_limit
-from ..files.staging import remove_own, staging_folder
+from ..files.staging import clear_strays, remove_own, staging_folder
 from . import endings
 
 PATIENCE_SECONDS = 0.6
@@ -52,6 +53,9 @@ def guarded(work: Callable[[], int], argv: Sequence[str]) -> int:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)
             _work(work)
         code = _watch(child, asking)
+    if code < 0:
+        for folder in _output_folders(argv):
+            clear_strays(folder)
     number = -code if code < 0 else code - 128
     if number in endings.SIGNALS:
         endings.tell(endings.interrupted(argv), argv, 1, 2)
@@ -106,6 +110,12 @@ def _watch(child: int, asking: set[signal.Signals]) -> int:
             asked = asked or number
             os.kill(child, number)
             signal.setitimer(signal.ITIMER_REAL, PATIENCE_SECONDS)
+
+
+def _output_folders(argv: Sequence[str]) -> list[Path]:
+    """Where a killed command may have left what it was about to write."""
+    named = [text for word, text in pairwise(argv) if word in ("-o", "--output")]
+    return [Path(text).parent for text in named]
 
 
 def _crash(number: int) -> str:

@@ -38,7 +38,7 @@ def test_capture_info_preview_compare(rsibr: Command, tmp_path: Path) -> None:
     assert len(read_map_set("copper.rsibr.exr", "radiance_views").maps) == 2 + 2 * 12
 
     header = rsibr("info", "copper.rsibr.exr")["header"]
-    assert header["settings"] == {"views": 12, "size": 16, "samples": 2, "denoise": True, "seed": 0}
+    assert header["settings"] == {"views": 12, "size": 16, "samples": 2, "denoise": False, "seed": 0}
 
     # --view may begin with a minus; "--view X" and "--view=X" are the same
     first = rsibr("preview", "copper.rsibr.exr", "--view", "-1,0,0.5", "--size", "8", "-o", "a.exr")

@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -65,7 +66,8 @@ def main() -> None:
 def _prepare(folder: Path) -> None:
     """Put the extension, the map sets and the scenario where Blender sees them as /job."""
     subprocess.run([sys.executable, CI / "build_extension.py"], check=True, capture_output=True)
-    (archive,) = (ROOT / "dist").glob("rsibr-*.zip")
+    version = tomllib.loads((ROOT / "blender_manifest.toml").read_text())["version"]
+    archive = ROOT / "dist" / f"rsibr-{version}.zip"
     shutil.copy(archive, folder / "extension.zip")
     for script in (
         CI / "bench_viewport_scene.py",

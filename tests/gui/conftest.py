@@ -4,6 +4,7 @@ import json
 import shutil
 import subprocess
 import sys
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
@@ -19,8 +20,8 @@ type Blender = Callable[..., subprocess.CompletedProcess[str]]
 def extension() -> Path:
     """The zip, freshly built."""
     subprocess.run([sys.executable, ROOT / ".ci" / "build_extension.py"], check=True)
-    (archive,) = (ROOT / "dist").glob("rsibr-*.zip")
-    return archive
+    version = tomllib.loads((ROOT / "blender_manifest.toml").read_text())["version"]
+    return ROOT / "dist" / f"rsibr-{version}.zip"
 
 
 @pytest.fixture(scope="session")

@@ -114,8 +114,9 @@ def _watch(child: int, asking: set[signal.Signals]) -> int:
 
 def _output_folders(argv: Sequence[str]) -> list[Path]:
     """Where a killed command may have left what it was about to write."""
-    named = [text for word, text in pairwise(argv) if word in ("-o", "--output")]
-    return [Path(text).parent for text in named]
+    apart = [text for word, text in pairwise(argv) if word in ("-o", "--output")]
+    joined = [word.removeprefix("--output=") for word in argv if word.startswith("--output=")]
+    return [Path(text).parent for text in (*apart, *joined)]
 
 
 def _crash(number: int) -> str:

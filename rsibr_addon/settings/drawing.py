@@ -23,8 +23,8 @@ class SceneOptions(Options):
         label="Perspective",
         help="Angle of view",
         unit="degrees",
-        least=0.0,
-        most=180.0,
+        least=0.1,
+        most=179.0,
         none="orthographic",
         metavar="DEG",
     )

@@ -161,7 +161,12 @@ def test_equal_bakes_have_one_file_and_others_another(tmp_path: Path) -> None:
     assert order().job(Path("out.rsibr.exr")).light.clamp == 3.0
     chosen.layer = "V.Sky"
     differs()
-    assert len(names) == 10
+    chosen.kind, chosen.lobe_stack.source, chosen.lobe_stack.fit = "lobe_stack", "FIT", str(tmp_path / "fit")
+    for content in (b"a", b"b"):
+        (tmp_path / "fit").write_bytes(content)
+        differs()
+    assert len(names) == 12
+    chosen.kind = "mip_chain"
     cube.active_material.name = cube.name = "Renamed"
     before = output()
     cube.location.x += 3.0

@@ -187,7 +187,7 @@ def test_existing_files_and_odd_names_are_refused_before_anything_is_read(tmp_pa
         ({"view": VIEW, "size": 32, "turntable": 1}, "Turntable cannot be 1"),
         ({"view": (0.0, 0.0, 2.0), "size": 32, "turntable": 4}, "cannot be along Z"),
         ({"view": (0.0, 0.0, 0.0), "size": 32, "turntable": 4}, "length 0"),
-        ({"perspective": 180.0, "turntable": 4}, "between 0 and 180 degrees"),
+        ({"perspective": 180.0, "turntable": 4}, "Perspective cannot be 180 degrees: choose 0.1 to 179"),
     ],
 )
 def test_a_turntable_that_cannot_be_is_refused(

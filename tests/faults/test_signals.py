@@ -3,6 +3,7 @@
 import os
 import random
 import signal
+import subprocess
 import sys
 import time
 from collections.abc import Iterator
@@ -148,3 +149,23 @@ def test_the_work_ends_with_its_guard(source: Path) -> None:
     while running.family():
         assert time.monotonic() < deadline
         time.sleep(0.01)
+
+
+@pytest.mark.parametrize("output", [["-o", "a.exr"], ["--output=a.exr"]])
+def test_a_killed_command_leaves_no_staging_folder(output: list[str], tmp_path: Path) -> None:
+    script = (
+        "import os, signal, sys\n"
+        "from pathlib import Path\n"
+        "from rsibr.rsibr_addon.command_line.guard import guarded\n"
+        "from rsibr.rsibr_addon.files.staging import staging_folder\n"
+        "def work():\n"
+        "    with staging_folder(Path()) as folder:\n"
+        "        print(folder.name, flush=True)\n"
+        "        os.kill(os.getpid(), signal.SIGKILL)\n"
+        "sys.exit(guarded(work, sys.argv[1:]))\n"
+    )
+    command = [sys.executable, "-c", script, "bake", *output]
+    killed = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert killed.returncode == 1
+    assert killed.stdout.startswith(".rsibr-")
+    assert list(tmp_path.iterdir()) == []

@@ -61,8 +61,8 @@ class BakeRequest:
         Without an environment, the world of the open file.
     own_material : str or None
         Name of the material, where it is one of the open file.
-    measured : str or None
-        Path of the file that holds the material or its fit, where there is one.
+    files : tuple of str
+        Paths of the files that hold the material or its fit, if any.
     shown : dict
         All that the scene says, to bake the same again.
     """
@@ -70,7 +70,7 @@ class BakeRequest:
     settings: MethodSettings
     light: Light
     own_material: str | None
-    measured: str | None
+    files: tuple[str, ...]
     shown: dict[str, Any]
 
     @property
@@ -139,11 +139,12 @@ def request_for(scene: Any, item: Any) -> BakeRequest:
     check_choices(chosen)
     source = getattr(chosen, "source", None)
     own = own_material(item).name if source == OWN else None
-    measured = existing(chosen.path, "measured material", "its file") if source == FILE else None
+    files = [existing(chosen.path, "measured material", "its file")] if source == FILE else []
     settings = options_of(METHOD_SETTINGS[scene.rsibr_bake.kind], chosen, own or "")
-    measured = measured or getattr(settings, "fit", None)
+    named = [each for each in declared_options(type(settings)) if each.option.subtype == "FILE_PATH"]
+    files += filter(None, (getattr(settings, each.name) for each in named))
     light = Light(environment=chosen_environment(scene), clamp=options_of(Clamp, scene.rsibr_bake).clamp)
-    request = BakeRequest(settings, light, own, measured, plain_settings(scene.rsibr_bake))
+    request = BakeRequest(settings, light, own, tuple(files), plain_settings(scene.rsibr_bake))
     _ = request.cost  # which a text that describes no model has not
     return request
 
@@ -175,7 +176,7 @@ def output_for(request: BakeRequest, scene: Any, item: Any) -> Path:
         "clamp": request.light.clamp,
         "light": fingerprint(world_of(scene)) if environment is None else _light(environment),
         "material": fingerprint(own_material(item)) if request.own_material else None,
-        "measured": _digest(request.measured) if request.measured else None,
+        "files": [_digest(path) for path in request.files],
         "software": software(),
     }
     letters = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:HASH_LETTERS]

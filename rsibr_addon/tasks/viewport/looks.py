@@ -8,9 +8,6 @@ from ...host.visible_surfaces import Surface
 from ..methods.kinds import KINDS
 from .map_sets import UploadedMapSet
 
-LOOKS_KEPT = 64
-"""Looks that are remembered: a slider makes one for each of its values."""
-
 
 class Looks:
     """Looks of objects; of kinds that are live, those that were asked for since the last that is there.
@@ -23,7 +20,7 @@ class Looks:
 
     def __init__(self) -> None:
         self._types = look_types()
-        self._made: dict[object, Any] = {}
+        self._made: dict[tuple[int, bool], tuple[object, Any]] = {}  # what was said last, and the look
         self.asked: dict[tuple[int, str, bool], list[Any]] = {}
 
     def of(self, surface: Surface, map_set: UploadedMapSet, other: bool) -> Any:
@@ -54,9 +51,9 @@ class Looks:
     def _said(self, item: Any, kind: str, other: bool) -> Any:
         """The look that an object's properties say; it is checked once, as every frame asks for it."""
         group = getattr(item.rsibr.other if other else item.rsibr, kind)
-        said = kind, said_by(self._types[kind], group)
-        if said not in self._made:
-            if len(self._made) >= LOOKS_KEPT:
-                self._made.clear()
-            self._made[said] = options_of(self._types[kind], group)
-        return self._made[said]
+        said, shown = (kind, said_by(self._types[kind], group)), (item.session_uid, other)
+        before, look = self._made.get(shown, (None, None))
+        if before != said:
+            look = options_of(self._types[kind], group)
+            self._made[shown] = said, look
+        return look

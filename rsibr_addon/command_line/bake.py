@@ -5,6 +5,7 @@ import warnings
 from dataclasses import dataclass
 from typing import Any
 
+from ..core.errors import RsibrWarning
 from ..files.kinds.registry import METHOD_SETTINGS
 from ..job import BakeJob
 from ..settings.light import Light
@@ -76,15 +77,20 @@ def run_job(job: BakeJob[Any], console: Console) -> dict[str, Any]:
     RsibrWarning
         The world is baked, but no file is open that someone has made one in.
     """
-    from ..core.errors import RsibrWarning
-    from ..host.blend_files import is_file_open
     from ..tasks.methods.bake import bake
 
-    if job.light.environment is None and not is_file_open():
-        warnings.warn(NO_LIGHT, RsibrWarning, stacklevel=2)
+    if job.light.environment is None:
+        _warn_of_no_light()
     baked = console.steps(bake(job))
     console.say(f"{baked.path}: {baked.told}")
     return {"map_set": str(baked.path), **baked.figures}
+
+
+def _warn_of_no_light() -> None:
+    from ..host.blend_files import is_file_open
+
+    if not is_file_open():
+        warnings.warn(NO_LIGHT, RsibrWarning, stacklevel=3)
 
 
 KINDS = {kind.replace("_", "-"): BakeCommand(settings) for kind, settings in METHOD_SETTINGS.items()}

@@ -10,7 +10,8 @@ from ..core.errors import InputFileError, OutputFileError, SceneError
 from ..files.pictures import split_layer
 from .map_sets import Settings, chosen_path, stored_path, use_file, written_path
 from .materials import surface_output
-from .worlds import studio_environments, world_of
+from .studio_environments import studio_environments
+from .worlds import world_of
 
 EXTENSION = __package__.rpartition(".rsibr_addon")[0]
 """The package name under which Blender knows us."""

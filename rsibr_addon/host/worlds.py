@@ -1,7 +1,5 @@
 """Light from all around: environments as worlds of Blender, and worlds as environments."""
 
-from pathlib import Path
-
 import bpy
 import numpy as np
 
@@ -26,12 +24,6 @@ WORLD_OF_TEXEL = 100.0
 FEWEST_WORLD_SAMPLES, MOST_WORLD_SAMPLES = 16, 1024
 WORLD_ERROR = 0.01
 """Relative error at which a world's texel needs no more samples: a sun has an edge."""
-
-
-def studio_environments() -> dict[str, Path]:
-    """The environments that come with Blender, by bare name, as "forest"."""
-    folder = Path(bpy.utils.system_resource("DATAFILES", path="studiolights/world"))
-    return {path.stem: path for path in sorted(folder.glob("*.exr"))}
 
 
 def world_of(scene: bpy.types.Scene) -> bpy.types.World:

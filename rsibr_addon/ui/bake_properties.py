@@ -5,7 +5,7 @@ import bpy
 from ..files.kinds.registry import METHOD_SETTINGS
 from ..host.bake_settings import chosen_picture, use_picture
 from ..host.option_properties import group_of, properties_of
-from ..host.worlds import studio_environments
+from ..host.studio_environments import studio_environments
 from ..properties import keep_in_overrides
 from ..session.map_pictures import Item
 from ..settings.light import Clamp

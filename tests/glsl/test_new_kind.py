@@ -23,7 +23,7 @@ from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.job import BakeJob
 from rsibr.rsibr_addon.settings.light import Light
 from rsibr.rsibr_addon.tasks.export.formats import FORMATS
-from rsibr.rsibr_addon.tasks.methods.bake import bake
+from rsibr.rsibr_addon.tasks.methods.bake import METHODS, bake
 from rsibr.rsibr_addon.tasks.methods.kinds import KINDS, open_map_set
 from rsibr.rsibr_addon.tasks.report.facts import map_set_facts
 from rsibr.rsibr_addon.tasks.report.pictures import map_set_pictures
@@ -41,8 +41,9 @@ LIGHT = Environment(np.ones((2, 4, 3), dtype=np.float32), "white")
 
 @pytest.fixture
 def path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A map set of the toy kind, whose two rows are there while the test runs."""
+    """A map set of the toy kind, whose rows are there while the test runs."""
     monkeypatch.setitem(STORED, disk_files.KIND, disk_files.STORED)
+    monkeypatch.setitem(METHODS, disk_files.KIND, disk_method.METHOD)
     monkeypatch.setitem(KINDS, disk_files.KIND, disk_method.KIND)
     write_map_set(tmp_path / "disk.rsibr.exr", disk_files.to_map_set(DISK, LIGHT, 0.5))
     return tmp_path / "disk.rsibr.exr"

@@ -1,4 +1,4 @@
-"""How the toy kind is baked, and its row. As a module of `tasks/methods`."""
+"""How the toy kind is baked, and its rows. As a module of `tasks/methods`."""
 
 from typing import Any
 
@@ -27,4 +27,5 @@ def cost(settings: DiskSettings) -> Cost:
     return Cost(1.0, 1.0, 1.0)
 
 
-KIND = Kind(from_map_set, GpuDisk, Method(bake, cost), TRUTH)
+METHOD = Method(bake, cost)
+KIND = Kind(from_map_set, GpuDisk, TRUTH)

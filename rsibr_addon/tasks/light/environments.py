@@ -9,8 +9,7 @@ from ...core.errors import InputFileError
 from ...core.near_names import did_you_mean
 from ...files.environments import read_environment
 from ...files.radiance_pictures import read_radiance
-from ...host.scenes import find_scene
-from ...host.worlds import sample_world, studio_environments, world_of
+from ...host.studio_environments import studio_environments
 
 WORLD_HEIGHT = 512
 """Height in texels of the environment that a world is sampled into."""
@@ -44,6 +43,9 @@ def load_environment(spec: str | None, clamp: float | None = None) -> Environmen
         See `files.environments.read_environment`.
     """
     if spec is None:
+        from ...host.scenes import find_scene
+        from ...host.worlds import sample_world, world_of
+
         return sample_world(world_of(find_scene(None)), WORLD_HEIGHT, clamp)
     own = studio_environments()
     # A folder may have the name of one of Blender's own
@@ -57,7 +59,6 @@ def load_environment(spec: str | None, clamp: float | None = None) -> Environmen
     is_path = Path(spec).suffix or Path(spec).name != spec
     if not is_path and not Path(spec).exists():
         near = did_you_mean(spec, own)
-        raise InputFileError(
-            f"There is no environment {spec}{near}: give a file, or one of {', '.join(own)}."
-        )
+        known = f", or one of {', '.join(own)}" if own else "; those with names come with Blender"
+        raise InputFileError(f"There is no environment {spec}{near}: give a file{known}.")
     return read_environment(spec, clamp)

@@ -2,10 +2,14 @@
 
 from typing import Any
 
+from ...core.lazy_table import LazyTable
 from ...core.progress import Steps
+from ...files.kinds.registry import STORED
 from ...job import BakeJob
-from .kinds import KINDS
-from .method import Baked
+from .method import Baked, Method
+
+METHODS = LazyTable[Method](__package__, "METHOD", STORED)
+"""Kind of map sets -> how it is made."""
 
 
 def bake(job: BakeJob[Any]) -> Steps[Baked]:
@@ -23,5 +27,5 @@ def bake(job: BakeJob[Any]) -> Steps[Baked]:
     RsibrWarning
         Likewise.
     """
-    baked: Steps[Baked] = KINDS[job.settings.KIND].method.bake(job)
+    baked: Steps[Baked] = METHODS[job.settings.KIND].bake(job)
     return baked

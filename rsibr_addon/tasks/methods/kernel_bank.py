@@ -6,14 +6,11 @@ from ...core.filtering.prefilter import BYTES_BESIDES, bytes_needed
 from ...core.lobes.bake import bake_bank
 from ...core.options import to_plain
 from ...core.progress import Steps
-from ...files.kinds.kernel_bank import from_map_set, to_map_set
+from ...files.kinds.kernel_bank import to_map_set
 from ...files.map_set_header import Origin
-from ...host.version import software
 from ...job import BakeJob
 from ...settings.kernel_bank import KernelBankSettings
 from . import method
-from .kind import Kind
-from .live_materials import LiveMaterials
 from .method import RGB, STORED, Baked, Cost, Method, cost_in_blender
 
 
@@ -37,7 +34,8 @@ def bake(job: BakeJob[KernelBankSettings]) -> Steps[Baked]:
     light = yield from method.read_light(job)
     afford = method.afforded_by(job, BYTES_BESIDES)
     baked = yield from bake_bank(light.radiance, settings.layout, settings.size, afford)
-    path = yield from method.written(job, to_map_set(baked, Origin(light, to_plain(settings), software())))
+    origin = Origin(light, to_plain(settings), method.software_of(job))
+    path = yield from method.written(job, to_map_set(baked, origin))
     kernels, sharpest, size = len(baked.filtered.bank), baked.filtered.sharpest, settings.size
     return Baked(
         path,
@@ -46,4 +44,4 @@ def bake(job: BakeJob[KernelBankSettings]) -> Steps[Baked]:
     )
 
 
-KIND = Kind(from_map_set, LiveMaterials, Method(bake, cost), live=True, menu="RSIBR_MT_live_models")
+METHOD = Method(bake, cost)

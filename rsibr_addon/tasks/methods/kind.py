@@ -20,8 +20,6 @@ class Kind:
         The file's path, for messages, and a `MapSet` to what it holds, its content.
     upload : callable
         The content to a `GpuMapSet`; of a live kind, the content and `LiveFits` or None to a `LiveGpuMapSet`.
-    method : Method or None
-        What makes it; None for pictures of environments.
     truth : Truth or None
         What pictures drawn from it are compared with; None for nothing.
     live : bool
@@ -32,7 +30,6 @@ class Kind:
 
     from_map_set: Callable[[Path, MapSet], Any]
     upload: Callable[..., GpuMapSet]
-    method: Any = None
     truth: Truth | None = None
     live: bool = False
     menu: str = ""

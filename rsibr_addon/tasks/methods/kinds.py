@@ -9,18 +9,23 @@ from ...core.errors import RangeError
 from ...device.context import ensure_context
 from ...device.drawing import GpuMapSet
 from ...device.kinds.environment import GpuEnvironment
-from ...files.kinds import environment
+from ...device.kinds.lobe_stack import GpuLobeStack
+from ...device.kinds.mip_chain import GpuMipChain
+from ...device.kinds.radiance_views import GpuRadianceViews
+from ...device.kinds.reflection_tables import GpuReflectionTables
+from ...files.kinds import environment, kernel_bank, lobe_stack, mip_chain, radiance_views, reflection_tables
 from ...files.map_set import read_map_set, read_map_set_header
-from . import kernel_bank, lobe_stack, mip_chain, radiance_views, reflection_tables
+from ..compare import lobe_stack as lobe_stack_truth
+from ..compare import radiance_views as radiance_views_truth
 from .kind import Kind
-from .live_materials import LiveFits
+from .live_materials import LiveFits, LiveMaterials
 
 KINDS: dict[str, Kind] = {
-    "radiance_views": radiance_views.KIND,
-    "lobe_stack": lobe_stack.KIND,
-    "reflection_tables": reflection_tables.KIND,
-    "mip_chain": mip_chain.KIND,
-    "kernel_bank": kernel_bank.KIND,
+    "radiance_views": Kind(radiance_views.from_map_set, GpuRadianceViews, radiance_views_truth.TRUTH),
+    "lobe_stack": Kind(lobe_stack.from_map_set, GpuLobeStack, lobe_stack_truth.TRUTH),
+    "reflection_tables": Kind(reflection_tables.from_map_set, GpuReflectionTables),
+    "mip_chain": Kind(mip_chain.from_map_set, GpuMipChain),
+    "kernel_bank": Kind(kernel_bank.from_map_set, LiveMaterials, live=True, menu="RSIBR_MT_live_models"),
     environment.KIND: Kind(environment.from_map_set, GpuEnvironment),
 }
 """Kind of map sets, or `environment` for a picture -> what can be done with it."""

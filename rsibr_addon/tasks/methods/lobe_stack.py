@@ -15,18 +15,14 @@ from ...core.lobes.accuracy import fit_errors
 from ...core.lobes.bake import SIZES, bake_stack, sharpest_resolved
 from ...core.lobes.fit import Fit
 from ...core.progress import Progress, Steps
-from ...device.kinds.lobe_stack import GpuLobeStack
 from ...files.fits import read_fit
-from ...files.kinds.lobe_stack import from_map_set, in_turn
+from ...files.kinds.lobe_stack import in_turn
 from ...files.map_set_header import Origin
-from ...host.version import software
 from ...job import BakeJob
 from ...settings.lobe_stack import LobeStackSettings
-from ..compare.lobe_stack import TRUTH
-from ..reflectance.brdfs import MATERIAL, load_brdf
+from ..reflectance.brdfs import MATERIAL, is_material, load_brdf
 from ..reflectance.fit_lobes import fitted
 from . import method
-from .kind import Kind
 from .method import RGB, STORED, Baked, Cost, Method, cost_in_blender
 
 TOLD_INTERPOLATION = 0.01
@@ -110,7 +106,8 @@ def bake(job: BakeJob[LobeStackSettings]) -> Steps[Baked]:
             stacklevel=2,
         )
     stated = {"layout": settings.layout, "size": size, "half": settings.half}
-    path = yield from method.written(job, in_turn(baked, Origin(light, stated, software())), settings.half)
+    origin = Origin(light, stated, method.software_of(job, is_material(settings.brdf or "")))
+    path = yield from method.written(job, in_turn(baked, origin), settings.half)
     lobes, maps = baked.fit.weights.shape[:2]
     return Baked(
         path,
@@ -147,4 +144,4 @@ def _resolved_fit(spec: str, settings: LobeStackSettings, light: Environment) ->
     return coarser
 
 
-KIND = Kind(from_map_set, GpuLobeStack, Method(bake, cost, material), TRUTH)
+METHOD = Method(bake, cost, material)

@@ -10,6 +10,7 @@ from ...core.environment import Environment
 from ...core.progress import Progress, Steps
 from ...files.map_set import check_map_set_target, write_map_set
 from ...files.memory import check_memory
+from ...files.version import rsibr
 from ...job import BakeJob
 from ..light.environments import load_environment
 
@@ -114,6 +115,15 @@ def read_light(job: BakeJob[Any]) -> Steps[Environment]:
     check_map_set_target(job.output, job.force)
     yield Progress(0, 1, "reading the environment")
     return load_environment(job.light.environment, job.light.clamp)
+
+
+def software_of(job: BakeJob[Any], measured: bool = False) -> str:
+    """What makes a job's maps, in words: RSIBR, and Blender if it gives the light or what is `measured`."""
+    if job.light.environment is not None and not measured:
+        return rsibr()
+    from ...host.version import software
+
+    return software()
 
 
 def afforded_by(job: BakeJob[Any], besides: float) -> Callable[[float, int], None]:

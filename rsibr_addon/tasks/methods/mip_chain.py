@@ -13,15 +13,12 @@ from ...core.maps.representation import representation
 from ...core.options import to_plain
 from ...core.progress import Progress, Steps
 from ...core.resample import resample
-from ...device.kinds.mip_chain import GpuMipChain
-from ...files.kinds.mip_chain import from_map_set, to_map_set
+from ...files.kinds.mip_chain import to_map_set
 from ...files.map_set_header import Origin
 from ...files.memory import check_memory
-from ...host.version import software
 from ...job import BakeJob
 from ...settings.mip_chain import MipChainSettings
-from .kind import Kind
-from .method import RGB, STORED, Baked, Cost, Method, cost_in_blender, read_light, written
+from .method import RGB, STORED, Baked, Cost, Method, cost_in_blender, read_light, software_of, written
 
 TEXTURE_SPACE = {"box": box_halved, "bordered": tent_halved}
 """Name of a filter that knows texels only -> how it halves a cube map."""
@@ -60,7 +57,7 @@ def bake(job: BakeJob[MipChainSettings]) -> Steps[Baked]:
         del stated["roughness"]
         yield Progress(1, 2, "filtering")
         chain = _texture_space(light, settings)
-    map_set = to_map_set(chain, Origin(light, stated, software(), {"filter": settings.filter}, bound))
+    map_set = to_map_set(chain, Origin(light, stated, software_of(job), {"filter": settings.filter}, bound))
     path = yield from written(job, map_set)
     return Baked(
         path,
@@ -95,4 +92,4 @@ def _harmonics(light: Environment) -> Array:
     return analyse_environment(light.radiance, 2).real(2)
 
 
-KIND = Kind(from_map_set, GpuMipChain, Method(bake, cost))
+METHOD = Method(bake, cost)

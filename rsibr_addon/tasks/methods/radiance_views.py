@@ -16,10 +16,8 @@ from ...core.geometry.geodesic import geodesic_sphere
 from ...core.maps.sphere_map import fill_rim
 from ...core.options import to_plain
 from ...core.progress import Progress, Steps
-from ...device.kinds.radiance_views import GpuRadianceViews
 from ...files.atomic import written_aside
 from ...files.exr import Part, read_attributes, read_parts, write_parts
-from ...files.kinds.radiance_views import from_map_set
 from ...files.map_set import check_map_set_target, read_map_set_header, write_map_set
 from ...files.map_set_data import ENVIRONMENT, MapsInTurn
 from ...files.map_set_header import Origin, make_header
@@ -37,9 +35,7 @@ from ...host.worlds import LIGHT_OF_TEXEL, light_with
 from ...job import BakeJob
 from ...settings.light import Light
 from ...settings.radiance_views import RadianceViewsSettings
-from ..compare.radiance_views import TRUTH
 from ..light.environments import load_environment
-from .kind import Kind
 from .method import ENVIRONMENT_MEMORY, RGB, STORED, Baked, Cost, Method, cost_in_blender
 
 ALBEDO = "albedo"
@@ -237,4 +233,4 @@ def _header(captured: _Captured, parts: list[dict[str, Any]], noise: float) -> d
     return make_header("sphere_map", (settings.size, settings.size), parts, origin)
 
 
-KIND = Kind(from_map_set, GpuRadianceViews, Method(bake, cost, material), TRUTH)
+METHOD = Method(bake, cost, material)

@@ -5,16 +5,13 @@ from ...core.kinds.reflection_tables.bake import bake_tables, largest_rows
 from ...core.kinds.reflection_tables.material import material_from_texts
 from ...core.kinds.reflection_tables.weights import warn_of_table_gain
 from ...core.progress import Steps
-from ...device.kinds.reflection_tables import GpuReflectionTables
 from ...files.brdfs import read_measured
-from ...files.kinds.reflection_tables import from_map_set, to_map_set
+from ...files.kinds.reflection_tables import to_map_set
 from ...files.map_set_header import Origin
 from ...files.memory import check_memory
-from ...host.version import software
 from ...job import BakeJob
 from ...settings.reflection_tables import ReflectionTablesSettings
-from .kind import Kind
-from .method import RGB, STORED, Baked, Cost, Method, cost_in_blender, read_light, written
+from .method import RGB, STORED, Baked, Cost, Method, cost_in_blender, read_light, software_of, written
 
 TABLE_OF_TEXEL = 12
 """Bytes of memory for each texel of a table in single precision."""
@@ -59,9 +56,9 @@ def bake(job: BakeJob[ReflectionTablesSettings]) -> Steps[Baked]:
     check_memory(needed, job.output, (2 * rows, rows), BYTES_BESIDES)
     baked = yield from bake_tables(light.radiance, material, settings.sizes, settings.exact)
     bounds = {role.value: bound.tolist() for role, bound in baked.bounds.items()} or None
-    origin = Origin(light, {"exact": settings.exact}, software(), dict(parts), bounds)
+    origin = Origin(light, {"exact": settings.exact}, software_of(job), dict(parts), bounds)
     path = yield from written(job, to_map_set(baked.tables, origin))
     return Baked(path, ", ".join(f"{part} {text}" for part, text in parts.items()), {"parts": dict(parts)})
 
 
-KIND = Kind(from_map_set, GpuReflectionTables, Method(bake, cost, material))
+METHOD = Method(bake, cost, material)

@@ -36,7 +36,7 @@ from ...job import BakeJob, CommandJob
 from ...settings.light import Clamp, Light
 from ...settings.method import MethodSettings
 from ..compare.compare import truth_of
-from ..methods.kinds import KINDS
+from ..methods.bake import METHODS
 from ..methods.method import Cost
 from .background import Bake, blender_command
 
@@ -83,13 +83,12 @@ class BakeRequest:
         """What is baked, in words."""
         environment, kind = self.light.environment, self.settings.KIND
         light = "the world" if environment is None else split_layer(environment)[0].stem
-        return f"{KINDS[kind].method.material(self.settings) or kind.replace('_', ' ')} in {light}"
+        return f"{METHODS[kind].material(self.settings) or kind.replace('_', ' ')} in {light}"
 
     @property
     def cost(self) -> Cost:
         """What it will take."""
-        cost: Cost = KINDS[self.settings.KIND].method.cost(self.settings)
-        return cost
+        return METHODS[self.settings.KIND].cost(self.settings)
 
     def job(self, output: Path) -> BakeJob[Any]:
         """The job that makes `output`. It replaces a file there: a whole one would have been used."""

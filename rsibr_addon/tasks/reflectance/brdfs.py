@@ -1,32 +1,15 @@
 """Reflectance models by their text, materials of Blender files included: those are measured."""
 
-import warnings
 from typing import NoReturn
 
-import numpy as np
-
-from ...core.brdf.albedo import directional_albedo as table_albedo
-from ...core.brdf.albedo import warn_of_gain
-from ...core.brdf.measured_material import MeasuredMaterial, measured_material, measured_pairs
 from ...core.brdf.model import Brdf
 from ...core.brdf.spec import brdf_from_spec as spec_without_files
-from ...core.errors import InputFileError, RsibrWarning, SceneError
-from ...core.progress import Progress, Steps
+from ...core.errors import InputFileError
+from ...core.progress import Steps
 from ...files.brdfs import brdf_from_spec
-from ...host.furnace import COSINES, directional_albedo
-from ...host.goniophotometer import LEAST_COSINE, measure
-from ...host.materials import lasting_spec, load_material, names_other_file
-from ...host.scenes import temporary_scene
-from ...host.shape_dependence import shape_dependence
 
 MATERIAL = "blend"
 """What a text begins with that stands for a material: ``blend:FILE.blend:NAME``, ``blend:PRESET``."""
-
-CHECKED = slice(COSINES // 16, None, COSINES // 16)
-"""The furnace's cosines that are checked: closer to grazing, a table's own interpolation would count."""
-
-TOLERATED_DIFFERENCE = 0.03
-"""Share of the light sent back that may be missing or too much before somebody is told."""
 
 
 def load_brdf(spec: str) -> Steps[Brdf]:
@@ -52,10 +35,12 @@ def load_brdf(spec: str) -> Steps[Brdf]:
     Warns
     -----
     RsibrWarning
-        See `files.brdfs.brdf_from_spec` and `measure_material`.
+        See `files.brdfs.brdf_from_spec` and `measured_materials.measure_material`.
     """
-    if not _is_material(spec):
+    if not is_material(spec):
         return brdf_from_spec(spec)
+    from .measured_materials import measure_material
+
     return (yield from measure_material(_material(spec)))
 
 
@@ -74,7 +59,7 @@ def told_brdf(spec: str) -> Brdf:
     InputFileError
         The model is in another file, or is a material of Blender.
     """
-    if _is_material(spec):
+    if is_material(spec):
         raise InputFileError(f"{spec} is a material of Blender: name it with --brdf to have it measured.")
     return spec_without_files(spec, _refuse_file)
 
@@ -89,10 +74,18 @@ def check_told_brdf(spec: str) -> None:
     InputFileError
         The model is in a file that is not open.
     """
-    if not _is_material(spec):
+    if not is_material(spec):
         told_brdf(spec)
-    elif names_other_file(_material(spec)):
+        return
+    from ...host.materials import names_other_file
+
+    if names_other_file(_material(spec)):
         _refuse_file(MATERIAL, _material(spec))
+
+
+def is_material(spec: str) -> bool:
+    """Whether a text stands for a material, which Blender measures."""
+    return spec.partition(":")[0].strip() == MATERIAL
 
 
 def _refuse_file(name: str, path: str) -> NoReturn:
@@ -104,82 +97,3 @@ def _refuse_file(name: str, path: str) -> NoReturn:
 
 def _material(spec: str) -> str:
     return spec.partition(":")[2].strip()
-
-
-def _is_material(spec: str) -> bool:
-    return spec.partition(":")[0].strip() == MATERIAL
-
-
-def measure_material(material: str) -> Steps[MeasuredMaterial]:
-    """Measure the reflectance of a material, whatever its nodes.
-
-    Parameters
-    ----------
-    material : str
-        As `host.materials.load_material` names it.
-
-    Yields
-    ------
-    Progress
-        Before each angle between light and view. Between two steps nothing of ours is in the open file.
-
-    Returns
-    -------
-    MeasuredMaterial
-        Exact at the centres of its tables' cells; a lobe narrower than alpha = 0.01 is not resolved.
-
-    Raises
-    ------
-    InputFileError, SceneError
-        There is no such material, it has no surface, or none that a table holds.
-    RenderError
-        Cycles did not deliver.
-
-    Warns
-    -----
-    RsibrWarning
-        The material depends on more than light and view; it sends back light that tables do not hold, or
-        more than it gets.
-    """
-    with temporary_scene():
-        reasons = shape_dependence(load_material(material))
-    if reasons:
-        warnings.warn(
-            f"No BRDF can hold {material}, so it is measured as it looks on a small flat tile: "
-            f"{'; '.join(reasons)}.",
-            RsibrWarning,
-            stacklevel=2,
-        )
-    light_dir, view_dir, wanted = measured_pairs(LEAST_COSINE)
-    diffuse, glossy = (np.full(light_dir.shape, np.nan) for _ in range(2))
-    angles = wanted.shape[1]
-    for angle in range(angles):
-        yield Progress(angle, angles, f"measuring {material} at angle {angle + 1} of {angles}")
-        at = np.nonzero(wanted[:, angle])
-        with temporary_scene() as scene:
-            found = measure(scene, load_material(material), light_dir[:, angle][at], view_dir[:, angle][at])
-        diffuse[:, angle][at], glossy[:, angle][at] = found
-    brdf = measured_material(diffuse, glossy, f"{MATERIAL}:{lasting_spec(material)}")
-    _compare_with_furnace(brdf, material)
-    warn_of_gain(brdf, brdf.spec)
-    return brdf
-
-
-def _compare_with_furnace(brdf: MeasuredMaterial, material: str) -> None:
-    """Warn if a table's albedo differs from what the material reflects in a white furnace."""
-    with temporary_scene() as scene:
-        sent = float(directional_albedo(scene, load_material(material), seed=0).sum(axis=0)[CHECKED].sum())
-    held = float(table_albedo(brdf, (np.arange(COSINES) + 0.5)[CHECKED] / COSINES).sum())
-    if held == 0.0 < sent:
-        raise SceneError(
-            f"Material {material} only mirrors, lets light through or glows, which no table of reflectance "
-            f"holds: give it a roughness of 0.1 or more."
-        )
-    if abs(held - sent) > TOLERATED_DIFFERENCE * sent:
-        warnings.warn(
-            f"The measured reflectance of {material} sends back {abs(held / sent - 1.0):.0%} "
-            f"{'more' if held > sent else 'less'} light than the material: it does not hold highlights "
-            f"sharper than roughness 0.1, light that passes through, nor light of its own.",
-            RsibrWarning,
-            stacklevel=3,
-        )

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from rsibr.rsibr_addon.command_line.commands import parser
+from rsibr.rsibr_addon.command_line.parser import Parser
 
 PAGE = Path(__file__).parents[1] / "docs" / "commands.md"
 BEGIN = "<!-- made from the options' help by .ci/docs_commands.py -->\n"
@@ -34,8 +35,9 @@ def _reference() -> Iterator[str]:
             yield from _table(command, group._group_actions, shared)
 
 
-def _commands(parent: argparse.ArgumentParser) -> Iterator[tuple[str, argparse.ArgumentParser]]:
+def _commands(parent: Parser) -> Iterator[tuple[str, Parser]]:
     """All commands that do something, those of a family in turn, by what one types."""
+    parent.declare()
     families = [action for action in parent._actions if isinstance(action, argparse._SubParsersAction)]
     if not families:
         yield parent.prog, parent

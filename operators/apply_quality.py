@@ -3,7 +3,7 @@
 import bpy
 
 from ..rsibr_addon.core.options import declared_options, quality_values
-from ..rsibr_addon.files.kinds.registry import METHOD_SETTINGS
+from ..rsibr_addon.files.kinds.registry import STORED
 from ..rsibr_addon.host.option_properties import show_option
 from .at_once import Undoable
 
@@ -27,7 +27,7 @@ class RSIBR_OT_apply_quality(Undoable, bpy.types.Operator):
         """Set them."""
         kind = context.scene.rsibr_bake.kind
         chosen = getattr(context.scene.rsibr_bake, kind)
-        values = quality_values(METHOD_SETTINGS[kind], self.quality.lower())
-        for declared in declared_options(METHOD_SETTINGS[kind]):
+        values = quality_values(STORED[kind].settings, self.quality.lower())
+        for declared in declared_options(STORED[kind].settings):
             if declared.name in values:
                 show_option(declared, chosen, values[declared.name])

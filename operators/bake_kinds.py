@@ -7,7 +7,7 @@ import bpy
 from ..rsibr_addon.core.errors import SceneError
 from ..rsibr_addon.core.options import declared_options
 from ..rsibr_addon.core.progress import Steps
-from ..rsibr_addon.files.kinds.registry import METHOD_SETTINGS
+from ..rsibr_addon.files.kinds.registry import STORED
 from ..rsibr_addon.host.option_properties import options_of, properties_of
 from ..rsibr_addon.job import BakeJob
 from ..rsibr_addon.settings.light import Light
@@ -63,5 +63,5 @@ def _operator(name: str, settings: type[MethodSettings]) -> type[bpy.types.Opera
     return type(f"RSIBR_OT_{name}", (_BakeKind, bpy.types.Operator), members)
 
 
-CLASSES = tuple(_operator(f"bake_{kind}", settings) for kind, settings in METHOD_SETTINGS.items())
+CLASSES = tuple(_operator(f"bake_{kind}", stored.settings) for kind, stored in STORED.items())
 """Every operator's class."""

@@ -7,7 +7,7 @@ from typing import Any, Literal
 from .core.errors import InputFileError, RangeError, SchemaError
 from .core.options import to_plain
 from .core.schema import decode, loads
-from .files.kinds.registry import METHOD_SETTINGS
+from .files.kinds.registry import STORED
 from .settings.light import Light
 from .settings.method import MethodSettings
 
@@ -25,7 +25,7 @@ class BakeJob[Settings: MethodSettings]:
     Attributes
     ----------
     settings : MethodSettings
-        Settings of one of `METHOD_SETTINGS`.
+        Settings of one of the methods.
     output : str
         The map set to write, NAME.rsibr.exr or NAME.exr.
     light : Light
@@ -128,7 +128,7 @@ def read_job(text: str, name: str) -> BakeJob[Any] | CommandJob:
 
 
 def _bake_job(found: _BakeFile) -> BakeJob[Any]:
-    if found.kind not in METHOD_SETTINGS:
-        raise SchemaError(f"kind is not one of {', '.join(METHOD_SETTINGS)}")
-    settings = decode(METHOD_SETTINGS[found.kind], found.settings, "settings")
+    if found.kind not in STORED:
+        raise SchemaError(f"kind is not one of {', '.join(STORED)}")
+    settings = decode(STORED[found.kind].settings, found.settings, "settings")
     return BakeJob(settings, found.output, decode(Light, found.light, "light"), found.force)

@@ -1,12 +1,12 @@
-"""Make a map set: filter, capture or tabulate an environment."""
+"""The command `rsibr bake`, of which each kind of map set has its own."""
 
 import argparse
 import warnings
 from dataclasses import dataclass
 from typing import Any
 
-from ..core.errors import RsibrWarning
-from ..files.kinds.registry import METHOD_SETTINGS
+from ..core.errors import RsibrWarning, SceneError
+from ..files.kinds.registry import STORED
 from ..job import BakeJob
 from ..settings.light import Light
 from ..settings.method import MethodSettings
@@ -25,11 +25,16 @@ class BakeCommand:
 
     Attributes
     ----------
-    settings : type
-        Settings of the method.
+    kind : str
+        The kind that it makes.
     """
 
-    settings: type[MethodSettings]
+    kind: str
+
+    @property
+    def settings(self) -> type[MethodSettings]:
+        """Settings of the method."""
+        return STORED[self.kind].settings
 
     @property
     def summary(self) -> str:
@@ -80,18 +85,22 @@ def run_job(job: BakeJob[Any], console: Console) -> dict[str, Any]:
     from ..tasks.methods.bake import bake
 
     if job.light.environment is None:
-        _warn_of_no_light()
+        _check_world()
     baked = console.steps(bake(job))
     console.say(f"{baked.path}: {baked.told}")
     return {"map_set": str(baked.path), **baked.figures}
 
 
-def _warn_of_no_light() -> None:
+def _check_world() -> None:
+    from ..host.installation import has_blender
+
+    if not has_blender():
+        raise SceneError("Without Blender there is no world to be baked: give --environment FILE.")
     from ..host.blend_files import is_file_open
 
     if not is_file_open():
         warnings.warn(NO_LIGHT, RsibrWarning, stacklevel=3)
 
 
-KINDS = {kind.replace("_", "-"): BakeCommand(settings) for kind, settings in METHOD_SETTINGS.items()}
+KINDS = {kind.replace("_", "-"): BakeCommand(kind) for kind in STORED}
 """Name of a method's command -> the command."""

@@ -2,36 +2,28 @@
 
 import argparse
 import os
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Mapping, Sequence
+from functools import partial
+from importlib import import_module
+from typing import Any, NoReturn
 
-from . import (
-    bake,
-    compare,
-    convert,
-    export,
-    fit,
-    illuminate,
-    info,
-    job,
-    preview,
-    report,
-)
+from ..files.version import rsibr
 from .parser import Parser
 
 COMMANDS = {
-    "bake": bake,
-    "preview": preview,
-    "compare": compare,
-    "info": info,
-    "convert": convert,
-    "illuminate": illuminate,
-    "fit": fit,
-    "report": report,
-    "export": export,
-    "job": job,
+    "bake": "Make a map set: filter, capture or tabulate an environment.",
+    "preview": "Draw a mesh shaded from a map set, once or as a turntable.",
+    "compare": "Measure how far previews are from what Cycles renders, or from a BRDF's exact reflection.",
+    "info": "Tell what a map set is, or what would be used of a picture, without Blender.",
+    "convert": "Lay a map of light out in another representation.",
+    "illuminate": "Make an illumination map: the light of an environment, as a latitude-longitude map.",
+    "fit": "Fit radially symmetric lobes to a reflectance model.",
+    "report": "Show all that a map set holds in one HTML file.",
+    "export": "Write a map set's maps for other programs.",
+    "job": "Do what a job file says; `rsibr bake JOB.json` is the same.",
 }
-"""Name -> what has its arguments and its run; or with `KINDS`, such commands in turn."""
+"""Name -> what it does. The module of this name has `add_arguments` and `run`; or `KINDS`, such commands in
+turn."""
 
 OLD_NAMES = {
     "capture": "radiance-views",
@@ -59,12 +51,14 @@ def parsed(argv: Sequence[str]) -> argparse.Namespace:
     Returns
     -------
     argparse.Namespace
-        The command's own arguments; its function, `run`; `json`, `progress`, `verbose` and `log`.
+        The command's own arguments; its function, `run`, and what one types, `command`; `json`, `progress`,
+        `verbose` and `log`.
 
     Raises
     ------
+    UsageError
     SystemExit
-        The usage is wrong, or help was asked for; that is printed.
+        Help was asked for; that is printed.
     """
     return parser().parse_args(_with_joined_directions(_with_todays_names(argv)))
 
@@ -90,15 +84,50 @@ def _as_in_version_01(kind: str, rest: Sequence[str]) -> Sequence[str]:
 
 def parser() -> Parser:
     """What reads a command line: all commands, and their options with help."""
-    common = argparse.ArgumentParser(add_help=False)
-    common.add_argument("--json", action="store_true", help="print the result as one JSON object")
-    common.add_argument(
+    return Parser(_declare_commands, prog="rsibr", description="Prefiltered reflection maps with Blender.")
+
+
+def _declare_commands(parser: Parser, words: Sequence[str]) -> None:
+    parser.add_argument("--version", action=_Version, nargs=0, help="print name and version")
+    commands = parser.add_subparsers(metavar="COMMAND", required=True)
+    for name, summary in COMMANDS.items():
+        declare = partial(_declare_command, name)
+        commands.add_parser(name, help=summary, description=summary, declare=declare)
+
+
+class _Version(argparse.Action):
+    """Prints the version and ends, as ``--help`` does."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *told: Any) -> NoReturn:
+        print(rsibr())
+        parser.exit()
+
+
+def _declare_command(name: str, parser: Parser, words: Sequence[str]) -> None:
+    command = import_module(f".{name}", __package__)
+    if hasattr(command, "KINDS"):
+        _declare_kinds(command.KINDS, parser, words)
+    else:
+        _declare_arguments(command, parser, words)
+
+
+def _declare_kinds(kinds: Mapping[str, Any], parser: Parser, words: Sequence[str]) -> None:
+    """The kinds of a command; where the words name one it is that alone, as summaries import the others."""
+    commands = parser.add_subparsers(metavar="KIND", required=True)
+    for kind in words[:1] if words and words[0] in kinds else kinds:
+        summary, declare = kinds[kind].summary, partial(_declare_arguments, kinds[kind])
+        commands.add_parser(kind, help=summary, description=summary, declare=declare)
+
+
+def _declare_arguments(command: Any, parser: Parser, words: Sequence[str]) -> None:
+    parser.add_argument("--json", action="store_true", help="print the result as one JSON object")
+    parser.add_argument(
         "--progress",
         choices=["auto", "bar", "json", "none"],
         default="auto",
         help="progress on standard error: a bar, JSON lines or nothing (default: a bar on a terminal)",
     )
-    heard = common.add_mutually_exclusive_group()
+    heard = parser.add_mutually_exclusive_group()
     heard.add_argument(
         "--verbose",
         action="store_true",
@@ -110,31 +139,8 @@ def parser() -> Parser:
         default=os.devnull,
         help="append the output of Blender and its libraries to a file",
     )
-    parser = Parser(prog="rsibr", description="Prefiltered reflection maps with Blender.")
-    commands = parser.add_subparsers(metavar="COMMAND", required=True)
-    for name, module in COMMANDS.items():
-        if hasattr(module, "KINDS"):
-            summary = _summary(module)
-            family = commands.add_parser(name, help=summary, description=summary, allow_abbrev=False)
-            kinds = family.add_subparsers(metavar="KIND", required=True)
-            for kind, member in module.KINDS.items():
-                _add_command(kinds, kind, member, common)
-        else:
-            _add_command(commands, name, module, common)
-    return parser
-
-
-def _add_command(commands: Any, name: str, module: Any, common: argparse.ArgumentParser) -> None:
-    summary = _summary(module)
-    command = commands.add_parser(
-        name, help=summary, description=summary, parents=[common], allow_abbrev=False
-    )
-    module.add_arguments(command)
-    command.set_defaults(run=module.run)
-
-
-def _summary(command: Any) -> str:
-    return getattr(command, "summary", None) or (command.__doc__ or "").splitlines()[0]
+    command.add_arguments(parser)
+    parser.set_defaults(run=command.run, command=parser.prog)
 
 
 def _with_joined_directions(argv: Sequence[str]) -> list[str]:

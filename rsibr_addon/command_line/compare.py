@@ -1,4 +1,4 @@
-"""Measure how far previews are from what Cycles renders, or from a BRDF's exact reflection."""
+"""The command `rsibr compare`."""
 
 import argparse
 from typing import Any

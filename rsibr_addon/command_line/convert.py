@@ -1,4 +1,4 @@
-"""Lay a map of light out in another representation."""
+"""The command `rsibr convert`."""
 
 import argparse
 from pathlib import Path

@@ -95,6 +95,11 @@ def done() -> None:
     _done.set()
 
 
+def failed(sentence: str) -> str:
+    """The result of a command that has not begun, or cannot tell its own, as JSON."""
+    return json.dumps({"ok": False, "error": sentence, "warnings": []})
+
+
 def tell(sentence: str, argv: Sequence[str], out: int, err: int) -> None:
     """Tell why a command ends that cannot tell it itself.
 
@@ -113,4 +118,4 @@ def tell(sentence: str, argv: Sequence[str], out: int, err: int) -> None:
         told.control(CLEAR_LINE)  # a bar may stand there
     told.write(f"rsibr: error: {sentence}\n")
     if "--json" in argv:
-        Outlet(out).write(json.dumps({"ok": False, "error": sentence, "warnings": []}) + "\n")
+        Outlet(out).write(f"{failed(sentence)}\n")

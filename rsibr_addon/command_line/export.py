@@ -1,4 +1,4 @@
-"""Write a map set's maps for other programs."""
+"""The command `rsibr export`."""
 
 import argparse
 from typing import Any

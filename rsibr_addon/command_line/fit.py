@@ -1,4 +1,4 @@
-"""Fit radially symmetric lobes to a reflectance model."""
+"""The command `rsibr fit`."""
 
 import argparse
 from pathlib import Path

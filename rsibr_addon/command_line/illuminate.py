@@ -1,4 +1,4 @@
-"""Make an illumination map: the light of an environment, as a latitude-longitude map."""
+"""The command `rsibr illuminate`, which has one for each source of light."""
 
 import argparse
 from collections.abc import Callable, Mapping

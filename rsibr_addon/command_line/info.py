@@ -1,4 +1,4 @@
-"""Tell what a map set is, or what would be used of a picture, without Blender."""
+"""The command `rsibr info`."""
 
 import argparse
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""Do what a job file says; `rsibr bake JOB.json` is the same."""
+"""The command `rsibr job`."""
 
 import argparse
 import contextlib
@@ -11,6 +11,7 @@ from ..core.errors import InputFileError
 from ..job import BakeJob, read_job
 from .bake import run_job
 from .console import Console
+from .parser import UsageError
 
 REASON_LETTERS = 500
 """Greatest length of argparse's message, which repeats what is wrong."""
@@ -54,18 +55,15 @@ def _text(path: Path) -> str:
 
 
 def _parsed(argv: Sequence[str], path: Path) -> argparse.Namespace:
-    """What a job's arguments ask for; of a usage that is wrong, argparse's own words."""
+    """What a job's arguments ask for; of a usage that is wrong, the parser's own words."""
     from .commands import parsed
 
-    said = io.StringIO()
     try:
-        with contextlib.redirect_stderr(said), contextlib.redirect_stdout(said):
+        with contextlib.redirect_stdout(io.StringIO()):
             asked = parsed(argv)
-    except SystemExit as end:
-        reason = (said.getvalue().strip().splitlines() or [""])[-1].partition("error: ")[2]
-        raise InputFileError(
-            f"{path} cannot be done ({reason[:REASON_LETTERS] or 'it asks for help'}): correct it."
-        ) from end
+    except (UsageError, SystemExit) as error:
+        reason = "it asks for help" if isinstance(error, SystemExit) else str(error)[:REASON_LETTERS]
+        raise InputFileError(f"{path} cannot be done ({reason}): correct it.") from error
     if asked.run is run:
         raise InputFileError(f"{path} is a job whose work is another job: give that one.")
     return asked

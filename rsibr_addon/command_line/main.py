@@ -25,6 +25,9 @@ from ..files.staging import remove_own
 from . import endings
 from .streams import Outlet, open_closed_streams, others_hushed, own_streams
 
+BLENDERS_MODULES = frozenset({"bpy", "bmesh", "gpu", "gpu_extras", "mathutils"})
+"""What comes with Blender alone."""
+
 
 def console() -> int:
     """Run with the arguments of the process: the entry point of `rsibr`."""
@@ -87,12 +90,18 @@ def run(argv: Sequence[str]) -> int:
         0 done, 1 failed, 2 wrong usage.
     """
     from .commands import parsed
+    from .parser import UsageError
 
     with own_streams() as (out, told):
         try:
             arguments = parsed(argv)
-        except SystemExit as end:  # argparse has said why, or has printed the help
-            return int(end.code or 0)
+        except SystemExit:  # argparse has printed the help
+            return 0
+        except UsageError as error:
+            told.write(f"{error.usage}: error: {error}\n")
+            if "--json" in argv:
+                out.write(f"{endings.failed(str(error))}\n")
+            return 2
         result, lines = _done(arguments, told)
         for line in [json.dumps(result)] if arguments.json else lines:
             out.write(f"{line}\n")
@@ -110,14 +119,21 @@ def _done(arguments: argparse.Namespace, told: Outlet) -> tuple[dict[str, Any], 
         try:
             with others_hushed(told if arguments.verbose else None, arguments.log):
                 result = {"ok": True, **arguments.run(arguments, console)}
-        except (RsibrError, OSError, MemoryError) as error:
-            result = {"ok": False, "error": _sentence(error)}
+        except (RsibrError, OSError, MemoryError, ModuleNotFoundError) as error:
+            if isinstance(error, ModuleNotFoundError) and error.name not in BLENDERS_MODULES:
+                raise
+            result = {"ok": False, "error": _sentence(error, arguments.command)}
             told.write(f"rsibr: error: {result['error']}\n")
     return result | {"warnings": console.warnings}, console.lines if result["ok"] else []
 
 
-def _sentence(error: RsibrError | OSError | MemoryError) -> str:
+def _sentence(error: Exception, command: str) -> str:
     """What to tell of an error, naming the file where the system knows it."""
+    if isinstance(error, ModuleNotFoundError):
+        return (
+            f"{command} needs Blender for this: pip install 'rsibr[blender]' on Python 3.13, or run it as "
+            f"blender --command {command}."
+        )
     if isinstance(error, MemoryError):
         return "The memory of this machine is used up: choose a smaller size, or close other programs."
     if isinstance(error, OSError) and error.filename is not None:

@@ -1,22 +1,66 @@
 """A parser that answers wrong usage with that of the command at fault, and with what may have been meant."""
 
 import argparse
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import Any, NoReturn
 
+from ..core.errors import RsibrError
 from ..core.near_names import did_you_mean
+
+Declare = Callable[["Parser", Sequence[str]], None]
+"""Declares a parser's arguments; it may leave out what the words to be parsed do not ask for."""
+
+
+class UsageError(RsibrError):
+    """The words are no command; the message is a phrase.
+
+    Attributes
+    ----------
+    usage : str
+        What to tell before: the usage of the command at fault, and its name.
+    """
+
+    def __init__(self, usage: str, message: str) -> None:
+        super().__init__(message)
+        self.usage = usage
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser of a command, or of commands."""
+    """A parser of a command, or of commands.
+
+    Parameters
+    ----------
+    declare : callable
+        See `Declare`. It is called when the parser is used, so that only the command that is asked for is
+        imported.
+    """
+
+    def __init__(self, declare: Declare, **more: Any) -> None:
+        super().__init__(allow_abbrev=False, **more)
+        self._declare = declare
+
+    def declare(self, words: Sequence[str] = ()) -> None:
+        """Declare the arguments, once; without words all of them."""
+        self._declare(self, words)
+        self._declare = lambda parser, words: None
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
-        """Parse; what is unknown ends the process here, and not in the parser of all commands."""
+        """Parse; what is unknown is refused here, and not by the parser of all commands.
+
+        Raises
+        ------
+        UsageError
+        """
+        self.declare(args or ())
         self._refuse_unknown_options(args or ())
         found, unknown = super().parse_known_args(args, namespace)
         if unknown:
             self.error(f"unknown arguments: {' '.join(unknown)}")
         return found, unknown
+
+    def error(self, message: str) -> NoReturn:
+        """Raise a `UsageError`."""
+        raise UsageError(f"{self.format_usage()}{self.prog}", message)
 
     def _refuse_unknown_options(self, args: Sequence[str]) -> None:
         """Refuse a misspelt option before argparse says that another is missing."""

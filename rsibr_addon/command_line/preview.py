@@ -1,4 +1,4 @@
-"""Draw a mesh shaded from a map set, once or as a turntable."""
+"""The command `rsibr preview`."""
 
 import argparse
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Show all that a map set holds in one HTML file."""
+"""The command `rsibr report`."""
 
 import argparse
 from pathlib import Path

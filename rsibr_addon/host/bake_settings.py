@@ -8,9 +8,9 @@ import bpy
 
 from ..core.errors import InputFileError, OutputFileError, SceneError
 from ..files.pictures import split_layer
+from .installation import studio_environments
 from .map_sets import Settings, chosen_path, stored_path, use_file, written_path
 from .materials import surface_output
-from .studio_environments import studio_environments
 from .worlds import world_of
 
 EXTENSION = __package__.rpartition(".rsibr_addon")[0]

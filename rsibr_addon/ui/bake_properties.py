@@ -2,17 +2,17 @@
 
 import bpy
 
-from ..files.kinds.registry import METHOD_SETTINGS
+from ..files.kinds.registry import STORED
 from ..host.bake_settings import chosen_picture, use_picture
+from ..host.installation import studio_environments
 from ..host.option_properties import group_of, properties_of
-from ..host.studio_environments import studio_environments
 from ..properties import keep_in_overrides
 from ..session.map_pictures import Item
 from ..settings.light import Clamp
 
 METHOD_GROUPS = {
     kind: group_of(f"RSIBR_PG_bake_{kind}", f"{settings.LABEL}: {settings.SUMMARY}.", properties_of(settings))
-    for kind, settings in METHOD_SETTINGS.items()
+    for kind, settings in ((kind, stored.settings) for kind, stored in STORED.items())
 }
 """Kind of map sets -> the settings of what makes it."""
 
@@ -75,7 +75,7 @@ class RSIBR_PG_bake(bpy.types.PropertyGroup):
     kind = bpy.props.EnumProperty(
         name="Method",
         description="What is baked",
-        items=[(kind, settings.LABEL, settings.SUMMARY) for kind, settings in METHOD_SETTINGS.items()],
+        items=[(kind, stored.settings.LABEL, stored.settings.SUMMARY) for kind, stored in STORED.items()],
     )
 
 

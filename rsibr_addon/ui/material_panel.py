@@ -5,7 +5,7 @@ from typing import Any
 import bpy
 
 from ..core.brdf.gallery import GALLERY, gallery_name
-from ..files.kinds.registry import METHOD_SETTINGS
+from ..files.kinds.registry import STORED
 from ..tasks.methods.kinds import KINDS
 from .sentences import tell
 from .sidebar import InSidebar
@@ -63,7 +63,7 @@ class RSIBR_PT_material(InSidebar, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Show what the method can take."""
         kind, layout = context.scene.rsibr_bake.kind, self.layout
-        chosen, remark = getattr(context.scene.rsibr_bake, kind), METHOD_SETTINGS[kind].REMARK
+        chosen, remark = getattr(context.scene.rsibr_bake, kind), STORED[kind].settings.REMARK
         if remark:
             tell(layout, remark, context.region.width, icon="INFO")
         elif hasattr(chosen, "source"):

@@ -3,7 +3,7 @@
 import bpy
 
 from ..core.options import Declared, declared_options, quality_values
-from ..files.kinds.registry import METHOD_SETTINGS
+from ..files.kinds.registry import STORED
 from ..host.option_properties import property_name, shown_value
 from .sidebar import InSidebar
 
@@ -19,7 +19,7 @@ class RSIBR_PT_method(InSidebar, bpy.types.Panel):
         layout.prop(scene, "kind", text="")
         if not scene.kind:  # one of a newer version
             return
-        chosen, settings = getattr(scene, scene.kind), METHOD_SETTINGS[scene.kind]
+        chosen, settings = getattr(scene, scene.kind), STORED[scene.kind].settings
         row = layout.row(align=True)
         for quality in ("draft", "good", "final"):
             values = quality_values(settings, quality)
@@ -61,7 +61,7 @@ def _shown(settings: type) -> list[Declared]:
 
 
 def _advanced(kind: str) -> list[Declared]:
-    return [each for each in _shown(METHOD_SETTINGS[kind]) if each.option.advanced] if kind else []
+    return [each for each in _shown(STORED[kind].settings) if each.option.advanced] if kind else []
 
 
 def _draw_options(

@@ -14,7 +14,7 @@ from rsibr.rsibr_addon.command_line.commands import parsed
 from rsibr.rsibr_addon.core.errors import InputFileError, MapSetError, OutputFileError, RsibrError, SceneError
 from rsibr.rsibr_addon.core.options import declared_options, quality_values
 from rsibr.rsibr_addon.files.exr import Part, write_parts
-from rsibr.rsibr_addon.files.kinds.registry import METHOD_SETTINGS
+from rsibr.rsibr_addon.files.kinds.registry import STORED
 from rsibr.rsibr_addon.files.staging import is_staging_folder
 from rsibr.rsibr_addon.host.bake_settings import apply_settings, plain_settings
 from rsibr.rsibr_addon.host.option_properties import property_name, shown_value
@@ -51,7 +51,7 @@ def output() -> Path:
     return output_for(order(), bpy.context.scene, bpy.context.object)
 
 
-KINDS = sorted(METHOD_SETTINGS)
+KINDS = sorted(STORED)
 QUALITIES = ("DRAFT", "GOOD", "FINAL")
 
 
@@ -62,8 +62,8 @@ def test_every_quality_is_what_the_command_takes(kind: str, quality: str) -> Non
     chosen.kind = kind
     assert bpy.ops.rsibr.apply_quality(quality=quality) == {"FINISHED"}
     settings = getattr(chosen, kind)
-    values = quality_values(METHOD_SETTINGS[kind], quality.lower())
-    for declared in declared_options(METHOD_SETTINGS[kind]):
+    values = quality_values(STORED[kind].settings, quality.lower())
+    for declared in declared_options(STORED[kind].settings):
         if declared.name in values:
             assert getattr(settings, property_name(declared)) == shown_value(declared, values[declared.name])
     job = order().job(Path("out.rsibr.exr"))

@@ -8,7 +8,7 @@ import pytest
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import InputFileError, RsibrWarning
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
-from rsibr.rsibr_addon.host.studio_environments import studio_environments
+from rsibr.rsibr_addon.host.installation import studio_environments
 from rsibr.rsibr_addon.tasks.light.environments import load_environment
 
 MIPS = ["bake", "mip-chain", "--size", "4", "--filter", "box"]

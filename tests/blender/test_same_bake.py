@@ -14,7 +14,7 @@ from rsibr.rsibr_addon.command_line import bake as bake_command
 from rsibr.rsibr_addon.command_line import job as job_command
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.options import Declared, declared_options, to_plain
-from rsibr.rsibr_addon.files.kinds.registry import METHOD_SETTINGS
+from rsibr.rsibr_addon.files.kinds.registry import STORED
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.host.option_properties import property_name, show_option
 from rsibr.rsibr_addon.job import BakeJob
@@ -66,8 +66,8 @@ def other_value(declared: Declared) -> Any:
 
 CASES = [
     pytest.param(kind, {declared.name: other_value(declared)}, id=f"{kind}-{declared.name}")
-    for kind, settings in METHOD_SETTINGS.items()
-    for declared in declared_options(settings)
+    for kind, stored in STORED.items()
+    for declared in declared_options(stored.settings)
 ]
 
 
@@ -90,7 +90,7 @@ def full_settings(kind: str, changed: dict[str, Any]) -> dict[str, Any]:
 
 def by_command_line(kind: str, values: dict[str, Any], light: Light) -> list[str]:
     words = ["bake", kind.replace("_", "-"), "--environment", str(light.environment), "--clamp", "1.5"]
-    for declared in declared_options(METHOD_SETTINGS[kind]):
+    for declared in declared_options(STORED[kind].settings):
         value = values.get(declared.name)
         if isinstance(value, bool):
             words.append(declared.flag if value else declared.flag.replace("--", "--no-", 1))
@@ -101,7 +101,7 @@ def by_command_line(kind: str, values: dict[str, Any], light: Light) -> list[str
 
 def by_operator(kind: str, values: dict[str, Any], light: Light) -> dict[str, Any]:
     given: dict[str, Any] = {"environment": light.environment, "clamp": light.clamp}
-    for declared in declared_options(METHOD_SETTINGS[kind]):
+    for declared in declared_options(STORED[kind].settings):
         value = values.get(declared.name, MISSING)
         if value is None or value is MISSING:
             continue
@@ -122,7 +122,7 @@ def in_panel(kind: str, values: dict[str, Any], light: Light) -> None:
     group = getattr(chosen, kind)
     if kind == "reflection_tables":
         group.preset = "none"
-    for declared in declared_options(METHOD_SETTINGS[kind]):
+    for declared in declared_options(STORED[kind].settings):
         value = values.get(declared.name, MISSING)
         if value is MISSING:
             continue
@@ -144,7 +144,7 @@ def test_every_option_goes_every_way(
     kind: str, changed: dict[str, Any], light: Light, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     values = full_settings(kind, changed)
-    expected = BakeJob(METHOD_SETTINGS[kind](**values), "out.rsibr.exr", light)
+    expected = BakeJob(STORED[kind].settings(**values), "out.rsibr.exr", light)
     (name,) = changed
     assert to_plain(expected.settings)[name] == changed[name]
     jobs = []
@@ -171,7 +171,7 @@ def test_every_option_goes_every_way(
 
 @pytest.mark.slow
 @pytest.mark.needs("cycles")
-@pytest.mark.parametrize("kind", METHOD_SETTINGS)
+@pytest.mark.parametrize("kind", STORED)
 def test_every_way_makes_the_same_file(kind: str, light: Light, tmp_path: Path) -> None:
     values, output = NEEDED.get(kind, {}) | SMALL[kind], Path("out.rsibr.exr")
     made = []
@@ -182,7 +182,7 @@ def test_every_way_makes_the_same_file(kind: str, light: Light, tmp_path: Path) 
 
     assert run(by_command_line(kind, values, light)) == 0
     take()
-    assert run_job(BakeJob(METHOD_SETTINGS[kind](**values), str(output), light), tmp_path) == 0
+    assert run_job(BakeJob(STORED[kind].settings(**values), str(output), light), tmp_path) == 0
     take()
     operator = getattr(bpy.ops.rsibr, f"bake_{kind}")
     assert operator(filepath=str(output.resolve()), **by_operator(kind, values, light)) == {"FINISHED"}

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from rsibr.rsibr_addon.files.kinds.registry import STORED
 from rsibr.rsibr_addon.files.map_set import read_map_set_header
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.files.version import rsibr
@@ -17,6 +18,23 @@ from rsibr.rsibr_addon.command_line.main import run
 code = run(sys.argv[1:])
 print(json.dumps([code, sorted(sys.modules)]))
 """
+
+WITHOUT_BLENDER = """
+import sys
+from rsibr.rsibr_addon.command_line.main import run
+
+class Blindfold:
+    def __init__(self, finder):
+        self.finder = finder
+
+    def find_spec(self, name, *where):
+        hidden = name in ("bpy", "bmesh", "gpu", "mathutils")
+        return None if hidden else self.finder.find_spec(name, *where)
+
+sys.meta_path[:] = map(Blindfold, sys.meta_path)
+sys.exit(run(sys.argv[1:]))
+"""
+"""Blender cannot be found, as if it were not installed."""
 
 LIGHT = ("--environment", "light.hdr")
 COMMANDS = {
@@ -64,3 +82,37 @@ def test_what_needs_no_blender_imports_none(command: str, folder: Path) -> None:
 
 def test_what_blender_had_no_part_in_names_none(folder: Path) -> None:
     assert read_map_set_header(folder / "mips.rsibr.exr")["software"] == rsibr()
+
+
+@pytest.mark.parametrize("argv", [["--help"], ["--version"]])
+def test_what_needs_no_numbers_imports_no_numpy(argv: list[str], folder: Path) -> None:
+    code, modules, told = imported(folder, *argv)
+    assert code == 0, told
+    assert "numpy" not in modules
+
+
+def test_a_bake_imports_nothing_of_other_kinds(folder: Path) -> None:
+    _, modules, _ = imported(folder, *COMMANDS["mip-chain"], "--force")
+    known = {name.rpartition(".")[2] for name in modules if ".files.kinds." in name}
+    assert known & set(STORED) == {"mip_chain"}
+
+
+@pytest.mark.parametrize(
+    ("command", "sentence"),
+    [
+        (
+            "preview mips.rsibr.exr -o a.png",
+            "rsibr preview needs Blender for this: pip install",
+        ),
+        ("fit --brdf blend:copper -o blend.json", "rsibr fit needs Blender for this"),
+        ("bake mip-chain -o world.rsibr.exr", "give --environment FILE."),
+        ("bake mip-chain --environment forest -o forest.rsibr.exr", "those with names come with Blender"),
+    ],
+)
+def test_without_blender_a_sentence_says_what_needs_it(command: str, sentence: str, folder: Path) -> None:
+    run = [sys.executable, "-c", WITHOUT_BLENDER, *command.split()]
+    ended = subprocess.run(run, cwd=folder, capture_output=True, text=True, check=False)
+    assert ended.returncode == 1
+    (line,) = ended.stderr.splitlines()
+    assert line.startswith("rsibr: error: ")
+    assert sentence in line

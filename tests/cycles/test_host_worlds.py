@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import RsibrWarning, SceneError
-from rsibr.rsibr_addon.host.studio_environments import studio_environments
+from rsibr.rsibr_addon.host.installation import studio_environments
 from rsibr.rsibr_addon.host.worlds import light_with, sample_world, world_of
 from rsibr.tests.open_file import open_file_state
 

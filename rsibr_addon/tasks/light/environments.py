@@ -9,7 +9,7 @@ from ...core.errors import InputFileError
 from ...core.near_names import did_you_mean
 from ...files.environments import read_environment
 from ...files.radiance_pictures import read_radiance
-from ...host.studio_environments import studio_environments
+from ...host.installation import studio_environments
 
 WORLD_HEIGHT = 512
 """Height in texels of the environment that a world is sampled into."""

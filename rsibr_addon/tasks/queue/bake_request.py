@@ -10,7 +10,7 @@ from typing import Any
 
 from ...core.errors import MapSetError, SceneError
 from ...core.options import declared_options, to_plain
-from ...files.kinds.registry import METHOD_SETTINGS, STORED
+from ...files.kinds.registry import STORED
 from ...files.map_set import read_map_set
 from ...files.output_paths import comparison_beside
 from ...files.pictures import split_layer
@@ -139,7 +139,7 @@ def request_for(scene: Any, item: Any) -> BakeRequest:
     source = getattr(chosen, "source", None)
     own = own_material(item).name if source == OWN else None
     files = [existing(chosen.path, "measured material", "its file")] if source == FILE else []
-    settings = options_of(METHOD_SETTINGS[scene.rsibr_bake.kind], chosen, own or "")
+    settings = options_of(STORED[scene.rsibr_bake.kind].settings, chosen, own or "")
     named = [each for each in declared_options(type(settings)) if each.option.subtype == "FILE_PATH"]
     files += filter(None, (getattr(settings, each.name) for each in named))
     light = Light(environment=chosen_environment(scene), clamp=options_of(Clamp, scene.rsibr_bake).clamp)

@@ -1,8 +1,13 @@
-"""The environments that come with Blender, found without starting it."""
+"""Whether there is a Blender, and the environments that come with it, without starting it."""
 
 import sys
 from importlib.util import find_spec
 from pathlib import Path
+
+
+def has_blender() -> bool:
+    """Whether Blender runs here or can be imported."""
+    return "bpy" in sys.modules or find_spec("bpy") is not None
 
 
 def studio_environments() -> dict[str, Path]:

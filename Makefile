@@ -13,7 +13,7 @@ help:
 	@echo "make extension   build dist/rsibr-*.zip: drop it on Blender's window"
 	@echo "make test-gui    test the extension in Blender's window; .ci/window/blender installs a Blender for it (root on Debian)"
 	@echo "make test-faults kill commands at 300 moments and read 100,000 damaged files; takes hours"
-	@echo "make bench       measure captures, previews and filtering on this machine; prints the docs' tables"
+	@echo "make bench       measure whole commands, captures, previews and filtering on this machine; prints the docs' tables"
 	@echo "make clean       remove everything that these targets made"
 
 $(READY): pyproject.toml .python-version .ci/constraints.txt
@@ -50,6 +50,7 @@ extension: $(READY)
 	$(PYTHON) .ci/build_extension.py
 
 bench: $(READY)
+	$(PYTHON) .ci/bench_commands.py
 	$(PYTHON) .ci/bench.py
 	$(PYTHON) .ci/bench_prefilter.py
 	$(PYTHON) .ci/bench_antialiased.py

@@ -21,6 +21,9 @@ from docs_table import write_table
 RSIBR = str(Path(sys.executable).with_name("rsibr"))
 RUNS = 5
 
+VARIABLES = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+"""Variables of the commands' environment: a user's modules are compiled once, when they are installed."""
+
 CMGEN = ["cmgen", "--quiet", "--format=exr", "--size=256", "--ibl-ld=cmgen", "interior.hdr"]
 """Mips of 256 to 16 texels."""
 
@@ -68,7 +71,7 @@ def run(command: Sequence[str], folder: str) -> Usage:
     """Run a command to its end and ask the system what it took."""
     start = time.perf_counter()
     with open(Path(folder) / "said.txt", "wb") as said:
-        process = subprocess.Popen(command, cwd=folder, stdout=said, stderr=said)
+        process = subprocess.Popen(command, cwd=folder, env=VARIABLES, stdout=said, stderr=said)
         _, status, used = os.wait4(process.pid, 0)
     wall = time.perf_counter() - start
     process.returncode = os.waitstatus_to_exitcode(status)

@@ -7,7 +7,6 @@ from functools import partial
 from importlib import import_module
 from typing import Any, NoReturn
 
-from ..files.version import rsibr
 from .parser import Parser
 
 COMMANDS = {
@@ -99,6 +98,8 @@ class _Version(argparse.Action):
     """Prints the version and ends, as ``--help`` does."""
 
     def __call__(self, parser: argparse.ArgumentParser, *told: Any) -> NoReturn:
+        from ..files.version import rsibr
+
         print(rsibr())
         parser.exit()
 

@@ -29,11 +29,9 @@ from .exr_in_turn import PartsInTurn
 from .map_set_check import check_header
 from .map_set_data import MapSet, MapsInTurn
 from .map_set_header import FORMAT
+from .map_set_mark import ATTRIBUTE, description
 from .photographs import PHOTOGRAPHS
 from .reading import opened
-
-ATTRIBUTE = "rsibr"
-"""Name of the first part's string attribute that holds the description, as JSON."""
 
 COVER = "cover"
 """Name of the first part: black, as wide and high as the largest map, and not listed.
@@ -178,23 +176,6 @@ def read_map_set(path: str | Path, kind: str | None = None) -> MapSet:
     return MapSet(header["kind"], maps, kept)
 
 
-def is_map_set(path: str | Path) -> bool:
-    """Whether a file describes itself as a map set, even with a bad description.
-
-    Returns
-    -------
-    bool
-        False for anything but OpenEXR.
-
-    Raises
-    ------
-    InputFileError
-        The file is missing, unreadable, or damaged in its headers.
-    """
-    with opened(path) as stream:
-        return stream.read(len(MAGIC)) == MAGIC and _description(OpenExr(path, stream)) is not None
-
-
 def read_map_set_header(path: str | Path) -> dict[str, Any]:
     """Read a map set's description, without its pixels.
 
@@ -215,7 +196,7 @@ def read_map_set_header(path: str | Path) -> dict[str, Any]:
 
 
 def _checked_header(path: str | Path, file: OpenExr) -> dict[str, Any]:
-    text = _description(file)
+    text = description(file)
     if text is None:
         raise MapSetError(f"{path} {A_PICTURE}")
     try:
@@ -237,12 +218,6 @@ def _checked_header(path: str | Path, file: OpenExr) -> dict[str, Any]:
                 f"{_words(found.get(name))} in fact): make it again."
             )
     return header
-
-
-def _description(file: OpenExr) -> str | None:
-    """The first part's description, unchecked."""
-    text = file.headers[0].get(ATTRIBUTE) if file.headers else None
-    return text if isinstance(text, str) else None
 
 
 def _check_shape(name: str, pixels: Array) -> None:

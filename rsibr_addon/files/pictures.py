@@ -14,7 +14,7 @@ from .chromaticities import XYZ, rec709_from
 from .exr import OpenExr, Part, in_display_window, open_exr, read_attributes, window_size, write_parts
 from .exr_header import Meaning, meaning
 from .exr_layers import Layer, choose, layers_of
-from .map_set import ATTRIBUTE
+from .map_set_mark import ATTRIBUTE
 from .picture_facts import GREY, PictureFacts
 
 

@@ -12,8 +12,8 @@ from ..core.errors import MapSetError
 from ..core.lobes.fit import Fit
 from ..host.icons import add_icon
 from ..host.sidebars import redraw_sidebars
+from ..tasks.read_once import file_stamp
 from ..tasks.reflectance.fit_plots import lobe_picture
-from ..tasks.report.facts import file_stamp
 from ..tasks.report.pictures import MapPicture, map_set_pictures
 
 SECONDS = 0.1

@@ -22,7 +22,8 @@ from rsibr.rsibr_addon.core.errors import DeviceError, RsibrError
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.exr import Part, read_parts, write_parts
 from rsibr.rsibr_addon.files.fits import read_fit
-from rsibr.rsibr_addon.files.map_set import ATTRIBUTE, read_map_set, read_map_set_header, write_map_set
+from rsibr.rsibr_addon.files.map_set import read_map_set, read_map_set_header, write_map_set
+from rsibr.rsibr_addon.files.map_set_mark import ATTRIBUTE
 from rsibr.rsibr_addon.files.work_folder import work_folder
 from rsibr.rsibr_addon.tasks.compare.measured_error import measured_facts
 from rsibr.rsibr_addon.tasks.export.export import export

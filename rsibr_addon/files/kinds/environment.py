@@ -6,8 +6,8 @@ from pathlib import Path
 from ...core.environment import Environment
 from ...core.errors import InputFileError, MapSetError
 from ..environments import read_environment
-from ..map_set import is_map_set
 from ..map_set_data import ENVIRONMENT, MapSet
+from ..map_set_mark import is_map_set
 from ..pictures import split_layer
 from ..radiance_pictures import holds_radiance
 

@@ -1,6 +1,5 @@
 """The kinds of map sets: what is known of them without Blender."""
 
-from ...core.kinds.environment import EnvironmentLook
 from ...core.lazy_table import LazyTable
 from ...core.options import Options
 from ..map_set_data import ENVIRONMENT
@@ -17,4 +16,6 @@ menus."""
 
 def look_types() -> dict[str, type[Options]]:
     """Kind, a picture of an environment included -> how it is shaded, as options."""
+    from ...core.kinds.environment import EnvironmentLook
+
     return {**{kind: stored.look for kind, stored in STORED.items()}, ENVIRONMENT: EnvironmentLook}

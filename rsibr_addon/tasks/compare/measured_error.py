@@ -9,7 +9,8 @@ from ...files.kinds.registry import STORED
 from ...files.output_paths import comparison_beside
 from ...files.reading import opened
 from ..methods.kinds import KINDS
-from ..report.facts import map_set_content, map_set_header, read_once
+from ..read_once import read_once
+from ..report.facts import map_set_content, map_set_header
 from .comparison import RESULT, Comparison, WayError
 
 

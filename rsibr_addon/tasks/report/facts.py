@@ -1,8 +1,5 @@
-"""Facts of map sets for panels; a file is read again only after it has changed."""
+"""Facts of map sets for panels."""
 
-import os
-from collections.abc import Callable
-from functools import lru_cache, wraps
 from pathlib import Path
 from typing import Any
 
@@ -12,37 +9,7 @@ from ...files.kinds.registry import STORED
 from ...files.map_set import read_map_set_header
 from ...files.map_set_facts import told_errors, told_facts
 from ...files.map_set_header import content_hash
-from ...files.pictures import split_layer
-
-
-def read_once[*More, Told](read: Callable[[Path, *More], Told]) -> Callable[[Path, *More], Told]:
-    """Make a function of a file remember its result until the file's time or size changes.
-
-    Parameters
-    ----------
-    read : callable
-        Takes the path of a file, that need not be there, or FILE.exr:LAYER, and perhaps more that can be
-        hashed. What it raises is not kept.
-    """
-
-    @lru_cache(maxsize=16)
-    def kept(stamp: tuple[int, int] | None, path: Path, more: tuple[*More]) -> Told:
-        return read(path, *more)
-
-    @wraps(read)
-    def told(path: Path, *more: *More) -> Told:
-        return kept(file_stamp(split_layer(path)[0]), path, more)
-
-    return told
-
-
-def file_stamp(path: Path) -> tuple[int, int] | None:
-    """Time and size of a file, which tell whether it has changed; None where it is not there."""
-    try:
-        status = os.stat(path)
-    except OSError:
-        return None
-    return status.st_mtime_ns, status.st_size
+from ..read_once import read_once
 
 
 @read_once

@@ -34,6 +34,7 @@ from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.kinds.lobe_stack import elevation_texels, map_texels
+from rsibr.rsibr_addon.device.textures import GpuTexture
 from rsibr.rsibr_addon.files.brdfs import brdf_from_spec
 from rsibr.rsibr_addon.tasks.light.environments import load_environment
 from rsibr.tests.glsl.evaluation import evaluate
@@ -133,7 +134,7 @@ def from_graphics_memory(stack: LobeStack, points: Points) -> Array:
         f"normalize(in_0.xyz), normalize(in_1.xyz), vec3(0.0), vec3(0.0));"
     )
     samplers = {
-        "maps": ("FLOAT_3D", buffers.texture_3d(map_texels(stack), "RGBA16F")),
+        "maps": ("FLOAT_3D", GpuTexture("maps", map_texels(stack), "RGBA16F", deep=True).whole()),
         "elevations": ("FLOAT_2D", buffers.texture(elevation_texels(stack, StackLook().shown(stack)))),
     }
     arguments = [points.normal, points.view_dir]

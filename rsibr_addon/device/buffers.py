@@ -10,15 +10,7 @@ from ..core.conventions import Array, Indices
 def texture(image: Array) -> gpu.types.GPUTexture:
     """Upload a map, shape (height, width, 4), to be looked up bilinearly within its edges, as RGBA32F."""
     height, width = image.shape[:2]
-    return _smooth(gpu.types.GPUTexture((width, height), format="RGBA32F", data=_buffer(image)))
-
-
-def texture_array(images: Array) -> gpu.types.GPUTexture:
-    """Upload maps, shape (layers, height, width, 4), as layers of one texture like that of `texture`."""
-    layers, height, width = images.shape[:3]
-    return _smooth(
-        gpu.types.GPUTexture((width, height), layers=layers, format="RGBA32F", data=_buffer(images))
-    )
+    return smooth(gpu.types.GPUTexture((width, height), format="RGBA32F", data=buffer(image)))
 
 
 def table_texture(table: Array) -> gpu.types.GPUTexture:
@@ -36,16 +28,7 @@ def table_texture(table: Array) -> gpu.types.GPUTexture:
     depth, height, width = table.shape[:3]
     texels: Array = np.ones((depth, height, width, 4), dtype=np.float32)
     texels[..., :3] = table
-    return gpu.types.GPUTexture((width, height, depth), format="RGBA16F", data=_buffer(texels))
-
-
-def texture_3d(images: Array, texel_format: str) -> gpu.types.GPUTexture:
-    """Upload maps, shape (slices, height, width, 4), to be looked up linearly between them as well.
-
-    `texel_format` is "RGBA16F" or "RGBA32F".
-    """
-    slices, height, width = images.shape[:3]
-    return _smooth(gpu.types.GPUTexture((width, height, slices), format=texel_format, data=_buffer(images)))
+    return gpu.types.GPUTexture((width, height, depth), format="RGBA16F", data=buffer(texels))
 
 
 def with_alpha(image: Array) -> Array:
@@ -55,19 +38,7 @@ def with_alpha(image: Array) -> Array:
 
 def render_target(size: int) -> gpu.types.GPUTexture:
     """An empty square map to be drawn to and looked up, RGBA32F."""
-    return _smooth(gpu.types.GPUTexture((size, size), format="RGBA32F"))
-
-
-def uniform_block(*fields: Array) -> gpu.types.GPUUniformBuf:
-    """Upload a block of mat4 and vec4 fields.
-
-    Parameters
-    ----------
-    *fields : ndarray
-        In the block's order: vectors of up to 4 numbers, filled up with 0; matrices of shape
-        (4, 4) for column vectors; arrays of vectors of shape (n, 3) or (n, 4).
-    """
-    return gpu.types.GPUUniformBuf(_block(fields))
+    return smooth(gpu.types.GPUTexture((size, size), format="RGBA32F"))
 
 
 FRAMES_IN_FLIGHT = 3
@@ -75,7 +46,7 @@ FRAMES_IN_FLIGHT = 3
 
 
 class KeptBlock:
-    """A uniform block that is refilled for each draw, and allocated for the first few.
+    """A uniform block of mat4 and vec4 fields that is filled for each draw, in place after the first few.
 
     Keep it with the thing that is drawn: Blender binds a block without a reference to it, and the block has
     to outlive the draw. Filling and drawing are commands in one order, so the draws of a frame may share a
@@ -91,7 +62,8 @@ class KeptBlock:
         Parameters
         ----------
         *fields : ndarray
-            As for `uniform_block`.
+            In the block's order: vectors of up to 4 numbers, filled up with 0; matrices of shape
+            (4, 4) for column vectors; arrays of vectors of shape (n, 3) or (n, 4).
         """
         values = _block(fields).tobytes()
         block = self._uploaded.pop(values, None)
@@ -126,6 +98,19 @@ def triangles(
     return batch_for_shader(shader, "TRIS", contiguous, indices=np.ascontiguousarray(indices, np.int32))
 
 
+def buffer(values: Array) -> gpu.types.Buffer:
+    """Values as textures take them."""
+    flat = np.ascontiguousarray(values, dtype=np.float32).reshape(-1)
+    return gpu.types.Buffer("FLOAT", flat.size, flat)
+
+
+def smooth(texture: gpu.types.GPUTexture) -> gpu.types.GPUTexture:
+    """The texture, looked up bilinearly within its edges from now on."""
+    texture.filter_mode(True)
+    texture.extend_mode("EXTEND")
+    return texture
+
+
 def _block(fields: tuple[Array, ...]) -> Array:
     """Fields in a block's layout, shape (rows, 4), float32."""
     return np.ascontiguousarray(np.concatenate([_rows_of_four(field) for field in fields]), np.float32)
@@ -138,15 +123,3 @@ def _rows_of_four(field: Array) -> Array:
     filled: Array = np.zeros((len(rows), 4))
     filled[:, : rows.shape[1]] = rows
     return filled
-
-
-def _buffer(values: Array) -> gpu.types.Buffer:
-    flat = np.ascontiguousarray(values, dtype=np.float32).reshape(-1)
-    return gpu.types.Buffer("FLOAT", flat.size, flat)
-
-
-def _smooth(texture: gpu.types.GPUTexture) -> gpu.types.GPUTexture:
-    """The texture, looked up bilinearly within its edges from now on."""
-    texture.filter_mode(True)
-    texture.extend_mode("EXTEND")
-    return texture

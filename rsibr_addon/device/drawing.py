@@ -1,5 +1,6 @@
 """The interface of every kind of map set on the GPU: an upload that is drawn on a mesh with a look."""
 
+from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass, field
 from typing import Any, Protocol
@@ -9,6 +10,7 @@ import numpy as np
 
 from ..core.conventions import Array, Indices
 from . import buffers, shaders
+from .textures import GpuTexture
 
 
 @dataclass(frozen=True)
@@ -75,7 +77,11 @@ class GpuMesh:
 
 
 class GpuMapSet(Protocol):
-    """The uploaded content of a map set."""
+    """The content of a map set, to be drawn with; any thread makes it, with nothing on the GPU at first."""
+
+    @property
+    def textures(self) -> Sequence[GpuTexture]:
+        """Those that looks need. What is not on the GPU yet is uploaded when it is drawn."""
 
     def draw(self, mesh: GpuMesh, draw: Draw, look: Any) -> None:
         """Draw a mesh into the active frame buffer, with the current depth test.

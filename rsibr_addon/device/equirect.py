@@ -2,15 +2,14 @@
 
 from dataclasses import dataclass
 
-import gpu
 import numpy as np
 
 from ..core.antialiased.summed_area import summed_area_table
 from ..core.conventions import Array
-from ..core.errors import DeviceError
 from ..core.maps import equirect
 from . import buffers
 from .summed_area import summed_area_texture
+from .textures import GpuTexture
 
 
 @dataclass(frozen=True)
@@ -19,28 +18,28 @@ class Sums:
 
     Attributes
     ----------
-    texture : GPUTexture
+    texture : GpuTexture
         See `summed_area_texture`.
     unit : ndarray, shape (3,)
         Unit of its sums.
     """
 
-    texture: gpu.types.GPUTexture
+    texture: GpuTexture
     unit: Array
 
 
-def no_map() -> gpu.types.GPUTexture:
+def no_map() -> GpuTexture:
     """A stand-in for a map that is not looked up."""
-    return buffers.texture(np.zeros((1, 1, 4)))
+    return GpuTexture("stand-in", np.zeros((1, 1, 4)))
 
 
 def no_sums() -> Sums:
     """A stand-in for sums that are not looked up."""
-    return Sums(buffers.texture_array(np.zeros((3, 2, 2, 4))), np.ones(3))
+    return Sums(GpuTexture("stand-in", np.zeros((3, 2, 2, 4))), np.ones(3))
 
 
 def map_sums(image: Array) -> Sums:
-    """Sum a map and upload it.
+    """Sum a map.
 
     Parameters
     ----------
@@ -56,8 +55,8 @@ def map_sums(image: Array) -> Sums:
     return Sums(summed_area_texture(table), table.unit)
 
 
-def map_texture(name: str, image: Array) -> gpu.types.GPUTexture:
-    """Upload a map to be interpolated, as gpu_shaders/lib/equirect_lib.glsl reads it.
+def map_texture(name: str, image: Array) -> GpuTexture:
+    """A map to be interpolated, as gpu_shaders/lib/equirect_lib.glsl reads it.
 
     Parameters
     ----------
@@ -68,20 +67,9 @@ def map_texture(name: str, image: Array) -> gpu.types.GPUTexture:
 
     Returns
     -------
-    GPUTexture, RGBA32F
-
-    Raises
-    ------
-    DeviceError
-        It is larger than the device takes.
+    GpuTexture, RGBA32F
     """
-    width, largest = image.shape[1] + 2, gpu.capabilities.max_texture_size_get()
-    if width > largest:
-        raise DeviceError(
-            f"The {name} takes a texture {width} wide, and this device has {largest} at most: "
-            f"make a smaller one."
-        )
-    return buffers.texture(buffers.with_alpha(bordered(image)))
+    return GpuTexture(name, buffers.with_alpha(bordered(image)))
 
 
 def bordered(image: Array) -> Array:

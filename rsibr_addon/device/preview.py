@@ -8,6 +8,7 @@ import numpy as np
 from ..core.conventions import Array, Indices
 from ..core.geometry.camera import Camera
 from . import buffers
+from .context import ensure_context
 from .drawing import Draw, GpuMapSet, GpuMesh
 
 SAMPLES_PER_AXIS = 4
@@ -15,9 +16,16 @@ SAMPLES_PER_AXIS = 4
 
 
 class PreviewRenderer:
-    """Draws meshes, shaded from a map set, into pictures."""
+    """Draws meshes, shaded from a map set, into pictures.
+
+    Raises
+    ------
+    DeviceError
+        There is no graphics driver.
+    """
 
     def __init__(self, content: GpuMapSet) -> None:
+        ensure_context()
         self._content = content
 
     def draw(

@@ -13,11 +13,9 @@ import gpu
 import numpy as np
 
 from ..core.conventions import Array
-from . import buffers
 from .drawing import Draw, GpuMesh
+from .passes import screen_triangle
 from .stage_shaders import composite_shader, occluder_shader
-
-_SCREEN_TRIANGLE = np.array([[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]])
 
 
 @dataclass(frozen=True)
@@ -131,9 +129,7 @@ class Stage:
         self._radiance = gpu.types.GPUTexture(size, format="RGBA32F")
         self._depth = gpu.types.GPUTexture(size, format="DEPTH_COMPONENT32F")
         self._target = gpu.types.GPUFrameBuffer(depth_slot=self._depth, color_slots=(self._radiance,))
-        self._screen = buffers.triangles(
-            composite_shader(), {"position": _SCREEN_TRIANGLE}, np.array([[0, 1, 2]])
-        )
+        self._screen = screen_triangle(composite_shader())
         self._size = size  # last, so that a failure above is tried again
 
 

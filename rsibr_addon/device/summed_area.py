@@ -1,19 +1,18 @@
 """A summed table on the GPU, in whole numbers that single precision can hold."""
 
-import gpu
 import numpy as np
 
 from ..core.antialiased.summed_area import SummedAreaTable
 from ..core.errors import ShapeError
-from . import buffers
+from .textures import GpuTexture
 
 DIGITS = 3
 DIGIT_BITS = 21
 """Bits of a digit. Sums have 62 bits; the sum of four digits, one of them in a second turn, fits into 24."""
 
 
-def summed_area_texture(table: SummedAreaTable) -> gpu.types.GPUTexture:
-    """Upload a table as gpu_shaders/lib/summed_area_lib.glsl reads it.
+def summed_area_texture(table: SummedAreaTable) -> GpuTexture:
+    """A table as gpu_shaders/lib/summed_area_lib.glsl reads it.
 
     Parameters
     ----------
@@ -22,7 +21,7 @@ def summed_area_texture(table: SummedAreaTable) -> gpu.types.GPUTexture:
 
     Returns
     -------
-    GPUTexture
+    GpuTexture
         RGBA32F, a layer for each digit from the lowest up; one texel wider and higher than the table was.
 
     Raises
@@ -35,4 +34,4 @@ def summed_area_texture(table: SummedAreaTable) -> gpu.types.GPUTexture:
     layers = np.zeros((DIGITS, *table.sums.shape[:2], 4), dtype=np.float32)
     for digit, layer in enumerate(layers):
         layer[..., :3] = (table.sums >> (DIGIT_BITS * digit)) & (2**DIGIT_BITS - 1)
-    return buffers.texture_array(layers)
+    return GpuTexture("summed table", layers)

@@ -1,6 +1,7 @@
 """What the extension keeps in memory, from when it is registered until it leaves."""
 
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager
 
 from ..tasks.methods.latest_request_worker import LatestRequestWorker
@@ -9,6 +10,9 @@ from ..tasks.queue.background import BakeQueue
 from ..tasks.queue.bake_request import ObjectBake
 from ..tasks.viewport.previews import Previews
 from .map_pictures import MapPictures
+
+READERS = 2
+"""Map sets that are read at once, so that one on a slow disk does not keep all others waiting."""
 
 
 class Session:
@@ -37,7 +41,9 @@ class Session:
             undo.callback(self._end_bakes)
             self.worker = LatestRequestWorker()
             undo.callback(self.worker.close)
-            self.previews = Previews(LiveFits(self.worker))
+            self._reader = ThreadPoolExecutor(READERS, "rsibr-map-sets")
+            undo.callback(self._reader.shutdown, cancel_futures=True)
+            self.previews = Previews(LiveFits(self.worker), self._reader)
             undo.callback(self.previews.release)
             self.map_pictures = MapPictures(has_windows)
             undo.callback(self.map_pictures.close)

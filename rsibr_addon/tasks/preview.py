@@ -120,7 +120,7 @@ class _Studio:
         self._mesh: TriangleMesh = load_mesh(settings.mesh)
         opened = open_map_set(map_set, clamp=settings.clamp)
         self._look = look or look_types()[opened.kind]()
-        self._renderer = PreviewRenderer(opened.upload())
+        self._renderer = PreviewRenderer(opened.drawable())
 
     def __call__(self, camera: Camera) -> Array:
         mesh = self._mesh.positions, self._mesh.normals, self._mesh.triangles

@@ -41,6 +41,8 @@ class RSIBR_PT_preview(InSidebar, bpy.types.Panel):
         previews = session().previews
         for message in previews.messages(item):
             tell(layout, message, context.region.width)
+        if previews.is_loading(item):
+            layout.label(text="Loading...", icon="TIME")
         kind = previews.kind(item)
         if kind is None:
             return

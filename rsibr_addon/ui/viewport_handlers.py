@@ -16,7 +16,7 @@ RETRY_SECONDS = 0.5
 """While a render goes on, no data may come and go for the display's table."""
 
 NEWS_SECONDS = 0.03
-"""How often to look whether a material has been made."""
+"""How often to look whether a map set has been read, or a material been made."""
 
 
 def start(undo: ExitStack) -> None:
@@ -59,7 +59,7 @@ def _guarded[**Given, Result](
 def _draw(running: Session) -> None:
     if not running.previews.draw(current_view()) and not bpy.app.timers.is_registered(_add_displays):
         bpy.app.timers.register(_add_displays, first_interval=0.0)
-    if running.worker.is_busy and not bpy.app.timers.is_registered(_show_news):
+    if _is_busy(running) and not bpy.app.timers.is_registered(_show_news):
         bpy.app.timers.register(_show_news, first_interval=NEWS_SECONDS)
 
 
@@ -73,11 +73,16 @@ def _render_surroundings(running: Session) -> None:
 
 @_guarded
 def _show_news(running: Session) -> float | None:
-    """While materials are made, show what there is of them."""
-    goes_on = running.worker.is_busy
-    if running.worker.take_news():
+    """While map sets are read and materials are made, show what there is of them."""
+    goes_on = _is_busy(running)
+    news = running.worker.take_news(), running.previews.take_news()
+    if any(news):
         _draw_again()
     return NEWS_SECONDS if goes_on else None
+
+
+def _is_busy(running: Session) -> bool:
+    return running.worker.is_busy or running.previews.is_busy
 
 
 @_guarded

@@ -3,19 +3,25 @@
 from pathlib import Path
 
 import pytest
+from rsibr.rsibr_addon.core.errors import MapSetError
+from rsibr.rsibr_addon.files.map_set import write_map_set
+from rsibr.rsibr_addon.tasks.methods.live_materials import LiveFits
 from rsibr.rsibr_addon.tasks.viewport import map_sets as viewport_map_sets
-from rsibr.rsibr_addon.tasks.viewport.map_sets import UnusedMapSets, UploadedMapSet, stamp_of
+from rsibr.rsibr_addon.tasks.viewport.map_sets import UnusedMapSets, ViewportMapSet, read_if_new, stamp_of
+from rsibr.tests.faults.small_map_sets import map_sets
 
 
 class Nothing:
     """Takes no memory at all."""
 
+    textures = ()
+
     def draw(self, mesh: object, draw: object, look: object) -> None:
         """Draw nothing."""
 
 
-def uploaded(path: Path, size: int) -> UploadedMapSet:
-    return UploadedMapSet("mip_chain", Nothing(), stamp_of(path), size)
+def uploaded(path: Path, size: int) -> ViewportMapSet:
+    return ViewportMapSet("mip_chain", Nothing(), stamp_of(path), size)
 
 
 def test_the_oldest_leave_when_there_is_no_room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -27,25 +33,29 @@ def test_the_oldest_leave_when_there_is_no_room(tmp_path: Path, monkeypatch: pyt
     for path, map_set in zip(paths[:3], kept[:3], strict=True):
         unused.keep(str(path), map_set)
     assert len(unused) == 2
-    assert unused.take(str(paths[0]), paths[0]) is None
-    assert unused.take(str(paths[1]), paths[1]) is kept[1]
-    assert unused.take(str(paths[1]), paths[1]) is None
+    assert unused.take(str(paths[0])) is None
+    assert unused.take(str(paths[1])) is kept[1]
+    assert unused.take(str(paths[1])) is None
     unused.keep(str(paths[3]), uploaded(paths[3], 11))
     assert len(unused) == 0
 
 
-def test_what_has_been_written_anew_or_is_gone_is_not_kept(tmp_path: Path) -> None:
-    unused, path = UnusedMapSets(), tmp_path / "maps"
-    path.write_text("maps")
-    unused.keep("maps", uploaded(path, 4))
-    path.write_text("others")
-    assert unused.take("maps", path) is None
-    unused.keep("maps", uploaded(path, 4))
+def test_what_has_been_written_anew_is_read_anew(tmp_path: Path) -> None:
+    path = tmp_path / "chain.rsibr.exr"
+    (chain,) = (each for each in map_sets() if each.kind == "mip_chain")
+    write_map_set(path, chain)
+    read = read_if_new(path, LiveFits(), None)
+    assert read is not None
+    assert read.kind == "mip_chain"
+    assert read_if_new(path, LiveFits(), read.stamp) is None
+    write_map_set(path, chain, force=True)
+    assert read_if_new(path, LiveFits(), read.stamp) is not None
     path.unlink()
-    assert unused.take("maps", path) is None
+    with pytest.raises(MapSetError):
+        read_if_new(path, LiveFits(), read.stamp)
 
 
 def test_light_that_is_rendered_is_not_kept() -> None:
     unused = UnusedMapSets()
-    unused.keep("live", UploadedMapSet("mip_chain", Nothing()))
+    unused.keep("live", ViewportMapSet("mip_chain", Nothing()))
     assert len(unused) == 0

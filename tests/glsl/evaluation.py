@@ -7,6 +7,7 @@ import numpy as np
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.shader_source import shader_source
+from rsibr.rsibr_addon.device.textures import GpuTexture
 
 WIDTH = 512
 
@@ -48,7 +49,7 @@ def evaluate(
     )  # One layer more: never a single one.
     for layer, argument in zip(packed, arguments, strict=False):
         layer[:count, : argument.shape[1]] = argument
-    table = buffers.texture_array(packed.reshape(-1, rows, WIDTH, 4))
+    table = GpuTexture("table", packed.reshape(-1, rows, WIDTH, 4)).whole()
     shader = _shader(library, code, len(arguments), results, samplers)
     targets = tuple(gpu.types.GPUTexture((WIDTH, rows), format="RGBA32F") for _ in range(results))
     framebuffer = gpu.types.GPUFrameBuffer(color_slots=targets)

@@ -26,6 +26,7 @@ from rsibr.rsibr_addon.tasks.methods.live_materials import LiveFits
 from rsibr.rsibr_addon.tasks.viewport import live_light
 from rsibr.rsibr_addon.tasks.viewport.previews import Previews
 from rsibr.rsibr_addon.ui import viewport_handlers as ui
+from rsibr.tests.at_once import AtOnce
 from rsibr.tests.faults.small_map_sets import map_sets
 
 STRIDE = 1 if "RSIBR_MOMENTS" in os.environ else 5
@@ -186,13 +187,13 @@ def test_a_fault_in_any_call_or_read_is_told_once_and_passes(
     for map_set in (*map_sets(), None):
         item = shade(map_set)
         release_programs()
-        expected, names, state = frame(Previews(LiveFits()), None, where)
+        expected, names, state = frame(Previews(LiveFits(), AtOnce()), None, where)
         assert expected[..., 3].max() == 1.0
         new = [place for place in names if place not in done]
         done.update(new)
         for place in new[::STRIDE]:
             name = names[place]
-            previews = Previews(LiveFits())
+            previews = Previews(LiveFits(), AtOnce())
             release_programs()
             _, reached, state_after = frame(previews, place, where)
             assert place in reached

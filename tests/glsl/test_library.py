@@ -14,6 +14,7 @@ from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.resample import bilinear
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.kinds.radiance_views import _albedo_texels, _layers
+from rsibr.rsibr_addon.device.textures import GpuTexture
 from rsibr.tests.glsl.evaluation import Samplers, evaluate
 from rsibr.tests.glsl.twins import (
     AXES,
@@ -226,7 +227,7 @@ CARRIED = {
 
 def views_samplers() -> Samplers:
     return {
-        "views": ("FLOAT_2D_ARRAY", buffers.texture_array(_layers(VIEWS))),
+        "views": ("FLOAT_2D_ARRAY", GpuTexture("views", _layers(VIEWS)).whole()),
         "albedo": ("FLOAT_2D", buffers.texture(_albedo_texels(VIEWS))),
     }
 

@@ -10,6 +10,7 @@ from rsibr.rsibr_addon.core.maps import octahedral
 from rsibr.rsibr_addon.core.resample import lookup
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.kinds.lobe_stack import elevation_texels, map_texels
+from rsibr.rsibr_addon.device.textures import GpuTexture
 from rsibr.tests.glsl.evaluation import Samplers, evaluate
 from rsibr.tests.glsl.twins import AXES, COUNT, ULP, Twin, check, single, unit_vectors
 from rsibr.tests.lobe_stacks import random_stack
@@ -26,7 +27,7 @@ def elevations(stack: LobeStack = STACK) -> Samplers:
 
 
 def maps(stack: LobeStack) -> Samplers:
-    return {"maps": ("FLOAT_3D", buffers.texture_3d(map_texels(stack), "RGBA32F"))}
+    return {"maps": ("FLOAT_3D", GpuTexture("maps", map_texels(stack), deep=True).whole())}
 
 
 def cosines() -> np.ndarray:

@@ -133,7 +133,7 @@ TWINS = {
         lambda *corners: footprint_mean(IMAGE, normalize(np.sum(corners, axis=0)), np.stack(corners, axis=1)),
         # As of interpolation, and of boxes, below
         2.0 * (FILTERING + 2 * ROWS * ARCTANGENT) + 6e-6 * 2 * ROWS,
-        samplers=lambda: samplers() | {"sums": ("FLOAT_2D_ARRAY", summed_area_texture(SUMMED))},
+        samplers=lambda: samplers() | {"sums": ("FLOAT_2D_ARRAY", summed_area_texture(SUMMED).whole())},
     ),
     "weighted_mean": Twin(
         "reflection_tables_lib.glsl",
@@ -147,7 +147,7 @@ TWINS = {
         weighted_mean,
         # Boxes off by 3e-6, at worst over one texel, of which neighbours differ by up to 1
         2.0 * FILTERING + 6e-6 * 2 * ROWS,
-        samplers=lambda: samplers() | {"sums": ("FLOAT_2D_ARRAY", summed_area_texture(SUMMED))},
+        samplers=lambda: samplers() | {"sums": ("FLOAT_2D_ARRAY", summed_area_texture(SUMMED).whole())},
     ),
 } | {
     f"weighted_table {role}": Twin(

@@ -24,7 +24,7 @@ TABLE = summed_area_table(random_table())
 
 
 def summed_samplers() -> Samplers:
-    return {"table": ("FLOAT_2D_ARRAY", summed_area_texture(TABLE))}
+    return {"table": ("FLOAT_2D_ARRAY", summed_area_texture(TABLE).whole())}
 
 
 UNIT = "vec3({!r}, {!r}, {!r})".format(*TABLE.unit.tolist())

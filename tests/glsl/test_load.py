@@ -20,6 +20,7 @@ from rsibr.rsibr_addon.tasks.methods import live_materials
 from rsibr.rsibr_addon.tasks.methods.latest_request_worker import LatestRequestWorker
 from rsibr.rsibr_addon.tasks.methods.live_materials import LiveFits
 from rsibr.rsibr_addon.tasks.viewport.previews import Previews
+from rsibr.tests.at_once import AtOnce
 from rsibr.tests.faults.small_map_sets import map_sets
 
 SIZE = 32
@@ -78,7 +79,7 @@ def path(request: pytest.FixtureRequest, tmp_path: Path) -> Path:
 def test_a_redraw_reads_no_file(path: Path, draw: Draw, monkeypatch: pytest.MonkeyPatch) -> None:
     global _opened
     shade(bpy.context.object, path)
-    previews = Previews(LiveFits())
+    previews = Previews(LiveFits(), AtOnce())
     draw(previews)
     assert previews.faults.message(bpy.context.object) is None
     touched: list[str] = []
@@ -106,7 +107,7 @@ def test_a_warning_of_the_thread_reaches_the_panel(tmp_path: Path, draw: Draw) -
     write_map_set(tmp_path / "bank.rsibr.exr", bank)
     item, worker = bpy.context.object, LatestRequestWorker()
     shade(item, tmp_path / "bank.rsibr.exr")
-    previews = Previews(LiveFits(worker))
+    previews = Previews(LiveFits(worker), AtOnce())
     try:
         draw(previews)
         while worker.is_busy:
@@ -141,7 +142,7 @@ def calls_in(work: Callable[[], None]) -> int:
 def test_work_grows_as_the_number_of_objects(path: Path, draw: Draw) -> None:
     mesh = bpy.context.object.data
     bpy.data.objects.remove(bpy.context.object)
-    redraws, changes, previews = {}, {}, Previews(LiveFits())
+    redraws, changes, previews = {}, {}, Previews(LiveFits(), AtOnce())
     for count in (100, 1000):
         while len(bpy.context.collection.objects) < count + 2:  # a camera and a lamp
             item = bpy.data.objects.new("Cube", mesh)
@@ -165,7 +166,7 @@ def test_memory_stays_level_in_a_day_of_edits(
     path: Path, draw: Draw, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     item, worker, levels = bpy.context.object, LatestRequestWorker(), []
-    previews = Previews(LiveFits(worker))
+    previews = Previews(LiveFits(worker), AtOnce())
     monkeypatch.setattr(live_materials, "FITS_KEPT", 8)  # else the level rises for a long time
     shade(item, path)
     tracemalloc.start()

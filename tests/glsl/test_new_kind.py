@@ -94,7 +94,7 @@ def test_its_facts_are_told_everywhere(path: Path, capfd: pytest.CaptureFixture[
 
 @BY_CAMERA
 def test_it_is_drawn_as_its_reference_says(path: Path, camera: Camera) -> None:
-    picture = PreviewRenderer(open_map_set(path).upload()).draw(*SPHERE, camera, SIZE, DiskLook(0.5))
+    picture = PreviewRenderer(open_map_set(path).drawable()).draw(*SPHERE, camera, SIZE, DiskLook(0.5))
     normal, view_dir, cosine = samples(camera)
     expected = means(disk_radiance(DISK, normal, view_dir, DiskLook(0.5)))
     inside = (cosine > 0.3).reshape(SIZE, SAMPLES_PER_AXIS, SIZE, SAMPLES_PER_AXIS).all(axis=(1, 3))
@@ -107,8 +107,8 @@ def test_a_mode_is_added_by_its_look_and_its_shader(
     path: Path, camera: Camera, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(STORED, "disk", replace(STORED["disk"], look=ToonLook))
-    monkeypatch.setitem(KINDS, "disk", replace(KINDS["disk"], upload=GpuToon))
-    renderer, look = PreviewRenderer(open_map_set(path).upload()), look_types()["disk"](gain=2.0)
+    monkeypatch.setitem(KINDS, "disk", replace(KINDS["disk"], drawable=GpuToon))
+    renderer, look = PreviewRenderer(open_map_set(path).drawable()), look_types()["disk"](gain=2.0)
     picture = renderer.draw(*SPHERE, camera, SIZE, look)
     normal, view_dir, cosine = samples(camera)
     expected = means(toon_radiance(DISK, normal, view_dir, look))

@@ -22,6 +22,8 @@ def disk_shader() -> gpu.types.GPUShader:
 class GpuDisk:
     """A disk, which a uniform block has room for."""
 
+    textures = ()
+
     def __init__(self, disk: Disk) -> None:
         self._disk, self._look = disk, buffers.KeptBlock()
 

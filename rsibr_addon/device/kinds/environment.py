@@ -1,14 +1,12 @@
 """An environment on the GPU, for mirrors."""
 
-from functools import cached_property
-
 import numpy as np
 
 from ...core.environment import Environment
 from ...core.kinds.environment import EnvironmentLook
 from .. import buffers
 from ..drawing import Draw, GpuMesh
-from ..equirect import Sums, map_sums, map_texture, no_sums
+from ..equirect import map_sums, map_texture, no_sums
 from ..shaders import mesh_program
 
 environment_shader = mesh_program(
@@ -21,23 +19,13 @@ environment_shader = mesh_program(
 
 
 class GpuEnvironment:
-    """An uploaded environment; its sums follow when the first antialiased look is drawn.
-
-    Raises
-    ------
-    DeviceError
-        The environment is larger than the device takes.
-    """
+    """An environment, and its sums, as mirrors are antialiased unless one asks for points."""
 
     def __init__(self, environment: Environment) -> None:
-        self._environment = environment
         self._map = map_texture("environment", environment.radiance)
-        self._no_sums = no_sums()
+        self._sums, self._no_sums = map_sums(environment.radiance), no_sums()
+        self.textures = (self._map, self._sums.texture)
         self._look = buffers.KeptBlock()
-
-    @cached_property
-    def _sums(self) -> Sums:
-        return map_sums(self._environment.radiance)
 
     def draw(self, mesh: GpuMesh, draw: Draw, look: EnvironmentLook) -> None:
         """See `GpuMapSet.draw`. Reference: core/kinds/environment.py."""
@@ -46,6 +34,6 @@ class GpuEnvironment:
         shader = environment_shader()
         shader.bind()
         shader.uniform_block("look", self._look.filled(np.array(look.f0), sums.unit, antialiased))
-        shader.uniform_sampler("environment", self._map)
-        shader.uniform_sampler("sums", sums.texture)
+        shader.uniform_sampler("environment", self._map.whole())
+        shader.uniform_sampler("sums", sums.texture.whole())
         mesh.draw(shader, draw)

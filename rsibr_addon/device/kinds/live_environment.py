@@ -5,9 +5,6 @@ from, and nine harmonics; nothing is read back. A pass cannot read the texture t
 halved from the atlas into another strip, and copied from there into the atlas with its borders.
 """
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-
 import gpu
 import numpy as np
 
@@ -17,6 +14,7 @@ from ...core.kinds.mip_chain.chain import check_size
 from ...core.kinds.mip_chain.shading import MipLook
 from .. import buffers
 from ..drawing import Draw, GpuMesh
+from ..passes import plain_state, screen_triangle
 from .live_environment_shaders import (
     bordered_shader,
     box_shader,
@@ -27,8 +25,6 @@ from .live_environment_shaders import (
     tent_shader,
 )
 from .mip_chain_shaders import look_fields
-
-_SCREEN_TRIANGLE = np.array([[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]])
 
 
 class GpuLiveEnvironment:
@@ -59,6 +55,7 @@ class GpuLiveEnvironment:
         check_size(size, 1)
         self.size = size
         self._mip_count = size.bit_length()
+        self.textures = ()
         self._halved = tent_shader() if across_borders else box_shader()
         self._solid_angles = buffers.texture(_as_texels(solid_angle_texels(size)))
         self._faces = _Map(FACE_COUNT * size, size)
@@ -67,7 +64,7 @@ class GpuLiveEnvironment:
         self._rows = _Map(9, FACE_COUNT * size)
         self._harmonics = _Map(9, 1)
         self._shading = buffers.KeptBlock()
-        self._screen = buffers.triangles(face_shader(), {"position": _SCREEN_TRIANGLE}, np.array([[0, 1, 2]]))
+        self._screen = screen_triangle(face_shader())
         self.filter()
 
     def set_face(self, face: int, seen: gpu.types.GPUTexture) -> None:
@@ -81,7 +78,7 @@ class GpuLiveEnvironment:
             Radiance, of a face's size; see `core.kinds.live_environment.face_view`.
         """
         shader = face_shader()
-        with _plain_state():
+        with plain_state():
             shader.bind()
             shader.uniform_sampler("seen", seen)
             shader.uniform_int("face", face)
@@ -89,7 +86,7 @@ class GpuLiveEnvironment:
 
     def filter(self) -> None:
         """Make the mips and the nine coefficients anew."""
-        with _plain_state():
+        with plain_state():
             self._border(self._faces, 0)
             for mip in range(self._mip_count - 1):
                 self._halve(mip)
@@ -172,16 +169,3 @@ class _Map:
 
 def _as_texels(values: np.ndarray) -> np.ndarray:
     return np.repeat(values[..., None], 4, axis=-1)
-
-
-@contextmanager
-def _plain_state() -> Iterator[None]:
-    """Within, drawing replaces the target's content, whatever state Blender had set."""
-    depth_test, blend = gpu.state.depth_test_get(), gpu.state.blend_get()
-    gpu.state.depth_test_set("NONE")
-    gpu.state.blend_set("NONE")
-    try:
-        yield
-    finally:
-        gpu.state.depth_test_set(depth_test)
-        gpu.state.blend_set(blend)

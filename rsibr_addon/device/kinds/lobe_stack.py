@@ -11,6 +11,7 @@ from ...core.kinds.lobe_stack.stack import LAYOUTS, LobeStack
 from .. import buffers
 from ..drawing import Draw, GpuMesh
 from ..shaders import mesh_program
+from ..textures import GpuTexture
 
 DEEPEST = 2048
 """Greatest number of slices of a 3D texture in every driver."""
@@ -26,7 +27,7 @@ lobe_stack_shader = mesh_program(
 
 
 class GpuLobeStack:
-    """A map set's lobe stack, uploaded.
+    """A map set's lobe stack.
 
     Raises
     ------
@@ -42,22 +43,21 @@ class GpuLobeStack:
                 f"{len(texels)} maps do not fit into a texture of {DEEPEST}: fit fewer lobes or slices."
             )
         half = half_holds([maps for lobe in stack.maps for maps in lobe])
-        self._maps = buffers.texture_3d(texels, "RGBA16F" if half else "RGBA32F")
+        self._maps = GpuTexture("lobe stack", texels, "RGBA16F" if half else "RGBA32F", deep=True)
+        self.textures = (self._maps,)
         lobes, slices = stack.maps.shape[:2]
         numbers = LAYOUTS.index(stack.layout), lobes, stack.taps.shape[2], slices
-        self._blocks = [
-            buffers.uniform_block(np.array(numbers, dtype=np.float64), np.array([antialiased]))
-            for antialiased in (0.0, 1.0)
-        ]
+        self._numbers = np.array(numbers, dtype=np.float64)
+        self._block = buffers.KeptBlock()
         self._elevations: dict[tuple[int, ...], gpu.types.GPUTexture] = {}
 
     def draw(self, mesh: GpuMesh, draw: Draw, look: StackLook) -> None:
         """See `GpuMapSet.draw`. Reference: core/kinds/lobe_stack/shading.py."""
         shader = lobe_stack_shader()
         shader.bind()
-        shader.uniform_block("stack", self._blocks[look.antialiased])
+        shader.uniform_block("stack", self._block.filled(self._numbers, np.array([float(look.antialiased)])))
         shader.uniform_sampler("elevations", self._elevations_of(look))
-        shader.uniform_sampler("maps", self._maps)
+        shader.uniform_sampler("maps", self._maps.whole())
         mesh.draw(shader, draw)
 
     def _elevations_of(self, look: StackLook) -> gpu.types.GPUTexture:

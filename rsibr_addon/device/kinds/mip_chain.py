@@ -1,4 +1,4 @@
-"""A mip chain on the GPU: one upload of its mips in an atlas, one pass over a mesh.
+"""A mip chain on the GPU: its mips in an atlas, one pass over a mesh.
 
 Blender's `gpu` module makes cube maps, but cannot look up between their mips. So the mips lie in one picture,
 each face within a border of its neighbours' texels.
@@ -13,15 +13,17 @@ from ...core.kinds.mip_chain.shading import MipLook
 from ...core.kinds.mip_chain.texture_space import with_borders
 from .. import buffers
 from ..drawing import Draw, GpuMesh
+from ..textures import GpuTexture
 from .mip_chain_shaders import look_fields, mip_chain_shader
 
 
 class GpuMipChain:
-    """A map set's mip chain, uploaded."""
+    """A map set's mip chain."""
 
     def __init__(self, chain: MipChain) -> None:
         self._chain = chain
-        self._atlas = buffers.texture(atlas_texels(chain))
+        self._atlas = GpuTexture("mip chain", atlas_texels(chain))
+        self.textures = (self._atlas,)
         self._shading = buffers.KeptBlock()
         self._irradiance = irradiance_matrix(chain.harmonics)
 
@@ -34,7 +36,7 @@ class GpuMipChain:
         shader = mip_chain_shader()
         shader.bind()
         shader.uniform_block("look", shading)
-        shader.uniform_sampler("atlas", self._atlas)
+        shader.uniform_sampler("atlas", self._atlas.whole())
         mesh.draw(shader, draw)
 
 

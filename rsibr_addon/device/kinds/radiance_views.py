@@ -4,6 +4,8 @@ The modes of [Cabral1999]: `paper` draws the destination sphere map of the frame
 disk and shades from it; `texel` warps that map per texel; `fragment` needs no map in between.
 """
 
+from functools import cached_property
+
 import gpu
 import numpy as np
 
@@ -14,76 +16,77 @@ from ...core.kinds.radiance_views.shading import LEAST_ALBEDO, Mode, ViewsLook, 
 from ...core.kinds.radiance_views.views import RadianceViews
 from .. import buffers, shaders
 from ..drawing import Draw, GpuMesh
-
-_SCREEN_TRIANGLE = np.array([[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]])
+from ..passes import screen_triangle
+from ..textures import GpuTexture
 
 
 class GpuRadianceViews:
-    """A map set's radiance views, uploaded.
-
-    Raises
-    ------
-    DeviceError
-        The driver refuses a shader.
-    """
+    """A map set's radiance views."""
 
     def __init__(self, views: RadianceViews) -> None:
-        self._views = buffers.texture_array(_layers(views))
-        self._albedo = buffers.texture(_albedo_texels(views))
-        self._geodesic = buffers.texture(_geodesic_texels(views.sphere))
-        last_level = len(views.sphere.levels) - 1
-        self._modes = {
-            (warping, antialiased): buffers.uniform_block(
-                np.array([float(number), float(last_level), float(antialiased)])
-            )
-            for number, warping in enumerate(Warping)
-            for antialiased in (False, True)
-        }
-        self._view_dir = buffers.KeptBlock()
-        self._targets = (buffers.render_target(views.size), buffers.render_target(views.size))
-        self._destination = gpu.types.GPUFrameBuffer(color_slots=self._targets)
-        self._disk = buffers.triangles(
-            shaders.views_disk_shader(), {"position": disk_mesh().positions}, disk_mesh().triangles
-        )
-        self._screen = buffers.triangles(
-            shaders.views_texel_shader(), {"position": _SCREEN_TRIANGLE}, np.array([[0, 1, 2]])
-        )
+        self._size = views.size
+        self._views = GpuTexture("stack of radiance views", _layers(views))
+        self._albedo = GpuTexture("table of albedo", _albedo_texels(views))
+        self._geodesic = GpuTexture("geodesic sphere", _geodesic_texels(views.sphere))
+        self.textures = (self._views, self._albedo, self._geodesic)
+        self._last_level = len(views.sphere.levels) - 1
+        self._mode, self._view_dir = buffers.KeptBlock(), buffers.KeptBlock()
+
+    @cached_property
+    def _destination(self) -> "_Destination":
+        return _Destination(self._size)
 
     def draw(self, mesh: GpuMesh, draw: Draw, look: ViewsLook) -> None:
         """See `GpuMapSet.draw`. Reference: core/kinds/radiance_views/shading.py."""
+        numbers = list(Warping).index(look.warping), self._last_level, look.antialiased
+        mode = self._mode.filled(np.array(numbers, dtype=float))
         if look.mode is Mode.FRAGMENT:
             shader = shaders.views_fragment_shader()
             shader.bind()
-            shader.uniform_sampler("views", self._views)
-            shader.uniform_sampler("sphere", self._geodesic)
+            shader.uniform_sampler("views", self._views.whole())
+            shader.uniform_sampler("sphere", self._geodesic.whole())
         else:
             destination = self._view_dir.filled(draw.view_dir)
-            self._make_destination(destination, look)
+            self._make_destination(destination, mode, look)
             shader = shaders.views_destination_shader()
             shader.bind()
             shader.uniform_block("destination", destination)
-            shader.uniform_sampler("by_normal", self._targets[0])
-            shader.uniform_sampler("by_mirror", self._targets[1])
-        shader.uniform_block("mode", self._modes[look.warping, look.antialiased])
-        shader.uniform_sampler("albedo", self._albedo)
+            shader.uniform_sampler("by_normal", self._destination.targets[0])
+            shader.uniform_sampler("by_mirror", self._destination.targets[1])
+        shader.uniform_block("mode", mode)
+        shader.uniform_sampler("albedo", self._albedo.whole())
         mesh.draw(shader, draw)
 
-    def _make_destination(self, destination: gpu.types.GPUUniformBuf, look: ViewsLook) -> None:
+    def _make_destination(
+        self, destination: gpu.types.GPUUniformBuf, mode: gpu.types.GPUUniformBuf, look: ViewsLook
+    ) -> None:
         if look.mode is Mode.PAPER:
-            shader, surface = shaders.views_disk_shader(), self._disk
+            shader, surface = shaders.views_disk_shader(), self._destination.disk
         else:
-            shader, surface = shaders.views_texel_shader(), self._screen
+            shader, surface = shaders.views_texel_shader(), self._destination.screen
         depth_test = gpu.state.depth_test_get()
-        with self._destination.bind():
+        with self._destination.framebuffer.bind():
             gpu.state.depth_test_set("NONE")
             shader.bind()
             shader.uniform_block("destination", destination)
-            shader.uniform_block("mode", self._modes[look.warping, look.antialiased])
-            shader.uniform_sampler("views", self._views)
-            shader.uniform_sampler("albedo", self._albedo)
-            shader.uniform_sampler("sphere", self._geodesic)
+            shader.uniform_block("mode", mode)
+            shader.uniform_sampler("views", self._views.whole())
+            shader.uniform_sampler("albedo", self._albedo.whole())
+            shader.uniform_sampler("sphere", self._geodesic.whole())
             surface.draw(shader)
         gpu.state.depth_test_set(depth_test)
+
+
+class _Destination:
+    """The destination maps of a frame, and what they are drawn with."""
+
+    def __init__(self, size: int) -> None:
+        self.targets = (buffers.render_target(size), buffers.render_target(size))
+        self.framebuffer = gpu.types.GPUFrameBuffer(color_slots=self.targets)
+        self.disk = buffers.triangles(
+            shaders.views_disk_shader(), {"position": disk_mesh().positions}, disk_mesh().triangles
+        )
+        self.screen = screen_triangle(shaders.views_texel_shader())
 
 
 def _layers(views: RadianceViews) -> Array:

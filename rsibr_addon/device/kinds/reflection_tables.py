@@ -10,6 +10,7 @@ from .. import buffers
 from ..drawing import Draw, GpuMesh
 from ..equirect import Sums, map_sums, map_texture, no_map, no_sums
 from ..shaders import mesh_program
+from ..textures import GpuTexture
 
 # A factor for each table, in the order of `Role`; the index of refraction; factors for tables of `MIRRORED`
 # that count by their means over a pixel; and the units of these tables' sums.
@@ -27,13 +28,7 @@ reflection_tables_shader = mesh_program(
 
 
 class GpuReflectionTables:
-    """A map set's reflection tables, uploaded.
-
-    Raises
-    ------
-    DeviceError
-        A table is larger than the device takes.
-    """
+    """A map set's reflection tables."""
 
     def __init__(self, tables: ReflectionTables) -> None:
         black = no_map()
@@ -41,10 +36,11 @@ class GpuReflectionTables:
             role: map_texture(f"{role} table", tables.maps[role]) if role in tables.maps else black
             for role in Role
         }
-        self._weights = buffers.texture(buffers.with_alpha(tables.weights))
+        self._weights = GpuTexture("table of weights", buffers.with_alpha(tables.weights))
+        self.textures = (*self._textures.values(), self._weights)
         self._tables = tables
-        self._fields = buffers.KeptBlock()
         self._no_sums = no_sums()
+        self._fields = buffers.KeptBlock()
 
     @cached_property
     def _sums(self) -> dict[Role, Sums]:
@@ -72,8 +68,8 @@ class GpuReflectionTables:
         shader.bind()
         shader.uniform_block("tables", fields)
         for role, texture in self._textures.items():
-            shader.uniform_sampler(role.value, texture)
+            shader.uniform_sampler(role.value, texture.whole())
         for role, each in sums.items():
-            shader.uniform_sampler(f"{role}_sums", each.texture)
-        shader.uniform_sampler("weights", self._weights)
+            shader.uniform_sampler(f"{role}_sums", each.texture.whole())
+        shader.uniform_sampler("weights", self._weights.whole())
         mesh.draw(shader, draw)

@@ -18,7 +18,7 @@ class Kind:
     ----------
     from_map_set : callable
         The file's path, for messages, and a `MapSet` to what it holds, its content.
-    upload : callable
+    drawable : callable
         The content to a `GpuMapSet`; of a live kind, the content and `LiveFits` or None to a `LiveGpuMapSet`.
     truth : Truth or None
         What pictures drawn from it are compared with; None for nothing.
@@ -29,7 +29,7 @@ class Kind:
     """
 
     from_map_set: Callable[[Path, MapSet], Any]
-    upload: Callable[..., GpuMapSet]
+    drawable: Callable[..., GpuMapSet]
     truth: Truth | None = None
     live: bool = False
     menu: str = ""

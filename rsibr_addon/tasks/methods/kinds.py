@@ -1,4 +1,4 @@
-"""The kinds of map sets: how each is read, uploaded and shaded."""
+"""The kinds of map sets: how each is read and shaded."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -6,7 +6,6 @@ from typing import Any
 
 from ...core.environment import Environment
 from ...core.errors import RangeError
-from ...device.context import ensure_context
 from ...device.drawing import GpuMapSet
 from ...device.kinds.environment import GpuEnvironment
 from ...device.kinds.lobe_stack import GpuLobeStack
@@ -54,8 +53,8 @@ class OpenedMapSet:
     material: dict[str, Any]
     texels: int
 
-    def upload(self, fits: LiveFits | None = None) -> GpuMapSet:
-        """Put the content on the GPU.
+    def drawable(self, fits: LiveFits | None = None) -> GpuMapSet:
+        """The content, to be drawn with; made without the GPU, in any thread.
 
         Parameters
         ----------
@@ -65,11 +64,10 @@ class OpenedMapSet:
         Raises
         ------
         DeviceError
-            There is no graphics driver, or it refuses a shader.
+            It holds more than a device has room for.
         """
-        ensure_context()
         kind = KINDS[self.kind]
-        return kind.upload(self.content, fits) if kind.live else kind.upload(self.content)
+        return kind.drawable(self.content, fits) if kind.live else kind.drawable(self.content)
 
 
 def kind_of(path: Path) -> str:

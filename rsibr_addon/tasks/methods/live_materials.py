@@ -12,7 +12,6 @@ from ...core.errors import RsibrWarning
 from ...core.kinds.kernel_bank.filtered_bank import FilteredBank, stack_from_bank
 from ...core.kinds.kernel_bank.shading import BankLook
 from ...core.kinds.lobe_stack.shading import StackLook
-from ...core.kinds.lobe_stack.stack import LobeStack
 from ...core.lobes.fit import Fit
 from ...core.lobes.layers import layered_fit
 from ...core.lobes.target import elevation_slices, target_slices
@@ -84,9 +83,9 @@ class LiveFits:
 
 @dataclass(frozen=True)
 class _Made:
-    """What the thread hands over: a stack, which may be a draft, or why there is none."""
+    """What the thread hands over: a stack to be drawn with, which may be a draft, or why there is none."""
 
-    stack: LobeStack | None
+    gpu_map_set: GpuLobeStack | None
     error: Exception | None
     is_final: bool
     warning: str = ""
@@ -129,6 +128,7 @@ class LiveMaterials:
     def __init__(self, filtered: FilteredBank, fits: LiveFits | None = None) -> None:
         self._filtered = filtered
         self._fits = fits or LiveFits()
+        self.textures = ()
         self._made: dict[BankLook, _Made] = {}
         self._shown: dict[BankLook, _Shown] = {}
         self._uploads = 0
@@ -197,13 +197,12 @@ class LiveMaterials:
             warnings.warn(warning, RsibrWarning, stacklevel=2)
 
     def _taken(self, look: BankLook) -> _Shown | None:
-        """Upload what has been made, if it has."""
+        """Take what has been made, if it has."""
         made = self._made.pop(look, None)
         if made is None:
             return None
         self._uploads += 1
-        gpu_map_set = None if made.stack is None else GpuLobeStack(made.stack)
-        self._shown[look] = _Shown(gpu_map_set, made.error, made.is_final, made.warning, self._uploads)
+        self._shown[look] = _Shown(made.gpu_map_set, made.error, made.is_final, made.warning, self._uploads)
         oldest = self._uploads - KEPT
         self._shown = {each: shown for each, shown in self._shown.items() if shown.used_at >= oldest}
         return self._shown[look]
@@ -218,7 +217,7 @@ class LiveMaterials:
             for quality in (DRAFT, final) if self._fits.worker else (final,):
                 fit = yield from _unshown(self._fits.fit(brdf, look.spec, quality, self._filtered.sharpest))
                 stack, _ = stack_from_bank(self._filtered, fit)
-                self._hand_over(look, _Made(stack, None, quality == final, " ".join(warned)))
+                self._hand_over(look, _Made(GpuLobeStack(stack), None, quality == final, " ".join(warned)))
                 yield True
         except Exception as error:  # Told by whoever asks for the look
             self._hand_over(look, _Made(None, error, is_final=True))

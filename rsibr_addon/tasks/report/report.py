@@ -96,7 +96,7 @@ def _drawn_meshes(map_set: Path) -> dict[str, Array]:
     """Meshes shaded from the map set; none where nothing can draw them, which a warning tells."""
     opened = open_map_set(map_set)
     try:
-        renderer, look = PreviewRenderer(opened.upload()), look_types()[opened.kind]()
+        renderer, look = PreviewRenderer(opened.drawable()), look_types()[opened.kind]()
     except DeviceError as error:
         warnings.warn(f"The report shows no mesh: {error}", RsibrWarning, stacklevel=2)
         return {}

@@ -74,9 +74,9 @@ class LayerContents:
         self.meshes.keep([each.surface for each in shown])
         return contents
 
-    def paths(self) -> set[str]:
-        """The files that anything shown is shaded from."""
-        return {each.surface.path for contents in self.layers.values() for each in contents.previews}
+    def previewed(self) -> list[Surface]:
+        """The surfaces with a preview, of all layers."""
+        return [each.surface for contents in self.layers.values() for each in contents.previews]
 
     def _fill(self, contents: Contents, view: View, faults: Faults) -> None:
         for surface, evaluated in surfaces(view.depsgraph):

@@ -6,7 +6,7 @@ from ...files.kinds.registry import look_types
 from ...host.option_properties import options_of, said_by
 from ...host.visible_surfaces import Surface
 from ..methods.kinds import KINDS
-from .map_sets import UploadedMapSet
+from .map_sets import ViewportMapSet
 
 
 class Looks:
@@ -23,7 +23,7 @@ class Looks:
         self._made: dict[tuple[int, bool], tuple[object, Any]] = {}  # what was said last, and the look
         self.asked: dict[tuple[int, str, bool], list[Any]] = {}
 
-    def of(self, surface: Surface, map_set: UploadedMapSet, other: bool) -> Any:
+    def of(self, surface: Surface, map_set: ViewportMapSet, other: bool) -> Any:
         """An object's look: as before, while a new one is being made; None before there is any."""
         look = self._said(surface.item, map_set.kind, other)
         if not KINDS[map_set.kind].live:
@@ -37,7 +37,7 @@ class Looks:
             del asked[: asked.index(newest)]
         return newest
 
-    def warnings(self, item: Any, map_set: UploadedMapSet) -> list[str]:
+    def warnings(self, item: Any, map_set: ViewportMapSet) -> list[str]:
         """What the makers of an object's looks have to say of them."""
         if not KINDS[map_set.kind].live:
             return []

@@ -1,5 +1,7 @@
-"""The map sets that viewports shade from: uploaded once, and kept for a while after."""
+"""The map sets that viewports shade from: read aside, uploaded piece by piece, and kept for a while after."""
 
+from collections.abc import Iterable
+from concurrent.futures import Executor, Future
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,12 +19,15 @@ KEPT_BYTES = 512 * 2**20
 TEXEL_BYTES = 16
 """Bytes of a texel of most textures; half floats take half."""
 
+PIECE_BYTES = 16 * 2**20
+"""What a redraw uploads: it takes Mesa's software driver some 20 ms."""
+
 type Stamp = tuple[int, int, int]
 """Another for a file that has been written anew."""
 
 
 @dataclass(frozen=True)
-class UploadedMapSet:
+class ViewportMapSet:
     """What objects are shaded from.
 
     Attributes
@@ -42,27 +47,32 @@ class UploadedMapSet:
     size: int = 0
 
 
-def upload_map_set(path: Path, fits: LiveFits) -> UploadedMapSet:
-    """Read a map set and put it on the GPU.
+def read_if_new(path: Path, fits: LiveFits, known: Stamp | None) -> ViewportMapSet | None:
+    """Read a map set, all of which but the upload is done then; without Blender's data, in any thread.
 
     Parameters
     ----------
     path : Path
     fits : LiveFits
         Makes looks of kinds that are live.
+    known : Stamp or None
+        The file as it was read before.
 
     Returns
     -------
-    UploadedMapSet
+    ViewportMapSet or None
+        None where the file is still the same.
 
     Raises
     ------
     MapSetError, InputFileError, DeviceError
-        As `kinds.open_map_set` and `OpenedMapSet.upload`.
+        As `kinds.open_map_set` and `OpenedMapSet.drawable`.
     """
     stamp = stamp_of(path)  # before it is read, so that what is written meanwhile counts as new
+    if stamp is not None and stamp == known:
+        return None
     opened = open_map_set(path)
-    return UploadedMapSet(opened.kind, opened.upload(fits), stamp, TEXEL_BYTES * opened.texels)
+    return ViewportMapSet(opened.kind, opened.drawable(fits), stamp, TEXEL_BYTES * opened.texels)
 
 
 def stamp_of(path: Path) -> Stamp | None:
@@ -78,22 +88,37 @@ class UnusedMapSets:
     """Map sets that objects used lately: they need no upload when they are used again."""
 
     def __init__(self) -> None:
-        self._kept: dict[str, UploadedMapSet] = {}
+        self._kept: dict[str, ViewportMapSet] = {}
 
     def __len__(self) -> int:
         return len(self._kept)
 
-    def keep(self, name: str, map_set: UploadedMapSet) -> None:
+    def keep(self, name: str, map_set: ViewportMapSet) -> None:
         """Keep a map set of a file, and release the oldest ones beyond `KEPT_BYTES`."""
         if map_set.stamp is not None:
             self._kept[name] = map_set
         while sum(each.size for each in self._kept.values()) > KEPT_BYTES:
             del self._kept[next(iter(self._kept))]
 
-    def take(self, name: str, path: Path) -> UploadedMapSet | None:
-        """A map set that was kept under a name, if its file has not changed since."""
-        map_set = self._kept.pop(name, None)
-        return map_set if map_set and map_set.stamp == stamp_of(path) else None
+    def take(self, name: str) -> ViewportMapSet | None:
+        """A map set that was kept under a name; its file may have changed since."""
+        return self._kept.pop(name, None)
+
+
+@dataclass(frozen=True)
+class _Coming:
+    """A map set on its way.
+
+    Attributes
+    ----------
+    read : Future
+        See `read_if_new`. What is on the GPU is not given to the thread, which must not free it.
+    known : ViewportMapSet or None
+        That of the file as it was read before.
+    """
+
+    read: Future[ViewportMapSet | None]
+    known: ViewportMapSet | None
 
 
 class MapSets:
@@ -102,40 +127,115 @@ class MapSets:
     Parameters
     ----------
     fits : LiveFits
-        See `upload_map_set`.
+    reader : Executor
+        Reads files: see `read_if_new`.
 
     Attributes
     ----------
     used : dict
-        Path -> UploadedMapSet.
+        Path -> ViewportMapSet that is whole on the GPU.
     lights : dict
         Name of a live light -> LiveLight.
     unused : UnusedMapSets
     """
 
-    def __init__(self, fits: LiveFits) -> None:
-        self._fits = fits
-        self.used: dict[str, UploadedMapSet] = {}
+    def __init__(self, fits: LiveFits, reader: Executor) -> None:
+        self._fits, self._reader = fits, reader
+        self.used: dict[str, ViewportMapSet] = {}
         self.lights: dict[str, LiveLight] = {}
         self.unused = UnusedMapSets()
+        self._coming: dict[str, _Coming] = {}
+        self._shown: dict[int, ViewportMapSet] = {}  # by the number of the object
+        self._has_come = False
+        self._bytes_left = 0
 
-    def upload(self, surface: Surface) -> None:
-        """Have what an object is shaded from on the GPU."""
-        path, settings = surface.path, surface.item.rsibr
-        if is_live_name(path):
-            light = self.lights[path] = LiveLight(int(settings.live.size))
-            self.used[path] = UploadedMapSet("mip_chain", light.gpu_map_set)
-        else:
-            written = written_path(settings)
-            self.used[path] = self.unused.take(path, written) or upload_map_set(written, self._fits)
+    @property
+    def is_busy(self) -> bool:
+        """Whether a map set is on its way, so that `take_news` is to be asked."""
+        return bool(self._coming)
 
-    def is_lit(self, path: str) -> bool:
-        """Whether what is uploaded can be drawn: live light is there once all its faces are."""
+    def is_coming(self, path: str) -> bool:
+        """Whether a map set is being read, or uploaded."""
+        return path in self._coming
+
+    def take_news(self) -> bool:
+        """Whether a redraw, or its panel, would show more than the last one."""
+        has_come, self._has_come = self._has_come, False
+        return has_come or any(each.read.done() for each in self._coming.values())
+
+    def begin_frame(self) -> None:
+        """Have another piece be uploaded by what follows."""
+        self._bytes_left = PIECE_BYTES
+
+    def shading(self, surface: Surface) -> ViewportMapSet | None:
+        """What an object is shaded from: until that is whole, what it was shaded from before.
+
+        Returns
+        -------
+        ViewportMapSet or None
+            None where there is nothing yet.
+
+        Raises
+        ------
+        OutputFileError
+            As `host.map_sets.written_path`.
+        MapSetError, InputFileError, DeviceError
+            As `read_if_new`, or it is too large for the device.
+        """
+        path, item = surface.path, surface.item.session_uid
+        if path not in self.used:
+            try:
+                self._fetch(surface)
+            except Exception:
+                self._shown.pop(item, None)
+                self._drop(path)
+                raise
+        if path in self.used and self._is_lit(path):
+            self._shown[item] = self.used[path]
+        return self._shown.get(item)
+
+    def keep(self, surfaces: Iterable[Surface]) -> None:
+        """Let go of what none of these uses any more, of files in a while."""
+        shown = {each.item.session_uid: each.path for each in surfaces}
+        paths = set(shown.values())
+        for path in self.used.keys() - paths:
+            self.unused.keep(path, self.used.pop(path))
+        for path in self._coming.keys() - paths:
+            self._drop(path)
+        self.lights = {name: light for name, light in self.lights.items() if name in paths}
+        self._shown = {item: map_set for item, map_set in self._shown.items() if item in shown}
+
+    def _is_lit(self, path: str) -> bool:
+        """Whether what is there can be drawn: live light is once all its faces are."""
         light = self.lights.get(path)
         return light is None or light.is_ready
 
-    def keep(self, paths: set[str]) -> None:
-        """Let go of what is not used any more, of files in a while."""
-        for path in self.used.keys() - paths:
-            self.unused.keep(path, self.used.pop(path))
-        self.lights = {name: light for name, light in self.lights.items() if name in paths}
+    def _fetch(self, surface: Surface) -> None:
+        """Take the next step on a map set's way: have it read, upload a piece, have it used."""
+        path, settings = surface.path, surface.item.rsibr
+        if is_live_name(path):
+            light = self.lights[path] = LiveLight(int(settings.live.size))
+            self.used[path] = ViewportMapSet("mip_chain", light.gpu_map_set)
+            return
+        if path not in self._coming:
+            known = self.unused.take(path)
+            stamp = known.stamp if known else None
+            read = self._reader.submit(read_if_new, written_path(settings), self._fits, stamp)
+            self._coming[path] = _Coming(read, known)
+        coming = self._coming[path]
+        if not coming.read.done():
+            return
+        map_set = coming.read.result() or coming.known
+        assert map_set is not None
+        for texture in map_set.gpu_map_set.textures:
+            if self._bytes_left > 0:
+                self._bytes_left -= texture.upload(self._bytes_left)
+        if all(texture.is_whole for texture in map_set.gpu_map_set.textures):
+            self.used[path] = map_set
+            self._drop(path)
+
+    def _drop(self, path: str) -> None:
+        coming = self._coming.pop(path, None)
+        if coming is not None:
+            coming.read.cancel()
+            self._has_come = True

@@ -1,5 +1,6 @@
 """The previews of a running Blender: what shades which object, uploaded once and drawn every frame."""
 
+from concurrent.futures import Executor
 from dataclasses import dataclass
 from itertools import product
 from typing import Any
@@ -14,7 +15,7 @@ from .contents import Drawable, LayerContents
 from .displays import Displays
 from .faults import Faults
 from .looks import Looks
-from .map_sets import MapSets
+from .map_sets import MapSets, ViewportMapSet
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,6 +25,7 @@ class _Shown:
     Attributes
     ----------
     drawable : Drawable
+    map_set : ViewportMapSet
     placed : Draw
     strength : float
         Strength of the world that it follows.
@@ -32,6 +34,7 @@ class _Shown:
     """
 
     drawable: Drawable
+    map_set: ViewportMapSet
     placed: Draw
     strength: float
     looks: dict[bool, Any]
@@ -47,6 +50,8 @@ class Previews:
     ----------
     fits : LiveFits
         Makes looks of kinds that are live.
+    reader : Executor
+        Reads map sets.
 
     Attributes
     ----------
@@ -54,8 +59,9 @@ class Previews:
         What went wrong. Call `draw`, `render_surroundings` and `add_display` within its `guarded`.
     """
 
-    def __init__(self, fits: LiveFits) -> None:
-        self._fits = fits
+    def __init__(self, fits: LiveFits, reader: Executor) -> None:
+        self._fits, self._reader = fits, reader
+        self._map_sets = MapSets(fits, reader)
         self.release()
 
     def release(self) -> None:
@@ -67,7 +73,9 @@ class Previews:
 
     def reload(self) -> None:
         """Read the map sets' files anew, and try again what failed."""
-        self._map_sets, self._looks, self.faults = MapSets(self._fits), Looks(), Faults()
+        self._map_sets.keep([])
+        self._map_sets = MapSets(self._fits, self._reader)
+        self._looks, self.faults = Looks(), Faults()
 
     def scene_changed(self) -> None:
         """Look at each scene anew when it is drawn next; what is the same stays uploaded."""
@@ -84,6 +92,19 @@ class Previews:
         """The kind of map set that shades an object; None before it is drawn."""
         map_set = self._map_sets.used.get(map_set_of(item))
         return map_set.kind if map_set else None
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether a map set is on its way, so that `take_news` is to be asked."""
+        return self._map_sets.is_busy
+
+    def take_news(self) -> bool:
+        """Whether a redraw would show more than the last one."""
+        return self._map_sets.take_news()
+
+    def is_loading(self, item: Any) -> bool:
+        """Whether an object's map set is on its way."""
+        return self._map_sets.is_coming(map_set_of(item))
 
     def messages(self, item: Any) -> list[str]:
         """What an artist should know of an object's preview: what went wrong, and warnings."""
@@ -111,18 +132,27 @@ class Previews:
         contents = self._layers.layers.get(view.layer)
         if contents is None or not contents.serves(not has_depth):
             contents = self._layers.collect(view, not has_depth, self.faults)
-            paths = self._layers.paths()
-            self._looks.keep(paths)
-            self._map_sets.keep(paths)
-        seen = [each for each in contents.previews if each.is_seen(view) and self._is_ready(each.surface)]
+            surfaces = self._layers.previewed()
+            self._looks.keep({each.path for each in surfaces})
+            self._map_sets.keep(surfaces)
+        self._map_sets.begin_frame()
+        seen = [
+            (each, map_set)
+            for each in contents.previews
+            if each.is_seen(view) and (map_set := self._shading(each.surface))
+        ]
         if not seen:
             return True
         display, scale = self._displays.of(view.scene)
         if display is None:
             return False
         wanted = {side.other for side in sides} | {not side.other for side in sides if side.difference}
-        looked = [(each, looks) for each in seen if (looks := self._looks_of(each.surface, wanted))]
-        lights = [view.light_of(each.surface.item) for each, _ in looked]
+        looked = [
+            (each, map_set, looks)
+            for each, map_set in seen
+            if (looks := self._looks_of(each.surface, map_set, wanted))
+        ]
+        lights = [view.light_of(each.surface.item) for each, *_ in looked]
         sight = current_sight()
         hiding = [
             (each.mesh, sight.on(each.surface.matrix, AS_IT_IS.turn))
@@ -130,8 +160,8 @@ class Previews:
             if each.is_seen(view)
         ]
         shown = [
-            _Shown(each, sight.on(each.surface.matrix, light.turn), light.strength, looks)
-            for (each, looks), light in zip(looked, lights, strict=True)
+            _Shown(each, map_set, sight.on(each.surface.matrix, light.turn), light.strength, looks)
+            for (each, map_set, looks), light in zip(looked, lights, strict=True)
         ]
         for side, strength in product(sides, dict.fromkeys(each.strength for each in shown)):
             group = [each for each in shown if each.strength == strength]
@@ -181,22 +211,19 @@ class Previews:
         """
         self._displays.learn(scene)
 
-    def _is_ready(self, surface: Surface) -> bool:
-        """Whether an object can be drawn: its map set is uploaded, and nothing has gone wrong."""
+    def _shading(self, surface: Surface) -> ViewportMapSet | None:
+        """What an object is shaded from; None where that is not there yet, or something has gone wrong."""
         if self.faults.stands(surface.item):
-            return False
-        if surface.path not in self._map_sets.used:
-            try:
-                self._map_sets.upload(surface)
-            except Exception as error:
-                self.faults.note(surface.item, error)
-                return False
-        return self._map_sets.is_lit(surface.path)
+            return None
+        try:
+            return self._map_sets.shading(surface)
+        except Exception as error:
+            self.faults.note(surface.item, error)
+            return None
 
-    def _looks_of(self, surface: Surface, wanted: set[bool]) -> dict[bool, Any]:
+    def _looks_of(self, surface: Surface, map_set: ViewportMapSet, wanted: set[bool]) -> dict[bool, Any]:
         """The looks that are wanted of an object, by whether it is the other one; empty after a fault."""
         try:
-            map_set = self._map_sets.used[surface.path]
             return {other: self._looks.of(surface, map_set, other) for other in wanted}
         except Exception as error:
             self.faults.note(surface.item, error)
@@ -213,7 +240,6 @@ class Previews:
                 surface, look = each.drawable.surface, each.looks[other]
                 if look is not None:
                     try:
-                        gpu_map_set = self._map_sets.used[surface.path].gpu_map_set
-                        gpu_map_set.draw(each.drawable.mesh, each.placed, look)
+                        each.map_set.gpu_map_set.draw(each.drawable.mesh, each.placed, look)
                     except Exception as error:
                         self.faults.note(surface.item, error)

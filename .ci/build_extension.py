@@ -19,7 +19,8 @@ def fetch_wheel(path: Path) -> None:
     package, version, python, abi, platform = path.stem.split("-")
     command = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", "--only-binary", ":all:"]
     command += ["--implementation", "cp", "--python-version", re.sub(r"cp(\d)(\d+)", r"\1.\2", python)]
-    command += ["--abi", abi, "--platform", platform, "--dest", str(path.parent), f"{package}=={version}"]
+    newest = platform.split(".")[-1]  # of the systems that a wheel names
+    command += ["--abi", abi, "--platform", newest, "--dest", str(path.parent), f"{package}=={version}"]
     subprocess.run(command, check=True)
 
 

@@ -7,6 +7,8 @@ from functools import partial
 from importlib import import_module
 from typing import Any, NoReturn
 
+from ..core.errors import RsibrError
+from ..core.threads import VARIABLE, limited, thread_count
 from .parser import Parser
 
 COMMANDS = {
@@ -59,7 +61,25 @@ def parsed(argv: Sequence[str]) -> argparse.Namespace:
     SystemExit
         Help was asked for; that is printed.
     """
+    _limit_threads(argv)
     return parser().parse_args(_with_joined_directions(_with_todays_names(argv)))
+
+
+def _limit_threads(argv: Sequence[str]) -> None:
+    """Tell what counts threads of their limit: numpy's OpenBLAS asks once, when a command imports it."""
+    for word, following in zip(argv, [*argv[1:], ""], strict=True):
+        name, _, said = word.partition("=")
+        if name == "--threads":
+            os.environ[VARIABLE] = said or following
+    if limited():
+        os.environ["OPENBLAS_NUM_THREADS"] = os.environ[VARIABLE]
+
+
+def _threads(word: str) -> int:
+    try:
+        return thread_count()
+    except RsibrError as error:
+        raise argparse.ArgumentTypeError(f"{word} is no number of threads from 1") from error
 
 
 def _with_todays_names(argv: Sequence[str]) -> Sequence[str]:
@@ -139,6 +159,12 @@ def _declare_arguments(command: Any, parser: Parser, words: Sequence[str]) -> No
         metavar="FILE",
         default=os.devnull,
         help="append the output of Blender and its libraries to a file",
+    )
+    parser.add_argument(
+        "--threads",
+        metavar="N",
+        type=_threads,
+        help=f"use at most so many threads (default: what {VARIABLE} says, else all processors)",
     )
     command.add_arguments(parser)
     parser.set_defaults(run=command.run, command=parser.prog)

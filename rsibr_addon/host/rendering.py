@@ -7,6 +7,7 @@ import numpy as np
 
 from ..core.conventions import Array
 from ..core.errors import RenderError
+from ..core.threads import limited, thread_count
 from ..files.exr import read_parts
 from ..files.temporary import temporary_folder
 
@@ -18,6 +19,8 @@ def configure_cycles(scene: bpy.types.Scene, width: int, height: int, samples: i
     """Have Cycles render on the CPU, each pixel the plain mean of its samples."""
     render, cycles = scene.render, scene.cycles
     render.engine = "CYCLES"
+    if limited():
+        render.threads_mode, render.threads = "FIXED", thread_count()
     render.resolution_x, render.resolution_y, render.resolution_percentage = width, height, 100
     cycles.device = "CPU"
     cycles.samples = samples

@@ -30,3 +30,13 @@ def test_all_commands_are_listed_and_all_kinds(capfd: pytest.CaptureFixture[str]
 def test_the_version_is_told(capfd: pytest.CaptureFixture[str]) -> None:
     assert run(["--version"]) == 0
     assert capfd.readouterr().out == f"{rsibr()}\n"
+
+
+@pytest.mark.parametrize("word", ["0", "-2", "many"])
+def test_what_is_no_number_of_threads(
+    word: str, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("RSIBR_THREADS", "2")
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "2")
+    assert run(["info", "light.exr", f"--threads={word}"]) == 2
+    assert f"argument --threads: {word} is no number of threads from 1" in capfd.readouterr().err

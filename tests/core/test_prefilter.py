@@ -8,6 +8,7 @@ import pytest
 from rsibr.rsibr_addon.core.conventions import Array, texel_centres
 from rsibr.rsibr_addon.core.errors import RangeError, ShapeError
 from rsibr.rsibr_addon.core.filtering.harmonics.analysis import analyse_environment
+from rsibr.rsibr_addon.core.filtering.harmonics.coefficients import EnvironmentHarmonics
 from rsibr.rsibr_addon.core.filtering.prefilter import (
     Prefiltered,
     analysis_degree,
@@ -52,6 +53,13 @@ DIRECTIONS = np.concatenate([paraboloids(12).reshape(-1, 3), POLES_AND_SEAM])
 def filtered(radiance: Array, lobes: list[ZonalLobe], directions: Array, tolerance: float) -> Prefiltered:
     series = [expand(lobe, tolerance) for lobe in lobes]
     return prefilter(analyse_environment(radiance, analysis_degree(series)), series, directions)
+
+
+def white(degree: int) -> EnvironmentHarmonics:
+    """Radiance 1 from everywhere: the integral, as no sum over texels is."""
+    coefficients = np.zeros((1, (degree + 1) * (degree + 2) // 2), dtype=np.complex128)
+    coefficients[0, 0] = np.sqrt(4.0 * np.pi)
+    return EnvironmentHarmonics(coefficients, np.array([4.0 * np.pi]), degree, 512)
 
 
 HEIGHT = 32
@@ -106,19 +114,20 @@ def test_dark_texels_beside_a_sun() -> None:
 )
 def test_a_white_furnace(lobe: ZonalLobe) -> None:
     series = [expand(lobe)]
-    white = np.full((64, 128, 3), 0.7)
-    areas = prefilter(analyse_environment(white, series[0].degree, texels="areas"), series, DIRECTIONS)
-    np.testing.assert_allclose(areas.radiance, 0.7, rtol=1e-10)
+    np.testing.assert_allclose(
+        prefilter(white(series[0].degree), series, DIRECTIONS).radiance, 1.0, rtol=1e-10
+    )
     # As points, the texels' sum is not quite the integral, but it is brute force's.
-    points = filtered(white, [lobe], DIRECTIONS, 1e-12)
-    np.testing.assert_allclose(points.radiance, prefilter_exact(white, [lobe], DIRECTIONS), rtol=1e-10)
+    radiance = np.full((64, 128, 3), 0.7)
+    points = filtered(radiance, [lobe], DIRECTIONS, 1e-12)
+    np.testing.assert_allclose(points.radiance, prefilter_exact(radiance, [lobe], DIRECTIONS), rtol=1e-10)
 
 
 def test_a_white_furnace_with_kinks() -> None:
     for lobe, expected in ((cosine_lobe(), np.pi), (ggx_n_dot_l_lobe(0.2), 1.0)):
         series = [expand(lobe, 1e-2)]
-        harmonics = analyse_environment(np.ones((16, 32, 1)), series[0].degree, texels="areas")
-        np.testing.assert_allclose(prefilter(harmonics, series, DIRECTIONS).radiance, expected, rtol=1e-10)
+        found = prefilter(white(series[0].degree), series, DIRECTIONS)
+        np.testing.assert_allclose(found.radiance, expected, rtol=1e-10)
 
 
 def test_a_lit_texel_gives_back_the_profile() -> None:

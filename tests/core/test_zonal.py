@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import RangeError
-from rsibr.rsibr_addon.core.filtering.harmonics.legendre import MAX_DEGREE
+from rsibr.rsibr_addon.core.filtering.harmonics.analysis import MAX_DEGREE
 from rsibr.rsibr_addon.core.filtering.radial_lobes import (
     cosine_lobe,
     ggx_lobe,

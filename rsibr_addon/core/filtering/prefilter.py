@@ -9,7 +9,7 @@ the interpolation. The errors of both are bounded (docs/prefiltering.md).
 >>> stack = prefilter(harmonics, series, directions)
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,20 +19,15 @@ from ..errors import RangeError, ShapeError
 from ..maps import equirect
 from ..ties import TIE
 from .harmonics.coefficients import EnvironmentHarmonics
-from .harmonics.kernel import Kernel, kernels_for
-from .harmonics.synthesis import grid_rows, synthesise
+from .harmonics.synthesis import INTERPOLATION, synthesise
 from .zonal import ZonalLobe, ZonalSeries
 
 BYTES_BESIDES = 2e8
 """Bytes of memory for harmonics and their grid, and for maps while they are written."""
 
 _CUT_SHARE = 0.5
-_LEAKAGE_SHARE = 0.25
 _TEXELS_ACROSS = 3.0
-_GROUP_RATIO = 0.45
-_GROUP_BYTES = 2**26
 _BRUTE_BYTES = 2**25
-_ROUNDINGS = 1000.0
 
 
 @dataclass(frozen=True)
@@ -119,14 +114,9 @@ def prefilter(
     # Channel by channel, in the order in which maps are summed
     by_channel = np.empty((channels, len(series), len(theta)))
     bound = np.empty((len(series), channels))
-    for group in _groups(degrees, channels):
-        gains = np.zeros((len(group), max(degrees[i] for i in group) + 1))
-        for row, i in zip(gains, group, strict=True):
-            row[: degrees[i] + 1] = series[i].coefficients[: degrees[i] + 1]
-        kernel, leakage = _kernel(gains, ceilings, min(series[i].tolerance for i in group))
-        by_channel[:, group] = synthesise(harmonics, gains, theta, phi, kernel).transpose(2, 1, 0)
-        for i in group:
-            bound[i] = _bound(series[i], degrees[i], ceilings, leakage, harmonics.flux)
+    for i, (lobe, degree) in enumerate(zip(series, degrees, strict=True)):
+        by_channel[:, i] = synthesise(harmonics, lobe.coefficients[: degree + 1], theta, phi)
+        bound[i] = _bound(lobe, degree, ceilings, harmonics.flux)
     radiance = np.moveaxis(by_channel, 0, -1)
     for lobe, values in zip(series, radiance, strict=True):
         if not lobe.signed:
@@ -212,45 +202,17 @@ def _power(gains: Array, ceilings: Array) -> Array:
 
 
 def _cut(lobe: ZonalSeries, ceilings: Array) -> int:
-    """The degree after which a cut keeps the tolerance in every channel: equation 17."""
+    """The degree after which a cut keeps the tolerance in every channel: equation 9."""
     power = _power(lobe.coefficients, ceilings)
     tail = np.cumsum(power[::-1], axis=0)[::-1]
     kept = np.any(tail > (_CUT_SHARE * lobe.tolerance) ** 2 * tail[0], axis=1)
     return max(int(np.count_nonzero(kept)) - 1, 1)
 
 
-def _kernel(gains: Array, ceilings: Array, tolerance: float) -> tuple[Kernel, Array]:
-    """The narrowest kernel that keeps the tolerance (equation 18), and its leakage at every degree."""
-    degree = gains.shape[1] - 1
-    frequency = np.arange(degree + 1) * (np.pi / grid_rows(degree))
-    power = _power(gains, ceilings)
-    allowed = (_LEAKAGE_SHARE * tolerance) ** 2 * power.sum(axis=1)
-    for kernel in kernels_for(tolerance):
-        leakage = kernel.leakage(frequency)
-        if np.all(np.einsum("l,slc->sc", 2.0 * leakage[1:] ** 2, power[:, 1:]) <= allowed):
-            break
-    return kernel, leakage
-
-
-def _bound(lobe: ZonalSeries, degree: int, ceilings: Array, leakage: Array, flux: Array) -> Array:
-    """Largest error of a slice, shape (channels,): equations 14, 15 and 19."""
+def _bound(lobe: ZonalSeries, degree: int, ceilings: Array, flux: Array) -> Array:
+    """Largest error of a slice, shape (channels,): equations 6, 7 and 10."""
     largest = ceilings[: lobe.degree + 1] * np.abs(lobe.coefficients[:, None])
     beyond_cut, beyond_known = lobe.truncation_errors(degree, lobe.degree)
     left_out = np.minimum(largest[degree + 1 :].sum(axis=0) + beyond_known * flux, beyond_cut * flux)
-    leaked = 2.0 * leakage[1 : degree + 1] @ largest[1 : degree + 1]
-    rounded = _ROUNDINGS * np.finfo(np.float64).eps * largest.sum(axis=0)
-    bound: Array = left_out + leaked + rounded
+    bound: Array = left_out + INTERPOLATION * largest.sum(axis=0)
     return bound
-
-
-def _groups(degrees: Sequence[int], channels: int) -> Iterator[list[int]]:
-    """Slices of similar degree, to be synthesised together: as many as memory allows."""
-    waiting = sorted(range(len(degrees)), key=lambda i: -degrees[i])
-    while waiting:
-        largest = degrees[waiting[0]]
-        rows = grid_rows(largest)
-        # A grid of rows x 2 rows in float64, and its rows' spectra in complex128.
-        most = max(1, _GROUP_BYTES // (channels * rows * 16 * (rows + largest)))
-        group = [i for i in waiting[:most] if degrees[i] >= _GROUP_RATIO * largest]
-        yield group
-        waiting = waiting[len(group) :]

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..conventions import Array
 from ..errors import RangeError
-from .harmonics.legendre import MAX_DEGREE
+from .harmonics.analysis import MAX_DEGREE
 
 TOLERANCE = 1e-6
 """Default relative root-mean-square error: dark texels beside a sun need it."""
@@ -88,7 +88,7 @@ class ZonalSeries:
         -------
         ndarray, shape (len(degrees),)
             max over the angle of |K - sum of (2 l + 1) / (4 pi) p_l P_l| [1/sr]. Times the flux it bounds
-            the error of a filtered environment (equation 15), and it never exceeds the sum of
+            the error of a filtered environment (equation 7), and it never exceeds the sum of
             (2 l + 1) / (4 pi) |p_l| over all degrees that are left out.
 
         Notes
@@ -133,7 +133,7 @@ def expand(lobe: ZonalLobe, tolerance: float = TOLERANCE) -> ZonalSeries:
 
 
 def _sufficient_coefficients(lobe: ZonalLobe, tolerance: float, width: float) -> Array:
-    """Coefficients until tolerance^2 of the sum of (2 l + 1) p_l^2 is left, and a third more: equation 16."""
+    """Coefficients until tolerance^2 of the sum of (2 l + 1) p_l^2 is left, and a third more: equation 8."""
     degree = min(16 + int(_DEGREES_TIMES_WIDTH / width), _LARGEST_SEEN)
     while True:
         p = zonal_coefficients(lobe, degree)

@@ -4,7 +4,7 @@ import contextlib
 import io
 import os
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -325,14 +325,16 @@ def write_parts(path: Path, parts: Sequence[Part]) -> None:
         OpenEXR.File([_described(part, largest) for part in parts]).write(stream)
 
 
-def packed(part: Part, largest: Sequence[int]) -> bytes:
-    """The bytes of a file with one part.
+def packed(part: Part, largest: Sequence[int], top: int = 0) -> bytes:
+    """The bytes of a file with one part, or with some rows of it.
 
     Parameters
     ----------
     part : Part
     largest : sequence of two int
         Height and width that its display window has.
+    top : int
+        Number of its first row, from the top.
 
     Returns
     -------
@@ -340,7 +342,10 @@ def packed(part: Part, largest: Sequence[int]) -> bytes:
         Compressed as `write_parts` does it.
     """
     stream = io.BytesIO()
-    OpenEXR.File([_described(part, largest)]).write(stream)
+    height, width = next(iter(part.channels.values())).shape
+    window = np.array([0, top], np.int32), np.array([width - 1, top + height - 1], np.int32)
+    attributes = part.attributes | {"dataWindow": window}
+    OpenEXR.File([_described(replace(part, attributes=attributes), largest)]).write(stream)
     return stream.getvalue()
 
 

@@ -1,12 +1,13 @@
 """An OpenEXR file of many parts, written one after another, so that never more than one need be in memory.
 
-The package wants all parts at once. Each is packed as a file of its own instead: that has the same header,
-except for the number of its chunks, and the same chunks, except for the number of their part before them.
+The package wants all parts at once. Some rows of one are packed as a file of its own instead: that has the
+same header, except for the data window and the number of chunks, and the same chunks, except for the number
+of their part before them.
 """
 
 import itertools
 import struct
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import BinaryIO
 
 import numpy as np
@@ -19,6 +20,9 @@ _VERSION = struct.pack("<I", 2 | 1 << 12)
 
 _ROWS = 16
 """Rows of a chunk with ZIP compression."""
+
+_TEXELS_AT_ONCE = 1 << 20
+"""Texels that are packed at a time, in memory of their own."""
 
 
 class PartsInTurn:
@@ -38,12 +42,13 @@ class PartsInTurn:
         self, stream: BinaryIO, shapes: Mapping[str, tuple[int, int]], attribute: str, text: str
     ) -> None:
         self._stream, self._attribute, self._text = stream, attribute, text
+        self._shapes, self._first = shapes, next(iter(shapes))
         self._largest = np.max(list(shapes.values()), axis=0).tolist()
         self._headers: list[dict[bytes, bytes]] = []
         self._offsets: list[int] = []
         # A part of one texel has a header of the same length
         texel = np.zeros((1, 1, 3), np.float32)
-        headers = [self._packed(name, texel, number == 0)[0] for number, name in enumerate(shapes)]
+        headers = [self._whole(name, self._packed(name, texel)[0]) for name in shapes]
         chunks = sum(_chunk_count(height) for height, _ in shapes.values())
         stream.seek(len(_headers_as_bytes(headers)) + 8 * chunks)
 
@@ -61,12 +66,35 @@ class PartsInTurn:
         OSError
             The disk is full.
         """
-        header, chunks = self._packed(name, pixels, not self._headers)
-        for chunk in chunks:
-            self._offsets.append(self._stream.tell())
-            self._stream.write(struct.pack("<i", len(self._headers)))
-            self._stream.write(chunk)
-        self._headers.append(header)
+        height, width = self._shapes[name]
+        rows = max(_TEXELS_AT_ONCE // width // _ROWS, 1) * _ROWS
+        for top in range(0, height, rows):
+            header, chunks = self._packed(name, pixels[max(height - top - rows, 0) : height - top], top)
+            self._write(chunks)
+        self._headers.append(self._whole(name, header))
+
+    def add_black(self, name: str) -> None:
+        """Write the next part, of half floats that are all 0.
+
+        Parameters
+        ----------
+        name : str
+
+        Raises
+        ------
+        OSError
+            The disk is full.
+        """
+        height, width = self._shapes[name]
+        # Chunks of as many rows are alike but for the number of the first row, which they begin with
+        alike = {
+            rows: self._packed(name, np.zeros((rows, width, 3), np.float16))
+            for rows in {min(_ROWS, height), height % _ROWS} - {0}
+        }
+        for top in range(0, height, _ROWS):
+            header, (chunk,) = alike[min(_ROWS, height - top)]
+            self._write([struct.pack("<i", top) + chunk[4:]])
+        self._headers.append(self._whole(name, header))
 
     def finish(self, text: str) -> None:
         """Write the headers before all parts, when these are written.
@@ -87,10 +115,25 @@ class PartsInTurn:
         self._stream.write(_headers_as_bytes(self._headers))
         self._stream.write(np.array(self._offsets, "<u8").tobytes())
 
-    def _packed(self, name: str, pixels: Array, first: bool) -> tuple[dict[bytes, bytes], list[memoryview]]:
-        """A part's attributes by name, each with its type and size before it, and its chunks."""
+    def _write(self, chunks: Iterable[bytes | memoryview]) -> None:
+        for chunk in chunks:
+            self._offsets.append(self._stream.tell())
+            self._stream.write(struct.pack("<i", len(self._headers)))
+            self._stream.write(chunk)
+
+    def _whole(self, name: str, header: dict[bytes, bytes]) -> dict[bytes, bytes]:
+        """The header of a part, given that of some of its rows."""
+        height, width = self._shapes[name]
+        return header | {
+            b"dataWindow": b"box2i\0" + struct.pack("<5i", 16, 0, 0, width - 1, height - 1),
+            b"chunkCount": b"int\0" + struct.pack("<2i", 4, _chunk_count(height)),
+        }
+
+    def _packed(self, name: str, pixels: Array, top: int = 0) -> tuple[dict[bytes, bytes], list[memoryview]]:
+        """Attributes of some rows by name, each with its type and size before it, and their chunks."""
         channels = {channel: pixels[..., i] for i, channel in enumerate("RGB")}
-        file = packed(Part(name, channels, {self._attribute: self._text} if first else {}), self._largest)
+        attributes = {self._attribute: self._text} if name == self._first else {}
+        file = packed(Part(name, channels, attributes), self._largest, top)
         header, at = {}, len(MAGIC + _VERSION)
         while file[at]:
             end_of_name = file.index(0, at)
@@ -99,7 +142,6 @@ class PartsInTurn:
             header[file[at:end_of_name]] = file[end_of_name + 1 : end]
             at = end
         count = _chunk_count(len(pixels))
-        header[b"chunkCount"] = b"int\0" + struct.pack("<ii", 4, count)
         starts = [*struct.unpack_from(f"<{count}Q", file, at + 1), len(file)]
         return header, [memoryview(file)[start:end] for start, end in itertools.pairwise(starts)]
 

@@ -113,11 +113,11 @@ def write_map_set(
     ]
     check_header(header, str(path))
     largest = np.max(list(map_set.shapes.values()), axis=0)
-    cover, whole = np.broadcast_to(np.zeros((), "<f2"), (*largest, 3)), 0
+    whole = 0
     with written_aside(path, force) as aside, aside.open("wb") as stream:
         text = json.dumps(header, allow_nan=False)
         parts = PartsInTurn(stream, {COVER: tuple(largest), **map_set.shapes}, ATTRIBUTE, text)
-        parts.add(COVER, cover)
+        parts.add_black(COVER)
         for part, pixels in zip(header["parts"], map_set.maps, strict=True):
             stored = _stored(part["name"], pixels, half)
             whole += stored.dtype.itemsize > 2

@@ -14,6 +14,9 @@ MAPS = {
     "a chunk": RNG.random((16, 50, 3), np.float32),
     "a chunk and a row": RNG.random((17, 3, 3)).astype(np.float16),
     "a name of more than thirty-two letters": RNG.random((40, 7, 3), np.float32),
+    "more than is packed at once": np.tile(RNG.random((1, 70000, 3), np.float32), (37, 1, 1)),
+    "a last black": np.zeros((32, 9, 3), np.float16),
+    "a low black": np.zeros((5, 9, 3), np.float16),
 }
 
 
@@ -26,7 +29,10 @@ def test_bytes_are_those_of_the_package(tmp_path: Path, attribute: str) -> None:
             stream, {name: pixels.shape[:2] for name, pixels in MAPS.items()}, attribute, texts[1]
         )
         for name, pixels in MAPS.items():
-            file.add(name, pixels)
+            if pixels.any():
+                file.add(name, pixels)
+            else:
+                file.add_black(name)
         file.finish(texts[0])
     parts = [
         Part(name, {channel: pixels[..., i] for i, channel in enumerate("RGB")}, {})

@@ -5,6 +5,7 @@ import pytest
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.errors import RangeError, ShapeError
 from rsibr.rsibr_addon.core.filtering.harmonics.analysis import MAX_DEGREE, analyse_environment
+from rsibr.rsibr_addon.core.filtering.harmonics.legendre import legendre_series, legendre_sums
 from rsibr.rsibr_addon.core.filtering.harmonics.synthesis import INTERPOLATION, synthesise
 from rsibr.rsibr_addon.core.filtering.irradiance import real_harmonics
 from rsibr.rsibr_addon.core.maps import equirect
@@ -89,6 +90,40 @@ def test_any_degree_obeys_the_addition_theorem(degree: int) -> None:
     # Beside a pole of the series, rounding of the cosine alone moves a value by its slope, degree^2 times it.
     rounding = 1e-15 * degree**2 * np.abs(series).sum() * light.sum()
     np.testing.assert_allclose(values, expected, rtol=0, atol=allowed + rounding)
+
+
+@pytest.mark.parametrize("degree", [0, 1, 2, 40, 300])
+def test_legendre_polynomials_are_those_of_numpy(degree: int) -> None:
+    weight, coefficients = RNG.normal(size=len(THETA)), RNG.normal(size=degree + 1)
+    polynomials = np.polynomial.legendre.legvander(np.cos(THETA), degree)
+    # No polynomial exceeds 1; numpy's recurrence loses its last digits step by step.
+    rounding = 1e-15 * (degree + 1)
+    np.testing.assert_allclose(
+        legendre_sums(weight, THETA, degree),
+        weight @ polynomials,
+        rtol=0,
+        atol=rounding * np.abs(weight).sum(),
+    )
+    np.testing.assert_allclose(
+        legendre_series(coefficients, THETA),
+        polynomials @ coefficients,
+        rtol=0,
+        atol=rounding * np.abs(coefficients).sum(),
+    )
+
+
+def test_legendre_polynomials_of_large_degree_are_orthogonal() -> None:
+    degree = 3 * MAX_DEGREE // 2
+    node, weight = np.polynomial.legendre.leggauss(64)
+    # Panels of a thousandth of half a turn: 4.5 waves of a product of two, at 14 nodes a wave.
+    theta = np.concatenate([(panel + 0.5 * (node + 1.0)) * np.pi / 1000 for panel in range(1000)])
+    area = np.tile(weight, 1000) * 0.5 * np.pi / 1000 * np.sin(theta)
+    for chosen in (degree, degree - 7):
+        polynomial = legendre_series((np.arange(degree + 1) == chosen).astype(float), theta)
+        expected = (np.arange(degree + 1) == chosen) * 2.0 / (2 * chosen + 1)
+        # Phases of some 1e4 radians are rounded to 1e-12: as much of the largest sum, 2e-4.
+        found = legendre_sums(area * polynomial, theta, degree)
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-14)
 
 
 def test_the_mean_is_not_interpolated() -> None:

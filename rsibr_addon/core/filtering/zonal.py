@@ -7,7 +7,7 @@ filtering multiplies the degrees of an environment; p_0 is its integral over the
 
 import functools
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,13 +15,13 @@ import numpy as np
 from ..conventions import Array
 from ..errors import RangeError
 from .harmonics.analysis import MAX_DEGREE
+from .harmonics.legendre import legendre_series, legendre_sums
 
 TOLERANCE = 1e-6
 """Default relative root-mean-square error: dark texels beside a sun need it."""
 
 _NODES = 64
 _SPARE_NODES = 40
-_ROWS = 64
 _DEGREES_TIMES_WIDTH = 90.0
 _LARGEST_SEEN = 3 * MAX_DEGREE // 2
 _HEADROOM = 4.0 / 3.0
@@ -96,13 +96,9 @@ class ZonalSeries:
         Found at the knots, both ends among them, and at five points for every wave of P_degree.
         """
         angle = np.concatenate([self.lobe.knots, _quadrature(self.lobe.knots, self.degree)[0]])
-        l = np.arange(self.degree + 1)
-        factors = (2 * l + 1) / (4.0 * np.pi) * self.coefficients * (l <= np.array(degrees)[:, None])
-        missing = np.tile(self.lobe.profile(angle), (len(degrees), 1))
-        for first, legendre in _legendre(np.cos(angle), self.degree):
-            missing -= factors[:, first : first + len(legendre)] @ legendre
-        errors: Array = np.abs(missing).max(axis=1)
-        return errors
+        values = self.lobe.profile(angle)
+        series = (2 * np.arange(self.degree + 1) + 1) / (4.0 * np.pi) * self.coefficients
+        return np.array([np.abs(values - legendre_series(series[: l + 1], angle)).max() for l in degrees])
 
 
 def expand(lobe: ZonalLobe, tolerance: float = TOLERANCE) -> ZonalSeries:
@@ -162,8 +158,7 @@ def zonal_coefficients(lobe: ZonalLobe, degree: int) -> Array:
     if lobe.closed_form is not None:
         return lobe.closed_form(degree)
     angle, weight = _quadrature(lobe.knots, degree)
-    weighted = weight * lobe.profile(angle)
-    return np.concatenate([legendre @ weighted for _, legendre in _legendre(np.cos(angle), degree)])
+    return legendre_sums(weight * lobe.profile(angle), angle, degree)
 
 
 def graded_knots(width: float) -> tuple[float, ...]:
@@ -206,27 +201,3 @@ def _quadrature(knots: tuple[float, ...], degree: int) -> tuple[Array, Array]:
 @functools.cache
 def _gauss_legendre() -> tuple[Array, Array]:
     return np.polynomial.legendre.leggauss(_NODES)
-
-
-def _legendre(cosine: Array, degree: int) -> Iterator[tuple[int, Array]]:
-    """Legendre polynomials P_0 ... P_degree by their forward recurrence, some rows at a time.
-
-    Yields
-    ------
-    first : int
-        Degree of the first row.
-    rows : ndarray, shape (rows, len(cosine))
-        Valid until the next ones are taken.
-    """
-    rows = np.empty((2 + _ROWS, len(cosine)))
-    for first in range(0, degree + 1, _ROWS):
-        count = min(_ROWS, degree + 1 - first)
-        for row, l in enumerate(range(first, first + count), 2):
-            if l < 2:
-                rows[row] = cosine**l
-            else:
-                np.multiply(cosine, (2 * l - 1) / l, out=rows[row])
-                rows[row] *= rows[row - 1]
-                rows[row] -= (l - 1) / l * rows[row - 2]
-        yield first, rows[2 : 2 + count]
-        rows[:2] = rows[count : 2 + count]

@@ -3,11 +3,12 @@ VENV := .venv
 PYTHON := $(VENV)/bin/python
 READY := $(VENV)/.ready
 
-.PHONY: help demo test test-quick test-gui test-faults lint docs extension bench clean
+.PHONY: help demo test test-quick test-package test-gui test-faults lint docs extension bench clean
 
 help:
 	@echo "make demo        capture two materials, preview them and compare with Cycles; pictures under demo/"
 	@echo "make test        run all tests but those in a window (make test-quick: without shaders and renders)"
+	@echo "make test-package build the wheel, and test it in a Python 3.11 without Blender"
 	@echo "make lint        run ruff and mypy"
 	@echo "make docs        build the documentation site: site/index.html"
 	@echo "make extension   build dist/rsibr-*.zip: drop it on Blender's window"
@@ -31,6 +32,9 @@ test: $(READY)
 
 test-quick: $(READY)
 	$(PYTHON) -m pytest -n 2 -m "not slow" --ignore tests/cycles --ignore tests/glsl --ignore tests/gui
+
+test-package:
+	.ci/test-package
 
 test-gui: $(READY)
 	RSIBR_REQUIRE=gui $(PYTHON) -m pytest tests/gui

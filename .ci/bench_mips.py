@@ -37,8 +37,8 @@ CUBE = representation("cube_map")
 WORLD_FROM_CMGEN = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 """The directions that cmgen's faces show, in our axes: found by comparing its mip 0 with the environment."""
 
-type Chain = list[Array]
-type Filter = Callable[[Array], Chain]
+Chain = list[Array]
+Filter = Callable[[Array], Chain]
 
 
 def ours(radiance: Array) -> Chain:

@@ -2,7 +2,7 @@
 
 import json
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Any, Generic, Literal, TypeVar
 
 from .core.errors import InputFileError, RangeError, SchemaError
 from .core.options import to_plain
@@ -10,6 +10,8 @@ from .core.schema import decode, loads
 from .files.kinds.registry import STORED
 from .settings.light import Light
 from .settings.method import MethodSettings
+
+Settings = TypeVar("Settings", bound=MethodSettings)
 
 FORMAT, ARGUMENTS_FORMAT = 2, 1
 """Formats of a job's JSON: a bake's settings, and the arguments of any command."""
@@ -19,7 +21,7 @@ COMMANDS = ("capture", "bake", "tables", "mips", "bank", "illuminate", "compare"
 
 
 @dataclass(frozen=True)
-class BakeJob[Settings: MethodSettings]:
+class BakeJob(Generic[Settings]):
     """A bake: what a method makes of which light, and where it goes.
 
     Attributes

@@ -31,7 +31,7 @@ WRINKLES = 0.1
 LAMP = 0.03
 """Radius of the lamp: about a texel."""
 
-type Shade = Callable[[np.ndarray, np.ndarray | None], np.ndarray]
+Shade = Callable[[np.ndarray, np.ndarray | None], np.ndarray]
 """Mirror directions, and footprints or None, to radiance."""
 
 

@@ -1,7 +1,8 @@
 """What tests need: a test's folder says it, and here it is looked for and prepared.
 
 A dependency that is missing skips its tests, and the run's summary says which and why. Named in the
-environment variable RSIBR_REQUIRE (comma-separated: gl, bpy, cycles, gui), it fails them instead.
+environment variable RSIBR_REQUIRE (comma-separated: gl, bpy, cycles, gui), it fails them instead. Named in
+RSIBR_WITHOUT, it is not looked for, and its tests are not collected.
 """
 
 import functools
@@ -70,13 +71,24 @@ def absence(dependency: str) -> str | None:
 
 def required() -> set[str]:
     """What RSIBR_REQUIRE names."""
-    return set(os.environ.get("RSIBR_REQUIRE", "").replace(",", " ").split())
+    return _named("RSIBR_REQUIRE")
+
+
+def left_out() -> set[str]:
+    """What RSIBR_WITHOUT names."""
+    return _named("RSIBR_WITHOUT")
+
+
+def _named(variable: str) -> set[str]:
+    """The dependencies that a variable of the environment names."""
+    named = set(os.environ.get(variable, "").replace(",", " ").split())
+    if unknown := named - START.keys():
+        pytest.exit(f"{variable} names {', '.join(sorted(unknown))}; it knows {', '.join(START)}", 1)
+    return named
 
 
 def require(dependencies: tuple[str, ...]) -> None:
     """Skip, or fail where RSIBR_REQUIRE names it, when one of `dependencies` is missing."""
-    if unknown := required() - START.keys():
-        pytest.fail(f"RSIBR_REQUIRE names {', '.join(sorted(unknown))}; it knows {', '.join(START)}")
     for dependency in dependencies:
         if reason := absence(dependency):
             if dependency in required():
@@ -85,8 +97,8 @@ def require(dependencies: tuple[str, ...]) -> None:
 
 
 def folder_needs(path: Path) -> tuple[str, ...]:
-    """What the folder of the test file `path` promises to its tests."""
-    return NEEDS.get(path.relative_to(TESTS).parts[0], ())
+    """What the folder of the test file `path`, or the folder `path`, promises to its tests."""
+    return NEEDS.get(next(iter(path.relative_to(TESTS).parts), ""), ())
 
 
 class CheckedModule(pytest.Module):
@@ -111,9 +123,24 @@ def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> 
     return CheckedModule.from_parent(parent, path=module_path)
 
 
+def pytest_ignore_collect(collection_path: Path) -> bool | None:
+    within = collection_path.is_relative_to(TESTS)
+    return True if within and left_out() & set(folder_needs(collection_path)) else None
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    needless = [item for item in items if left_out() & set(_marked(item))]
+    config.hook.pytest_deselected(items=needless)
+    items[:] = [item for item in items if item not in needless]
+
+
 def pytest_runtest_setup(item: pytest.Item) -> None:
-    for marker in item.iter_markers("needs"):
-        require(marker.args)
+    require(_marked(item))
+
+
+def _marked(item: pytest.Item) -> tuple[str, ...]:
+    """What a test needs beyond what its folder says."""
+    return tuple(name for marker in item.iter_markers("needs") for name in marker.args)
 
 
 @pytest.fixture(autouse=True)

@@ -19,7 +19,7 @@ SLOPES = np.array([[0.3, -0.4, 0.2], [0.5, 0.1, -0.2], [-0.1, 0.2, 0.6]])
 AXES = np.array([[0.6, 0.8, 0.0], [0.0, 0.6, -0.8], [0.48, -0.6, 0.64]])
 """One row a channel: nothing is alike along any two axes, so no mix-up of axes goes unseen."""
 
-type Radiance = Callable[[np.ndarray], np.ndarray]
+Radiance = Callable[[np.ndarray], np.ndarray]
 
 
 def environment_radiance(direction: np.ndarray) -> np.ndarray:

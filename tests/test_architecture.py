@@ -148,7 +148,7 @@ def test_state_of_the_running_extension_is_its_session_s() -> None:
                 if isinstance(node, ast.Assign | ast.AnnAssign):
                     targets = node.targets if isinstance(node, ast.Assign) else [node.target]
                     names = {name.id for each in targets for name in ast.walk(each) if hasattr(name, "id")}
-                    found |= {(path.stem, name) for name in names if not name.isupper()}
+                    found |= {(path.stem, name) for name in names if name.strip("_")[0].islower()}
     # Blender keeps no copy of an enumeration's words
     assert found == {("running", "_running"), ("bake_properties", "_studios")}
 

@@ -4,12 +4,14 @@ import json
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, TypeVar
 
 from ..core.errors import RsibrWarning
 from ..core.progress import Progress, Steps
 from .endings import done, orderly
 from .streams import CLEAR_LINE, Outlet
+
+Result = TypeVar("Result")
 
 BAR_WIDTH = 24
 
@@ -44,7 +46,7 @@ class Console:
         """Add a line to the result for people."""
         self.lines.append(line)
 
-    def steps[Result](self, steps: Steps[Result]) -> Result:
+    def steps(self, steps: Steps[Result]) -> Result:
         """Run long work to its end, showing where it is, and return its result.
 
         However it ends, the work's own cleaning up is done before this returns or raises. A signal that asks

@@ -6,10 +6,12 @@ from collections.abc import Mapping
 from dataclasses import MISSING
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from ..core.errors import RangeError
 from ..core.options import Declared, Options, declared_options, number_text, value_from_text
+
+Given = TypeVar("Given", bound=Options)
 
 SEVERAL = "several kinds"
 """Title of the options that more than one kind has, but not all."""
@@ -52,7 +54,7 @@ def add_option(parser: Any, declared: Declared, description: str) -> None:
     parser.add_argument(*flags, type=partial(_value, declared), required=required, action=action, **common)
 
 
-def given[Given: Options](arguments: argparse.Namespace, options: type[Given]) -> Given:
+def given(arguments: argparse.Namespace, options: type[Given]) -> Given:
     """The options that a command line gives, and the defaults of the others.
 
     Raises

@@ -21,10 +21,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-type Array = NDArray[np.floating[Any]]
+Array = NDArray[np.floating[Any]]
 """An array of floating-point numbers of any shape; docstrings say which."""
 
-type Indices = NDArray[np.integer[Any]]
+Indices = NDArray[np.integer[Any]]
 """An array of integers; docstrings say what they index."""
 
 __all__ = ["WORLD_AXES", "Array", "ArrayLike", "Indices", "texel_centres"]

@@ -2,9 +2,12 @@
 
 from collections.abc import Iterable, Iterator, MutableMapping
 from importlib import import_module
+from typing import TypeVar
+
+Row = TypeVar("Row")
 
 
-class LazyTable[Row](MutableMapping[str, Row]):
+class LazyTable(MutableMapping[str, Row]):
     """Name -> row, where the module of each name holds its row.
 
     Parameters

@@ -6,6 +6,9 @@ command drains it and draws a bar, a modal operator takes one step per timer eve
 
 from collections.abc import Generator
 from dataclasses import dataclass
+from typing import TypeVar
+
+Result = TypeVar("Result")
 
 
 @dataclass(frozen=True)
@@ -17,11 +20,11 @@ class Progress:
     what: str
 
 
-type Steps[Result] = Generator[Progress, None, Result]
+Steps = Generator[Progress, None, Result]
 """A generator of `Progress` whose return value is the result of the work."""
 
 
-def drain[Result](steps: Steps[Result]) -> Result:
+def drain(steps: Steps[Result]) -> Result:
     """Run `steps` to its end and return its result."""
     while True:
         try:

@@ -10,7 +10,7 @@ from .errors import ShapeError
 from .maps.representation import Representation
 from .splat import BLOCK, Splat
 
-type Wrap = Callable[[Indices, Indices, int, int], tuple[Indices, Indices]]
+Wrap = Callable[[Indices, Indices, int, int], tuple[Indices, Indices]]
 """`wrap` of a map representation: from texel indices beyond the edge to the texels that are there."""
 
 

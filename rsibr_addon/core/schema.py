@@ -19,7 +19,7 @@ from typing import (
     Literal,
     NoReturn,
     NotRequired,
-    TypeAliasType,
+    TypeVar,
     Union,
     get_args,
     get_origin,
@@ -32,6 +32,8 @@ import numpy as np
 
 from .conventions import Array
 from .errors import RangeError, SchemaError, ShapeError
+
+Decoded = TypeVar("Decoded")
 
 LARGEST_TEXT = 8 * 2**20
 """Most bytes of JSON that are read: a few times the largest fit, and at most 200 MB of memory."""
@@ -105,7 +107,7 @@ def loads(text: str | bytes) -> Any:
 
 
 @overload
-def decode[Decoded](schema: type[Decoded], plain: Any, where: str = "") -> Decoded: ...
+def decode(schema: type[Decoded], plain: Any, where: str = "") -> Decoded: ...
 
 
 @overload
@@ -219,8 +221,6 @@ def _check_depth_and_texts(plain: Any) -> None:
 
 
 def _decoded(schema: Any, plain: Any, where: str) -> Any:
-    if isinstance(schema, TypeAliasType):
-        return _decoded(schema.__value__, plain, where)
     if dataclasses.is_dataclass(schema):
         return _instance(schema, plain, where)
     if is_typeddict(schema):

@@ -8,6 +8,7 @@ last digits in all maps.
 """
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,8 @@ from .conventions import Array, Indices
 from .geometry.directions import dot
 from .maps.representation import Representation
 from .ties import TIE
+
+Scalar = TypeVar("Scalar", bound=np.generic)
 
 BLOCK = 1 << 17
 """Texels at a time, so that their data take some 50 MB however large the map is."""
@@ -281,7 +284,7 @@ def _part_beyond_corner(distance: Array, edges: Array) -> Array:
     return part
 
 
-def _four[Scalar: np.generic](values: NDArray[Scalar]) -> NDArray[Scalar]:
+def _four(values: NDArray[Scalar]) -> NDArray[Scalar]:
     """Each of K values four times, shape (K, 2, 2, ...)."""
     return np.broadcast_to(values[:, None, None], (len(values), 2, 2, *values.shape[1:]))
 

@@ -55,11 +55,9 @@ def check_name(path: Path) -> None:
     OutputFileError
     """
     try:
+        _look_at(path)  # first, as to resolve a loop of links is no OSError before Python 3.13
         str(path.resolve()).encode()
-        aside = path.resolve().with_name(staging_name()) / ("a" + path.suffix)
-        for name in (path, aside):
-            with contextlib.suppress(FileNotFoundError, NotADirectoryError, PermissionError):
-                name.stat()
+        _look_at(path.resolve().with_name(staging_name()) / ("a" + path.suffix))
     except ValueError as error:
         raise OutputFileError(
             f"{str(path)!a} cannot be a file's name: give one of letters in UTF-8."
@@ -83,6 +81,12 @@ def check_name(path: Path) -> None:
         raise OutputFileError(f"{folder} cannot be written to: change its permissions, or write elsewhere.")
     clear_strays(folder)
     clear_old_strays(path.resolve())
+
+
+def _look_at(path: Path) -> None:
+    """Raise what the system has against a name."""
+    with contextlib.suppress(FileNotFoundError, NotADirectoryError, PermissionError):
+        path.stat()
 
 
 def is_read_only(path: Path) -> bool:

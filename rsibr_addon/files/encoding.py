@@ -10,7 +10,7 @@ from ..core.conventions import Array, ArrayLike
 from ..core.light.transfer_curve import linear_from_srgb
 from .chromaticities import REC_709, rec709_from
 
-type Curve = Callable[[ArrayLike], Array]
+Curve = Callable[[ArrayLike], Array]
 """Light from a number in [0, 1]."""
 
 D50 = (0.9642, 1.0, 0.8249)

@@ -37,23 +37,23 @@ def _is_unit(value: list[float]) -> bool:
     return abs(math.hypot(*value) - 1.0) < 1e-5
 
 
-type Size = Annotated[list[Annotated[int, between(1, WIDEST)]], length(2, 2)]
-type Colour = Annotated[list[float], length(3, 3)]
-type Direction = Annotated[Colour, Rule("a unit vector", _is_unit)]
-type Hash = Annotated[
+Size = Annotated[list[Annotated[int, between(1, WIDEST)]], length(2, 2)]
+Colour = Annotated[list[float], length(3, 3)]
+Direction = Annotated[Colour, Rule("a unit vector", _is_unit)]
+Hash = Annotated[
     str, Rule("64 hexadecimal digits", lambda value: re.fullmatch("[0-9a-f]{64}", value) is not None)
 ]
-type Word = Annotated[
+Word = Annotated[
     str, Rule("a word of at most 64 letters", lambda value: re.fullmatch(r"[\w.-]{1,64}", value) is not None)
 ]
 """Part of a file's name, when maps are exported."""
 
 
-type Model = Annotated[str, length(0, 4096)]
+Model = Annotated[str, length(0, 4096)]
 """Text of a reflectance or material."""
 
 
-type Name = Annotated[str, length(1, 255)]
+Name = Annotated[str, length(1, 255)]
 """Name of a part, as OpenEXR allows it."""
 
 

@@ -12,7 +12,7 @@ from .working_space import working_from_rec709
 WIDTH = 1024
 """Width of the picture through which colours are sent, in pixels."""
 
-type Display = tuple[object, ...]
+Display = tuple[object, ...]
 """All settings that determine the display of radiance; equal for scenes that show it equally."""
 
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import bmesh
 import bpy
@@ -19,6 +19,8 @@ from numpy.typing import NDArray
 from ..core.conventions import Array, Indices
 from ..core.errors import InputFileError, SceneError
 from .scenes import temporary_scene
+
+T = TypeVar("T", bound=np.generic)
 
 MESH_NAMES = ("sphere", "monkey")
 """Meshes that `load_mesh` makes itself; any other name is a file."""
@@ -290,7 +292,7 @@ def _normals(mesh: bpy.types.Mesh) -> Array:
     return _read(mesh.vertex_normals if of_vertices else mesh.corner_normals, "vector", np.float32, 3)
 
 
-def _read[T: np.generic](items: Any, field: str, kind: type[T], width: int = 1) -> NDArray[T]:
+def _read(items: Any, field: str, kind: type[T], width: int = 1) -> NDArray[T]:
     """A property of every item, shape (len(items), width), without a Python loop."""
     values = np.empty(len(items) * width, dtype=kind)
     items.foreach_get(field, values)

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable
 from dataclasses import MISSING
 from enum import Enum
-from typing import Any
+from typing import Any, TypeVar
 
 import bpy
 
@@ -13,7 +13,8 @@ from ..core.options import Declared, Materials, Options, declared_options, value
 from ..files.measured_files import MEASURED_FORMATS, measured_spec
 from .bake_settings import existing
 
-type Update = Callable[[bpy.types.PropertyGroup, bpy.types.Context | None], None] | None
+Given = TypeVar("Given", bound=Options)
+Update = Callable[[bpy.types.PropertyGroup, bpy.types.Context | None], None] | None
 
 OWN, PRESET, MODEL, FILE = "OWN", "PRESET", "MODEL", "FILE"
 """Where a material is taken from."""
@@ -78,7 +79,7 @@ def property_name(declared: Declared) -> str:
     return declared.option.stored or declared.name
 
 
-def options_of[Given: Options](options: type[Given], group: Any, own: str = "") -> Given:
+def options_of(options: type[Given], group: Any, own: str = "") -> Given:
     """The options that properties say.
 
     Parameters

@@ -14,7 +14,7 @@ from .world_light import AS_IT_IS, WorldLight, world_light
 UNSHADED = ("WIRE", "BOUNDS")
 """Ways to display an object without its surface."""
 
-type Layer = tuple[int, str]
+Layer = tuple[int, str]
 """A view layer: its scene, and its name."""
 
 

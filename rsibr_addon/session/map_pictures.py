@@ -19,7 +19,7 @@ from ..tasks.report.pictures import MapPicture, map_set_pictures
 SECONDS = 0.1
 """Between two looks at whether a file has been read."""
 
-type Item = tuple[str, str, str, int, int]
+Item = tuple[str, str, str, int, int]
 """Item of an enumeration: identifier, name, description, icon, number."""
 
 

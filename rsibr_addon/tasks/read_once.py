@@ -4,11 +4,15 @@ import os
 from collections.abc import Callable
 from functools import lru_cache, wraps
 from pathlib import Path
+from typing import TypeVar, TypeVarTuple
 
 from ..files.pictures import split_layer
 
+More = TypeVarTuple("More")
+Told = TypeVar("Told")
 
-def read_once[*More, Told](read: Callable[[Path, *More], Told]) -> Callable[[Path, *More], Told]:
+
+def read_once(read: Callable[[Path, *More], Told]) -> Callable[[Path, *More], Told]:
     """Make a function of a file remember its result until the file's time or size changes.
 
     Parameters

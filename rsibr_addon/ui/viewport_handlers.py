@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from contextlib import ExitStack
 from functools import wraps
-from typing import Concatenate
+from typing import Concatenate, ParamSpec, TypeVar
 
 import bpy
 from bpy.app.handlers import persistent
@@ -11,6 +11,9 @@ from bpy.app.handlers import persistent
 from ..device.shaders import release_programs
 from ..host.visible_surfaces import current_view
 from ..session.running import Session, session
+
+Given = ParamSpec("Given")
+Result = TypeVar("Result")
 
 RETRY_SECONDS = 0.5
 """While a render goes on, no data may come and go for the display's table."""
@@ -40,7 +43,7 @@ def start(undo: ExitStack) -> None:
         undo.callback(handlers.remove, function)
 
 
-def _guarded[**Given, Result](
+def _guarded(
     function: Callable[Concatenate[Session, Given], Result],
 ) -> Callable[Given, Result | None]:
     """Have what goes wrong in a function that Blender calls told once; it is given the session."""

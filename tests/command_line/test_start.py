@@ -36,15 +36,16 @@ sys.exit(run(sys.argv[1:]))
 """
 """Blender cannot be found, as if it were not installed."""
 
+FEW = ("--method", "single", "--slices", "2")
 LIGHT = ("--environment", "light.hdr")
 COMMANDS = {
     "info": ("info", "light.hdr"),
     "convert": ("convert", "light.hdr", "a.exr", "--from", "equirect", "--to", "octahedral", "--size", "16"),
     "mip-chain": ("bake", "mip-chain", *LIGHT, "--size", "8", "-o", "a.rsibr.exr"),
     "kernel-bank": ("bake", "kernel-bank", *LIGHT, "--size", "16", "-o", "bank.rsibr.exr"),
-    "lobe-stack": ("bake", "lobe-stack", *LIGHT, "--brdf", "phong:ks=.5,n=4", "-o", "stack.rsibr.exr"),
+    "lobe-stack": ("bake", "lobe-stack", *LIGHT, "--brdf", "phong:ks=.5,n=4", *FEW, "-o", "stack.rsibr.exr"),
     "tables": ("bake", "reflection-tables", *LIGHT, "--material", "matte", "-o", "tables.rsibr.exr"),
-    "fit": ("fit", "--brdf", "phong:ks=.5,n=4", "--lobes", "2", "--slices", "4", "-o", "a.json"),
+    "fit": ("fit", "--brdf", "phong:ks=.5,n=4", *FEW, "-o", "a.json"),
     "export": ("export", "mips.rsibr.exr", "-o", "a.ktx2"),
     "brackets": ("illuminate", "brackets", "light.hdr", "light.hdr", "--times", "1,2", "-o", "b.exr"),
 }

@@ -5,7 +5,7 @@ import pytest
 from rsibr.tests.bumpy_kinds import KINDS, frames_of
 from rsibr.tests.bumpy_sphere import energy, error, flicker, missing
 
-type Frames = list[dict[str, np.ndarray]]
+Frames = list[dict[str, np.ndarray]]
 
 
 @pytest.fixture(scope="module", params=KINDS)

@@ -33,7 +33,7 @@ WARPING = pytest.mark.parametrize("warping", Warping)
 PAPERS_WARPINGS = (Warping.SINGLE, Warping.SPLIT)
 """Their maps hold radiance itself, not radiance over albedo."""
 
-type MakeDestination = Callable[[RadianceViews, np.ndarray, int, Warping], Destination]
+MakeDestination = Callable[[RadianceViews, np.ndarray, int, Warping], Destination]
 
 
 def radiance_by_hand(

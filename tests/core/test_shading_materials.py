@@ -35,7 +35,7 @@ SIZE = 128
 NEW_VIEWS = [tuple(d) for d in normalize([(1.0, -0.7, 0.4), (-0.2, 0.1, -1.0), (0.5, 0.6, 0.7)]).tolist()]
 BY_MAP = pytest.mark.parametrize("destination", [destination_by_texel, destination_by_mesh])
 
-type MakeDestination = Callable[[RadianceViews, np.ndarray, int, Warping], Destination]
+MakeDestination = Callable[[RadianceViews, np.ndarray, int, Warping], Destination]
 
 
 RADII = (0.5, 0.7, 0.8, 0.9, 0.95, 0.97)

@@ -15,7 +15,7 @@ pytestmark = pytest.mark.needs("gl")
 CAPTURE = ["capture", "--environment", "forest", "--material", "copper", "--size", "16", "--samples", "2"]
 CAPTURE += ["-o", "copper.rsibr.exr"]
 
-type Command = Callable[..., dict[str, Any]]
+Command = Callable[..., dict[str, Any]]
 
 
 @pytest.fixture

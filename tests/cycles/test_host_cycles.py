@@ -24,7 +24,7 @@ from rsibr.tests.open_file import open_file_state
 
 ASLANT = Camera((1.0, -1.0, 0.5))
 
-type Make = Callable[[], bpy.types.Material]
+Make = Callable[[], bpy.types.Material]
 
 
 def uniform(*radiance: float) -> Environment:

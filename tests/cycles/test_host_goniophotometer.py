@@ -17,8 +17,8 @@ pytestmark = pytest.mark.needs("cycles")
 SLICES = (0, 20, 43)
 """Angles of 1, 41 and 87 degrees between half vector and light."""
 
-type Tree = bpy.types.NodeTree
-type Build = Callable[[Tree], bpy.types.NodeSocket]
+Tree = bpy.types.NodeTree
+Build = Callable[[Tree], bpy.types.NodeSocket]
 
 
 def pairs(angle: int) -> tuple[np.ndarray, np.ndarray]:

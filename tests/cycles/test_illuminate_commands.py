@@ -11,7 +11,7 @@ from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.files.radiance_pictures import read_radiance
 from rsibr.tests.json_command import json_result
 
-type Command = Callable[..., dict[str, Any]]
+Command = Callable[..., dict[str, Any]]
 
 SMALL = ("--size", "32", "--samples", "2")
 

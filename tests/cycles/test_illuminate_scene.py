@@ -22,7 +22,7 @@ from rsibr.tests.open_file import open_file_state
 SIZE = 128
 POINT = (3.0, -2.0, 1.5)
 
-type AddLamp = Callable[..., bpy.types.Object]
+AddLamp = Callable[..., bpy.types.Object]
 
 
 @pytest.fixture

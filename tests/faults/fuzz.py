@@ -36,7 +36,8 @@ from rsibr.rsibr_addon.tasks.report.facts import map_set_content, map_set_facts,
 from rsibr.rsibr_addon.tasks.report.pictures import map_set_pictures
 from rsibr.tests.faults.fuzzing import Reader, run_cases
 from rsibr.tests.faults.mutations import damaged_bytes, damaged_json
-from rsibr.tests.faults.small_map_sets import json_files, map_sets
+from rsibr.tests.faults.small_json_files import json_files
+from rsibr.tests.faults.small_map_sets import map_sets
 
 SECONDS = 10
 """That no case takes."""

@@ -22,8 +22,8 @@ from pathlib import Path
 
 from rsibr.rsibr_addon.core.errors import RsibrError, RsibrWarning
 
-type Reader = Callable[[Path], object]
-type Cases = Callable[[Path, random.Random], Iterator[tuple[Path, Reader]]]
+Reader = Callable[[Path], object]
+Cases = Callable[[Path, random.Random], Iterator[tuple[Path, Reader]]]
 
 ENDS = "done", "refused"
 

@@ -19,7 +19,7 @@ NASTY: list[Any] = [
     *({}, {"": None}, {"name": []}, {"brdf": {}}, {"path": "/dev/zero"}, [0] * 5000, {"a": [1, {"b": 2}]}),
 ]
 
-type _Place = tuple[Any, Any]
+_Place = tuple[Any, Any]
 """A list or an object, and an index or a name in it."""
 
 

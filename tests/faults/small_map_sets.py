@@ -1,28 +1,16 @@
 """A small map set of each kind, and the other files of ours that hold JSON."""
 
-import json
-from pathlib import Path
-
 import numpy as np
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.kinds.kernel_bank.filtered_bank import FilteredBank
 from rsibr.rsibr_addon.core.kinds.lobe_stack.stack import LobeStack, stack_representation
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
-from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, Warping
 from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTables, Role
 from rsibr.rsibr_addon.core.lobes.bake import BakedBank
 from rsibr.rsibr_addon.core.lobes.bank import KernelBank
-from rsibr.rsibr_addon.files.fits import write_fit
 from rsibr.rsibr_addon.files.kinds import kernel_bank, lobe_stack, mip_chain, reflection_tables
 from rsibr.rsibr_addon.files.map_set_data import MapSet
 from rsibr.rsibr_addon.files.map_set_header import Origin
-from rsibr.rsibr_addon.job import CommandJob
-from rsibr.rsibr_addon.settings.comparison import ComparisonOptions
-from rsibr.rsibr_addon.settings.lobe_stack import StackComparison
-from rsibr.rsibr_addon.settings.radiance_views import ViewsComparison
-from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, WayError
-from rsibr.rsibr_addon.tasks.compare.lobe_stack import StackWay
-from rsibr.rsibr_addon.tasks.compare.radiance_views import ViewsWay
 from rsibr.tests.lobe_stacks import random_fit, random_stack
 from rsibr.tests.mirror_capture import mirror_map_set
 
@@ -34,24 +22,6 @@ BRDF = "layered:coat=(ggx:alpha=0.1,eta=1.5),base=(lambert:kd=0.3/0.05/0.02)"
 def map_sets() -> list[MapSet]:
     """One of each kind, with all that a kind can say."""
     return [mirror_map_set(size=4), _lobe_stack(), _kernel_bank(), _reflection_tables(), _mip_chain()]
-
-
-def json_files(folder: Path) -> dict[str, str]:
-    """Name -> text, of fits, jobs and comparisons."""
-    write_fit(folder / "fit.json", random_fit(KernelBank((0.5, 4.0))), {"E": 0.1}, force=True)
-    fit = (folder / "fit.json").read_text()
-    job = CommandJob(("bake", "--brdf", BRDF, "--size", "16", "--output", "out.rsibr.exr")).to_json()
-    views = _comparison(
-        ViewsComparison(views=2), WayError(ViewsWay(12, Mode.PAPER, Warping.SPLIT), (0.1, 0.2), 0.15)
-    )
-    stack = _comparison(StackComparison(views=2), WayError(StackWay(2, 4, 2), (0.1, 0.2), 0.15))
-    return {"fit.json": fit, "job.json": job, "views.json": views, "stack.json": stack}
-
-
-def _comparison(settings: ComparisonOptions, error: WayError) -> str:
-    view_dirs = ((0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
-    found = Comparison("a.rsibr.exr", "0" * 64, "forest", "copper", 8, settings, view_dirs, 0.001, (error,))
-    return json.dumps(found.to_json())
 
 
 def _lobe_stack() -> MapSet:

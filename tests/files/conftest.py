@@ -12,10 +12,10 @@ from rsibr.rsibr_addon.files.map_set_data import MapSet
 
 @pytest.fixture
 def blender_worlds() -> Path:
-    """The folder of Blender's own environments, found without starting Blender."""
+    """The folder of Blender's own environments: mark what uses it with ``needs("bpy")``."""
     spec = find_spec("bpy")
-    if spec is None or spec.origin is None:
-        pytest.skip("bpy, whose wheel holds Blender's own environments, is not installed")
+    assert spec is not None
+    assert spec.origin is not None
     (folder,) = Path(spec.origin).parent.glob("*/datafiles/studiolights/world")
     return folder
 

@@ -81,6 +81,7 @@ def test_negative_values_are_counted_and_taken_as_nothing(tmp_path: Path) -> Non
     np.testing.assert_array_equal(environment.radiance, np.maximum(rgb, 0)[::-1])
 
 
+@pytest.mark.needs("bpy")
 def test_blenders_own_environments(blender_worlds: Path) -> None:
     paths = sorted(blender_worlds.glob("*.exr"))
     assert len(paths) == 8

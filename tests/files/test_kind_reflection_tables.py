@@ -72,7 +72,7 @@ def test_rows_of_weights_go_by_their_names() -> None:
     np.testing.assert_array_equal(from_map_set(PATH, other).weights, tables.weights)
 
 
-type Change = Callable[[dict[str, Any], dict[str, np.ndarray]], None]
+Change = Callable[[dict[str, Any], dict[str, np.ndarray]], None]
 
 
 def lay_out_as_cubes(header: dict[str, Any], maps: dict[str, np.ndarray]) -> None:

@@ -19,7 +19,7 @@ from rsibr.rsibr_addon.files.map_set_data import MapSet
 from rsibr.rsibr_addon.files.pictures import write_exr
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 
-type MakeViews = Callable[..., MapSet]
+MakeViews = Callable[..., MapSet]
 
 ELEVATION = {
     "mu": 0.5,

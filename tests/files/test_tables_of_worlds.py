@@ -39,12 +39,14 @@ def sum_over_texels(world: Environment, n: float) -> np.ndarray:
     return np.reshape(sums, (ROWS, 2 * ROWS, 3))
 
 
+@pytest.mark.needs("bpy")
 def test_the_diffuse_table_is_exact(world: Environment) -> None:
     made = bake(world, diffuse="lambert:kd=0.8").tables.maps[Role.DIFFUSE]
     # Radiance and tables are of single precision.
     np.testing.assert_allclose(made, 0.8 / np.pi * sum_over_texels(world, 1.0), rtol=2.0**-22)
 
 
+@pytest.mark.needs("bpy")
 @pytest.mark.parametrize("n", [2.0, 30.0, 400.0])
 def test_a_phong_table_keeps_its_bound(world: Environment, n: float) -> None:
     baked = bake(world, specular=f"phong:n={n},ks=0.5")

@@ -11,7 +11,7 @@ from rsibr.rsibr_addon.device.textures import GpuTexture
 
 WIDTH = 512
 
-type Samplers = dict[str, tuple[str, gpu.types.GPUTexture]]
+Samplers = dict[str, tuple[str, gpu.types.GPUTexture]]
 """Name in the shader -> its type in Blender's words, and the texture."""
 
 

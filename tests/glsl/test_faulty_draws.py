@@ -42,7 +42,7 @@ class InjectedError(Exception):
     """What a call is made to raise."""
 
 
-type Place = tuple[Any, int]
+Place = tuple[Any, int]
 """Code, and an offset in it."""
 
 

@@ -29,7 +29,7 @@ TOOL = 4
 
 EDITS = 10_000 if "RSIBR_MOMENTS" in os.environ else 100
 
-type Draw = Callable[[Previews], None]
+Draw = Callable[[Previews], None]
 
 _opened: list[str] | None = None
 """Files that Python opens, while someone wants to know."""

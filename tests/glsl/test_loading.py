@@ -24,7 +24,7 @@ from rsibr.tests.faults.small_map_sets import map_sets
 SIZE = 32
 KINDS = ("radiance_views", "lobe_stack", "reflection_tables", "mip_chain")
 
-type Draw = Callable[[Previews], np.ndarray]
+Draw = Callable[[Previews], np.ndarray]
 
 _opened: list[str] | None = None
 """Files that the thread which draws opens, while someone wants to know."""

@@ -25,7 +25,7 @@ BY_CAMERA = pytest.mark.parametrize("camera", CAMERAS, ids=["orthographic", "per
 MODE = pytest.mark.parametrize("mode", Mode)
 WARPING = pytest.mark.parametrize("warping", Warping)
 
-type Mesh = tuple[np.ndarray, np.ndarray, np.ndarray]
+Mesh = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 def fine_sphere(segments: int = 512) -> Mesh:

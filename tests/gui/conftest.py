@@ -13,7 +13,7 @@ from rsibr.tests.conftest import BLENDER_WINDOW
 
 ROOT = Path(__file__).parents[2]
 
-type Blender = Callable[..., subprocess.CompletedProcess[str]]
+Blender = Callable[..., subprocess.CompletedProcess[str]]
 
 
 @pytest.fixture(scope="session")

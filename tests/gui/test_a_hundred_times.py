@@ -7,7 +7,7 @@ from statistics import median
 import pytest
 from rsibr.tests.flat_capture import write_flat_capture
 
-type Told = Callable[[str], dict]
+Told = Callable[[str], dict]
 
 GROWTH = 20.0
 """[MB] of memory, the median of ten times, from the 20th to the 100th.

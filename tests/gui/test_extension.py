@@ -13,7 +13,7 @@ from rsibr.rsibr_addon.files.pictures import read_exr
 
 ROOT = Path(__file__).parents[2]
 
-type Blender = Callable[..., subprocess.CompletedProcess[str]]
+Blender = Callable[..., subprocess.CompletedProcess[str]]
 
 
 def test_the_zip_holds_what_runs_and_nothing_else(extension: Path) -> None:

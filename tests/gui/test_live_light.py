@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-type Told = Callable[[str], dict]
+Told = Callable[[str], dict]
 
 PRELUDE = """
 from bpy_extras.view3d_utils import location_3d_to_region_2d

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from rsibr.tests.gui.test_live_light import PRELUDE
 
-type Told = Callable[[str], dict]
+Told = Callable[[str], dict]
 
 WORLD = np.array([0.6, 0.3, 0.15])
 

@@ -12,7 +12,7 @@ from rsibr.rsibr_addon.files.kinds.kernel_bank import to_map_set
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.files.map_set_header import Origin
 
-type Told = Callable[[str], dict]
+Told = Callable[[str], dict]
 
 
 @pytest.fixture(autouse=True)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-type Told = Callable[[str], dict]
+Told = Callable[[str], dict]
 
 
 @pytest.fixture(autouse=True)

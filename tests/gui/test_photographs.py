@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.files.radiance_pictures import read_radiance, write_radiance
 
-type Told = Callable[[str], dict]
+Told = Callable[[str], dict]
 
 RADIANCE = np.geomspace(0.02, 8.0, 600).reshape(20, 30)[..., None] * np.array([1.0, 0.5, 0.8])
 TIMES = (0.1, 0.5, 2.0)

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from rsibr.tests.gui.test_panel import PRELUDE
 
-type Told = Callable[[str], dict]
+Told = Callable[[str], dict]
 
 OTHER = """
 bake_order = importlib.import_module(ROOT + ".rsibr_addon.tasks.queue.bake_request")

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 
-type Told = Callable[[str], dict]
+Told = Callable[[str], dict]
 
 
 @pytest.fixture(autouse=True)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from rsibr.tests.flat_capture import write_flat_capture
 
-type Told = Callable[[str], dict]
+Told = Callable[[str], dict]
 
 
 @pytest.fixture(autouse=True)

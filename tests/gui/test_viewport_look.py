@@ -8,7 +8,7 @@ import pytest
 from rsibr.rsibr_addon.files.pictures import write_exr
 from rsibr.tests.mirror_capture import environment, write_mirror_capture
 
-type Told = Callable[[str], dict]
+Told = Callable[[str], dict]
 
 
 def prepare(job: Path) -> None:

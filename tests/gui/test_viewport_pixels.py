@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from rsibr.tests.flat_capture import write_flat_capture
 
-type Told = Callable[[str], dict]
+Told = Callable[[str], dict]
 
 PURPLE = (0.5, 0.0, 0.5)
 

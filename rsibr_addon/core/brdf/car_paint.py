@@ -13,7 +13,7 @@ from .lambert import Lambert
 from .layered import Sum
 from .model import Brdf, Geometry
 
-type _Rgb = tuple[float, float, float]
+_Rgb = tuple[float, float, float]
 
 PAINTS: dict[str, tuple[_Rgb, tuple[tuple[_Rgb, float, float], ...]]] = {
     "ford_f8": (

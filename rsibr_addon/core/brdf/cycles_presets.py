@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 from .metals import METALS
 
-type Value = float | tuple[float, ...]
+Value = float | tuple[float, ...]
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from ..conventions import Array, ArrayLike
 from ..geometry.directions import dot
 from .parameters import Checked
 
-type BrdfFunction = Callable[[Array, Array], Array]
+BrdfFunction = Callable[[Array, Array], Array]
 """A function called like a `Brdf`: from light and view directions (..., 3) to (..., 3) [1/sr]."""
 
 

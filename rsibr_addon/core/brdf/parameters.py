@@ -8,7 +8,7 @@ import numpy as np
 
 from ..errors import RangeError
 
-type Color = float | tuple[float, float, float]
+Color = float | tuple[float, float, float]
 """A parameter for linear Rec. 709 red, green and blue; a single number is a grey, and kept as three."""
 
 

@@ -39,7 +39,7 @@ from .retroreflective import Retroreflective
 from .tabulated import Tabulated
 from .ward import Ward
 
-type ReadMeasured = Callable[[str, str], Brdf]
+ReadMeasured = Callable[[str, str], Brdf]
 """Reads a measured model: from its format, one of `MEASURED`, and its path."""
 
 MODELS: dict[str, type[Brdf]] = {

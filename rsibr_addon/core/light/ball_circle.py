@@ -10,7 +10,7 @@ from ..conventions import Array
 from ..errors import RangeError
 from ..ties import TIE, first_greatest, greatest_first
 
-type ComplexArray = NDArray[np.complexfloating[Any]]
+ComplexArray = NDArray[np.complexfloating[Any]]
 
 SMALLEST, LARGEST = 0.25, 0.75
 """Least and greatest radius of a ball, as shares of the photograph's shorter side."""

@@ -105,7 +105,7 @@ class Remainder:
         return float(np.sqrt(np.sum(self.weight @ self.values**2) / self.power))
 
 
-type Seek = Callable[[Remainder], Array]
+Seek = Callable[[Remainder], Array]
 """Chooses the axis of the next lobe."""
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..conventions import Array
 
-type AlongLine = Callable[[Array, Array, Array], Array]
+AlongLine = Callable[[Array, Array, Array], Array]
 """Integral of cap d(azimuth) along the line at x, from (x, y0) to (x, y1), x and y >= 0."""
 
 NODES = 12

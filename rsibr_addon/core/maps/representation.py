@@ -35,9 +35,9 @@ FRONT = camera_frame((0.0, -1.0, 0.0))
 AHEAD = FRONT * (1.0, 1.0, -1.0)
 """Axes of a viewer who looks along +Y: x right, y up, z ahead. Left-handed, as axes of cube pictures are."""
 
-type DirectionFromUv = Callable[[ArrayLike, Indices], Array]
-type UvFromDirection = Callable[[ArrayLike], tuple[Array, Indices]]
-type WrapSheets = Callable[[Indices, Indices, Indices, int, int], tuple[Indices, Indices, Indices]]
+DirectionFromUv = Callable[[ArrayLike, Indices], Array]
+UvFromDirection = Callable[[ArrayLike], tuple[Array, Indices]]
+WrapSheets = Callable[[Indices, Indices, Indices, int, int], tuple[Indices, Indices, Indices]]
 
 
 @dataclass(frozen=True, eq=False)

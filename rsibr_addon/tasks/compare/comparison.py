@@ -158,7 +158,7 @@ class Comparison:
         )
 
 
-type _NotNegative = Annotated[float, Rule("a number from 0", lambda value: value >= 0.0)]
+_NotNegative = Annotated[float, Rule("a number from 0", lambda value: value >= 0.0)]
 
 
 class _Error(TypedDict):

@@ -20,7 +20,7 @@ from ...settings.photographs import BallBrackets, BallSettings, BracketSettings
 from .brackets import in_order, known_times, merged, read_photographs
 from .light_pictures import read_light
 
-type Where = tuple[float, float, float] | None
+Where = tuple[float, float, float] | None
 """x, y and radius of the ball's outline in pixels from the top left corner of a photograph as it is stored;
 None to find it."""
 

@@ -3,6 +3,7 @@
 import warnings
 from collections.abc import Generator, Iterator
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 
@@ -22,6 +23,8 @@ from ...device.kinds.lobe_stack import GpuLobeStack
 from ...files.brdfs import read_measured
 from .latest_request_worker import LatestRequestWorker
 
+Result = TypeVar("Result")
+
 SLICES = 16
 """View elevations of a fit."""
 
@@ -38,7 +41,7 @@ FITS_KEPT = 256
 KEPT = 8
 """What is drawn stays until so many others have been uploaded since."""
 
-type _Quality = tuple[int, int, int | None]
+_Quality = tuple[int, int, int | None]
 
 
 class LiveFits:
@@ -229,7 +232,7 @@ class LiveMaterials:
             self._made.pop(forgotten, None)
 
 
-def _unshown[Result](steps: Steps[Result]) -> Generator[bool, None, Result]:
+def _unshown(steps: Steps[Result]) -> Generator[bool, None, Result]:
     """Steps after which nothing new can be shown."""
     while True:
         try:

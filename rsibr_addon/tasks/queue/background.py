@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
-from typing import NotRequired, TextIO, TypedDict
+from typing import Generic, NotRequired, TextIO, TypedDict, TypeVar
 
 from ...core.errors import SchemaError
 from ...core.progress import Progress
@@ -218,7 +218,10 @@ class Bake:
             return {"ok": False}
 
 
-class BakeQueue[B: Bake]:
+B = TypeVar("B", bound=Bake)
+
+
+class BakeQueue(Generic[B]):
     """Bakes in the order in which they were added, one at a time."""
 
     def __init__(self) -> None:

@@ -22,7 +22,7 @@ TEXEL_BYTES = 16
 PIECE_BYTES = 16 * 2**20
 """What a redraw uploads: it takes Mesa's software driver some 20 ms."""
 
-type Stamp = tuple[int, int, int]
+Stamp = tuple[int, int, int]
 """Another for a file that has been written anew."""
 
 

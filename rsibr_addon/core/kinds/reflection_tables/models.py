@@ -124,7 +124,7 @@ class AlbedoReflectance:
     brdf: Brdf
 
 
-type DiffuseModel = LambertTable | LuminousTable
-type LobeModel = MirrorTable | PhongTable
-type CoatModel = ConstantReflectance | FresnelReflectance
-type WeightModel = FresnelReflectance | AlbedoReflectance
+DiffuseModel = LambertTable | LuminousTable
+LobeModel = MirrorTable | PhongTable
+CoatModel = ConstantReflectance | FresnelReflectance
+WeightModel = FresnelReflectance | AlbedoReflectance

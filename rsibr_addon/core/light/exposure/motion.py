@@ -10,7 +10,7 @@ from ...conventions import Array, Indices
 from ...resample import bilinear
 from ...ties import first_greatest
 
-type ComplexArray = NDArray[np.complexfloating[Any]]
+ComplexArray = NDArray[np.complexfloating[Any]]
 """Points or vectors x + i y of the plane."""
 
 NOISE = 0.03

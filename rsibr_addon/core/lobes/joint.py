@@ -41,7 +41,7 @@ class State:
     Attributes
     ----------
     lookups : Lookups
-    weights : ndarray, shape (J, K, 3)
+    weights : ndarray, shape (J, K, C)
         Weights of the kernels.
     error : float
         sqrt(integral of |fit - target|^2 / integral of |target|^2), with what ridges add to it.
@@ -97,7 +97,7 @@ class JointFitter:
 
     def grow(self) -> None:
         """Add a lobe, at the elevation where tracking begins."""
-        self._angles = _added_lobe(self._projector, self._angles)
+        self._angles = added_lobe(self._projector, self._angles)
 
     def smooth(self, fit: Fit, price: float) -> Fit:
         """The same lobes, with axes and profiles that change more evenly over the elevations.
@@ -135,7 +135,7 @@ class JointFitter:
             `State.error` of each elevation.
         """
         start = _best_taps(self._projector, self._angles, taps)
-        states = _tracked(self._slices, self._bank, start, self._first, self._non_negative)
+        states = tracked(self._slices, self._bank, start, self._first, self._non_negative)
         return _fit(self._slices, self._bank, states, self._brdf), np.array([state.error for state in states])
 
 
@@ -155,8 +155,19 @@ def amplification(bank: KernelBank, state: State, target: TargetSlice) -> float:
     return float(total / np.sqrt(target.power))
 
 
-def _added_lobe(projector: Projector, angles: Array) -> Array:
-    """The best angles with one lobe more, shape (J + 1, 1)."""
+def added_lobe(projector: Projector, angles: Array) -> Array:
+    """The best angles with one lobe more.
+
+    Parameters
+    ----------
+    projector : Projector
+    angles : ndarray, shape (J, 1)
+        Angles of the present lobes from the normal [rad].
+
+    Returns
+    -------
+    ndarray, shape (J + 1, 1)
+    """
     candidates = [np.append(angles, [[angle]], axis=0) for angle in _ANGLES]
     starts = [min((Lookups(start, np.ones_like(start)) for start in candidates), key=projector.objective)]
     if len(angles):
@@ -205,24 +216,51 @@ def _spread(angles: Array, width: float) -> Array:
     return spread
 
 
-def _tracked(
+def tracked(
     slices: Sequence[TargetSlice], bank: KernelBank, start: Lookups, first: int, non_negative: bool
 ) -> list[State]:
-    """The fit at every elevation, each from its neighbour's tilts, beginning with `first`."""
+    """The fit at every elevation, each from its neighbour's tilts.
+
+    Parameters
+    ----------
+    slices : sequence of TargetSlice
+        In ascending order of elevation.
+    bank : KernelBank
+    start : Lookups
+        Where the fit begins, at the elevation of number `first`.
+    first : int
+    non_negative : bool
+        Whether no kernel may have a negative weight.
+
+    Returns
+    -------
+    list of State
+        One for each elevation.
+    """
     states: dict[int, State] = {}
     for order in (range(first, len(slices)), range(first - 1, -1, -1)):
         neighbour = first
         for index in order:
             lookups = states[neighbour].lookups if states else start
-            tilts = _tilts(slices[neighbour], lookups.angles)
+            tilts = tilts_of(slices[neighbour], lookups.angles)
             angles = slices[index].theta - tilts * np.sin(slices[index].theta)
-            states[index] = _settled(slices[index], bank, Lookups(angles, lookups.taps), non_negative)
+            states[index] = settled(slices[index], bank, Lookups(angles, lookups.taps), non_negative)
             neighbour = index
     return [states[index] for index in range(len(slices))]
 
 
-def _settled(target: TargetSlice, bank: KernelBank, lookups: Lookups, non_negative: bool) -> State:
-    """The nearest optimum that keeps the greatest amplification."""
+def settled(target: TargetSlice, bank: KernelBank, lookups: Lookups, non_negative: bool) -> State:
+    """The nearest optimum that keeps the greatest amplification.
+
+    Parameters
+    ----------
+    target : TargetSlice
+    bank : KernelBank
+    lookups : Lookups
+        Where to start, and what axes and taps are tied to.
+    non_negative : bool
+        Whether no kernel may have a negative weight.
+    """
     most = MOST_AMPLIFICATION if len(lookups.taps) > 1 else MOST_OF_ONE
     stiffness = 1.0
     while True:
@@ -235,8 +273,14 @@ def _settled(target: TargetSlice, bank: KernelBank, lookups: Lookups, non_negati
         stiffness *= _STIFFER
 
 
-def _tilts(target: TargetSlice, angles: Array) -> Array:
-    """Offsets of axes from the mirror direction, as `fit.lobe_axes` counts them."""
+def tilts_of(target: TargetSlice, angles: Array) -> Array:
+    """Offsets of axes, by their angles from the normal [rad], from the mirror direction.
+
+    Returns
+    -------
+    ndarray, shape of `angles`
+        As `fit.lobe_axes` counts them.
+    """
     tilts: Array = (target.theta - angles) / np.sin(target.theta)
     return tilts
 
@@ -244,7 +288,7 @@ def _tilts(target: TargetSlice, angles: Array) -> Array:
 def _fit(slices: Sequence[TargetSlice], bank: KernelBank, states: Sequence[State], brdf: str) -> Fit:
     weights = np.stack([state.weights for state in states], axis=1)
     taps = np.stack([state.lookups.taps for state in states], axis=1)
-    tilts = [_tilts(target, state.lookups.angles) for target, state in zip(slices, states, strict=True)]
+    tilts = [tilts_of(target, state.lookups.angles) for target, state in zip(slices, states, strict=True)]
     offsets = np.stack([np.stack(tilts, axis=1), np.zeros_like(taps)], axis=-1)
     # One sign at all elevations, or interpolation between them would cancel lobes
     sign = np.where(taps.sum(axis=(1, 2), keepdims=True) < 0.0, -1.0, 1.0)

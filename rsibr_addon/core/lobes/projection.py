@@ -49,7 +49,7 @@ class Projection:
 
     Attributes
     ----------
-    weights : ndarray, shape (J, K, 3)
+    weights : ndarray, shape (J, K, C)
         Weights of the kernels.
     objective : float
         Squared error with what `UNIFORM_LIGHT` and the ridges add, over the target's power.
@@ -87,10 +87,10 @@ class Projector:
         self, target: TargetSlice, bank: KernelBank, stiffness: float = 1.0, non_negative: bool = False
     ) -> None:
         self.target, self.bank, self.non_negative = target, bank, non_negative
-        norm = np.sqrt(target.power)
+        norm, self._channels = np.sqrt(target.power), len(target.albedo)
         light = target.weight[:, None] * target.lobe / norm
         x, _, z = target.light_dir.T[..., None]
-        self._weighted = np.concatenate([x * light, z * light, light], axis=1)
+        self._weighted = np.stack([x * light, z * light, light], axis=1).reshape(len(light), -1)
         self._albedo = target.albedo / norm
         per_light = 1.0 / float(np.sum(self._albedo**2))
         self._light = UNIFORM_LIGHT * per_light
@@ -114,7 +114,7 @@ class Projector:
         Returns
         -------
         system : ndarray, shape (J K, J K)
-        right : ndarray, shape (J K, 3)
+        right : ndarray, shape (J K, C)
         """
         moments, _ = self._moments(lookups.angles.ravel())
         products, _, _ = self._products(lookups.angles.ravel())
@@ -122,7 +122,7 @@ class Projector:
         return system, _summed_over_taps(moments, lookups.taps)
 
     def weights(self, coefficients: Array) -> Array:
-        """Weights of kernels, shape (J, K, 3), from coefficients in units of their power and the target's."""
+        """Weights of kernels, shape (J, K, C), from coefficients in units of their power and the target's."""
         weights: Array = coefficients * self._unit[:, None] * np.sqrt(self.target.power)
         return weights
 
@@ -135,9 +135,9 @@ class Projector:
         coefficients, inverse, objective = self._solve(lookups, moments, products)
         # Each derivative is a function on the sphere: with respect to an angle the tap times the slope of its
         # profile there, with respect to a tap the profile itself. Row: kernel of an axis; column: axis
-        profiles = np.zeros((count, len(self.bank), count, 3))
+        profiles = np.zeros((count, len(self.bank), count, self._channels))
         profiles[np.arange(count), :, np.arange(count)] = np.repeat(coefficients, taps, axis=0)
-        profiles = profiles.reshape(-1, count, 3)
+        profiles = profiles.reshape(-1, count, self._channels)
         slopes_of = profiles * tap[:, None]
         with_kernels = np.concatenate(
             [-np.tensordot(first, slopes_of, 1), np.tensordot(products, profiles, 1)], axis=1
@@ -151,7 +151,7 @@ class Projector:
             [np.einsum("rpc,rc->p", slopes_of, slopes), np.einsum("rpc,rc->p", profiles, moments)]
         )
         with_lobes = _summed_over_taps(with_kernels, lookups.taps)
-        fitted = np.einsum("rpc,rc->p", with_lobes, coefficients.reshape(-1, 3))
+        fitted = np.einsum("rpc,rc->p", with_lobes, coefficients.reshape(-1, self._channels))
         seen = np.einsum("crs,spc->rpc", inverse, with_lobes, optimize=True)
         hessian = pairs.reshape(2 * count, 2 * count) - np.einsum("rpc,rqc->pq", with_lobes, seen)
         return Projection(
@@ -162,19 +162,19 @@ class Projector:
         )
 
     def _moments(self, angles: Array) -> tuple[Array, Array]:
-        """Products of kernels with the target, and their slopes over the angle, shapes (count * K, 3)."""
+        """Products of kernels with the target, and their slopes over the angle, shapes (count * K, C)."""
         x, y, z = self.target.light_dir.T
         sine, cosine = np.sin(angles)[:, None], np.cos(angles)[:, None]
         distance = 0.25 * ((x - sine) ** 2 + y**2 + (z - cosine) ** 2)
-        sums = np.empty((len(angles), len(self.bank), 3, 3))
+        sums = np.empty((len(angles), len(self.bank), 3, self._channels))
         for k, fall in enumerate(self.bank.falls(distance)):
-            sums[:, k] = (fall @ self._weighted).reshape(-1, 3, 3)
+            sums[:, k] = (fall @ self._weighted).reshape(-1, 3, self._channels)
         sums *= (self.bank.peaks * self._unit)[:, None, None]
         # The slope of x sin + z cos, times kappa, is that of a kernel's logarithm
         slopes = cosine[..., None] * sums[:, :, 0] - sine[..., None] * sums[:, :, 1]
         slopes *= self.bank.kappa[:, None]
         moments = sums[:, :, 2] + self._light * self._unit[:, None] * self._albedo
-        return moments.reshape(-1, 3), slopes.reshape(-1, 3)
+        return moments.reshape(-1, self._channels), slopes.reshape(-1, self._channels)
 
     def _products(self, angles: Array) -> tuple[Array, Array, Array]:
         """Products of kernels with kernels, and derivatives, shapes (count * K, count * K).
@@ -194,18 +194,18 @@ class Projector:
         return products, first, second
 
     def _solve(self, lookups: Lookups, moments: Array, products: Array) -> tuple[Array, Array, float]:
-        """Coefficients, shape (J, K, 3), the inverse of each channel's system, and the objective."""
+        """Coefficients, shape (J, K, C), the inverse of each channel's system, and the objective."""
         right = _summed_over_taps(moments, lookups.taps)
         system = _summed_over_taps(_summed_over_taps(products, lookups.taps).T, lookups.taps)
         if self.non_negative:
             inverse = np.stack([nonnegative_inverse(system, channel) for channel in right.T])
         else:
-            inverse = np.broadcast_to(np.linalg.inv(system), (3, *system.shape))
+            inverse = np.broadcast_to(np.linalg.inv(system), (self._channels, *system.shape))
         coefficients = np.einsum("crs,sc->rc", inverse, right)
         # In this form, rounding of the inverse counts only squared
         error = system @ coefficients - 2.0 * right
         objective = 1.0 + UNIFORM_LIGHT + float(np.sum(coefficients * error))
-        return coefficients.reshape(len(lookups.taps), -1, 3), inverse, objective
+        return coefficients.reshape(len(lookups.taps), -1, self._channels), inverse, objective
 
 
 def _summed_over_taps(rows: Array, taps: Array) -> Array:

@@ -30,9 +30,9 @@ class TargetSlice:
         Nodes of the quadrature, without those where the lobe is negligible.
     weight : ndarray, shape (N,)
         Solid angles [sr].
-    lobe : ndarray, shape (N, 3)
-        brdf * n.l [1/sr] in linear Rec. 709.
-    albedo : ndarray, shape (3,)
+    lobe : ndarray, shape (N, C)
+        brdf * n.l [1/sr] in C channels: those of linear Rec. 709, or whatever is fitted together.
+    albedo : ndarray, shape (C,)
         Integral of the lobe, above 0 in one channel at least.
     power : float
         Integral of its square, summed over the channels [1/sr].
@@ -53,7 +53,7 @@ class TargetSlice:
     @property
     def radius(self) -> float:
         """Angle [rad] about an axis within which a flat lobe of the same albedo has the same power."""
-        return float(np.sqrt(np.sum(self.albedo) ** 2 / (3.0 * np.pi * self.power)))
+        return float(np.sqrt(np.sum(self.albedo) ** 2 / (len(self.albedo) * np.pi * self.power)))
 
 
 def elevation_slices(count: int) -> Array:

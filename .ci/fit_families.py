@@ -1,0 +1,68 @@
+"""Fit the families of lobes that come with us, and measure them for docs/materials.md.
+
+Without the option --fit, what there is is measured.
+"""
+
+import argparse
+
+import numpy as np
+from docs_table import write_table
+from rsibr.rsibr_addon.core.brdf.fresnel import Fresnel, Index, Schlick
+from rsibr.rsibr_addon.core.brdf.ggx import Ggx
+from rsibr.rsibr_addon.core.conventions import Array
+from rsibr.rsibr_addon.core.lobes.accuracy import FitErrors, fit_errors
+from rsibr.rsibr_addon.core.lobes.family import Family
+from rsibr.rsibr_addon.core.lobes.family_fit import fit_ggx
+from rsibr.rsibr_addon.core.lobes.fresnel_powers import dielectric, schlick
+from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.files.families import SHIPPED, shipped_family, write_family
+
+MATERIALS: dict[str, tuple[Fresnel, Array]] = {
+    "white metal": (Schlick(f0=1.0), schlick(1.0)),
+    "F0 = .04": (Schlick(f0=0.04), schlick(0.04)),
+    "glass, 1.5": (Index(eta=1.5), dielectric(1.5)),
+    "water, 1.33": (Index(eta=1.33), dielectric(1.33)),
+}
+"""Name -> its Fresnel term, and that as a sum of powers."""
+
+SAMPLES = (0, 4, 8, 11, 13, 16, 19, 21, 24)
+
+
+def measured(family: Family, alpha: float, material: str) -> FitErrors:
+    """Errors of a material's lobes at the fitted elevations."""
+    fresnel, coefficients = MATERIALS[material]
+    fit = family.fit(alpha, np.repeat(coefficients[:, None], 3, axis=1), material)
+    return fit_errors(fit, Ggx(alpha=alpha, fresnel=fresnel))
+
+
+def errors(family: Family) -> str:
+    """E at samples of alpha, and halfway to the next one."""
+    lines = [
+        f"| alpha | {' | '.join(MATERIALS)} | albedo error | amplification |",
+        f"|---|{(len(MATERIALS) + 2) * '---|'}",
+    ]
+    for row in SAMPLES:
+        alpha = family.alpha[row : row + 2]
+        for between in (False, True)[: len(alpha)]:
+            width = float(np.sqrt(np.prod(alpha))) if between else float(alpha[0])
+            found = [measured(family, width, name) for name in MATERIALS]
+            columns = " | ".join(f"{each.error:.3f}" for each in found)
+            lines.append(
+                f"| {width:.3f}{' (between)' * between} | {columns} "
+                f"| {max(each.albedo_error for each in found):.2%} "
+                f"| {max(each.amplification.max() for each in found):.1f} |"
+            )
+    return "\n".join(lines)
+
+
+def main() -> None:
+    """Fit, where asked to, and write the table."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--fit", action="store_true", help="fit anew, a minute of processor time")
+    if parser.parse_args().fit:
+        write_family(SHIPPED / "ggx.npz", drain(fit_ggx()))
+    write_table("materials.md", "family", errors(shipped_family("ggx")))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,165 @@
+"""Fits families: lobes tracked over widths as over elevations, then smoothed, then solved.
+
+The axes are fitted to a few materials together, the guides, such as a white metal and a dielectric, each
+scaled to like power. For given axes the weights of all channels are one linear system (`projection`).
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from ..brdf.ggx import ggx_ndf, smith_visibility
+from ..brdf.model import BrdfFunction, Geometry
+from ..conventions import Array
+from ..progress import Progress, Steps
+from .bank import KernelBank
+from .family import KERNELS, Family
+from .fresnel_powers import dielectric, powers_of, schlick
+from .joint import MOST_AMPLIFICATION, State, added_lobe, amplification, settled, tilts_of, tracked
+from .projection import Lookups, Projector
+from .smoothing import lines
+from .target import TargetSlice, elevation_slices, target_slices
+
+WIDTHS = 2.0 ** np.linspace(-6.0, 0.0, 25)
+"""alpha of the rows of the GGX family, four an octave."""
+
+ELEVATIONS, LOBES = 16, 4
+
+GUIDES = np.stack([schlick(1.0), dielectric(1.5)], axis=1)
+"""A white metal and glass, as coefficients of `POWERS`, shape (C, 2)."""
+
+SMOOTHNESS = 0.1
+"""Price of tilts' squared distance from the line between their neighbours'."""
+
+_SHARPNESS = 25.0
+_FIRST_WIDTH, _FIRST_ELEVATION = 0.25, 0.25
+_STIFFER, _STIFFEST = 1.4, 1e4
+
+
+def ggx_by_powers(alpha: float) -> BrdfFunction:
+    """GGX times each of `fresnel_powers.POWERS`, as a function called like a `Brdf` with C channels."""
+
+    def brdf(light_dir: Array, view_dir: Array) -> Array:
+        light_dir, view_dir = np.broadcast_arrays(light_dir, view_dir)
+        above = (light_dir[..., 2] > 0.0) & (view_dir[..., 2] > 0.0)
+        pair = Geometry(light_dir[above], view_dir[above])
+        facets = ggx_ndf(pair.half_sine_squared, alpha) * smith_visibility(pair.n_dot_l, pair.n_dot_v, alpha)
+        found = np.zeros((*light_dir.shape[:-1], GUIDES.shape[0]))
+        found[above] = facets[:, None] * powers_of(pair.h_dot_l)
+        return found
+
+    return brdf
+
+
+def fit_ggx(widths: Array = WIDTHS, elevations: int = ELEVATIONS, lobes: int = LOBES) -> Steps[Family]:
+    """The family of GGX reflection of all widths and all Fresnel terms that are sums of `POWERS`."""
+    return (yield from fit_family(ggx_by_powers, GUIDES, widths, elevation_slices(elevations), lobes))
+
+
+def fit_family(
+    model: Callable[[float], BrdfFunction], guides: Array, widths: Array, mu: Array, lobes: int
+) -> Steps[Family]:
+    """Fit lobes to functions at all widths.
+
+    Parameters
+    ----------
+    model : callable
+        From a width to C functions, called like a `Brdf`.
+    guides : ndarray, shape (C, G)
+        Materials whose lobes the axes are fitted to, as coefficients of the functions.
+    widths : ndarray, shape (A,)
+    mu : ndarray, shape (S,)
+        Cosines of the view elevations, ascending.
+    lobes : int
+        Number J of lobes.
+    """
+    start = int(np.argmin(np.abs(np.log(widths / _FIRST_WIDTH))))
+    tilts: Array = np.empty((len(widths), len(mu), lobes))
+    rows: dict[int, list[TargetSlice]] = {}
+    outwards = [*range(start, len(widths)), *range(start - 1, -1, -1)]
+    for done, row in enumerate(outwards):
+        yield Progress(done, 2 * len(widths), f"tracking lobes at alpha {widths[row]:.3g}")
+        rows[row] = list(target_slices(model(float(widths[row])), mu))
+        guided = [_guided(target, guides) for target in rows[row]]
+        bank = kernels_of(widths[row])
+        if row == start:
+            first = int(_FIRST_ELEVATION * len(mu))
+            projector = Projector(guided[first], bank)
+            angles: Array = np.zeros((0, 1))
+            for _ in range(lobes):
+                angles = added_lobe(projector, angles)
+            states = tracked(guided, bank, Lookups(angles, np.ones_like(angles)), first, non_negative=False)
+        else:
+            neighbour = tilts[row - 1 if row > start else row + 1]
+            states = [
+                settled(target, bank, _lookups(target, each), non_negative=False)
+                for target, each in zip(guided, neighbour, strict=True)
+            ]
+        tilts[row] = [
+            tilts_of(target, state.lookups.angles)[:, 0] for target, state in zip(guided, states, strict=True)
+        ]
+    tilts = smoothed(tilts, np.log(widths), mu, SMOOTHNESS)
+    weights = np.zeros((*tilts.shape, len(KERNELS), len(guides)))
+    for row in range(len(widths)):
+        yield Progress(len(widths) + row, 2 * len(widths), f"solving for weights at alpha {widths[row]:.3g}")
+        bank = kernels_of(widths[row])
+        for column, target in enumerate(rows[row]):
+            weights[row, column, :, : len(bank)] = _solved(target, bank, tilts[row, column], guides)
+    return Family(widths, mu, KERNELS, tilts, weights)
+
+
+def kernels_of(alpha: float) -> KernelBank:
+    """The kernels of `KERNELS` that a width needs."""
+    return KernelBank(tuple(kappa for kappa in KERNELS.concentrations if kappa <= (_SHARPNESS / alpha) ** 2))
+
+
+def smoothed(tilts: Array, rows: Array, columns: Array, price: float) -> Array:
+    """Tilts that are nearer to lines over both axes.
+
+    Parameters
+    ----------
+    tilts : ndarray, shape (A, S, J)
+    rows, columns : ndarray, shapes (A,) and (S,)
+        Positions of the samples.
+    price : float
+        Of the squared distance of tilts from the line between their neighbours', in units of their own
+        squared change.
+    """
+    along, across = lines(rows), lines(columns)
+    penalty = np.kron(along.T @ along, np.eye(len(columns))) + np.kron(np.eye(len(rows)), across.T @ across)
+    flat = tilts.reshape(len(penalty), -1)
+    smooth: Array = np.linalg.solve(np.eye(len(penalty)) + price * penalty, flat).reshape(tilts.shape)
+    return smooth
+
+
+def _guided(target: TargetSlice, guides: Array) -> TargetSlice:
+    """The guides as a target, each of unit power."""
+    power = target.weight @ (target.lobe @ guides) ** 2
+    return _mixed(target, guides / np.sqrt(power))
+
+
+def _mixed(target: TargetSlice, coefficients: Array) -> TargetSlice:
+    """Sums of the channels as a target."""
+    lobe = target.lobe @ coefficients
+    power = float(np.sum(target.weight @ lobe**2))
+    return replace(target, lobe=lobe, albedo=target.weight @ lobe, power=power)
+
+
+def _lookups(target: TargetSlice, tilts: Array) -> Lookups:
+    angles = (target.theta - tilts * np.sin(target.theta))[:, None]
+    return Lookups(angles, np.ones_like(angles))
+
+
+def _solved(target: TargetSlice, bank: KernelBank, tilts: Array, guides: Array) -> Array:
+    """Weights of kernels, shape (J, K, C), for given axes; no guide is amplified too much."""
+    lookups, stiffness = _lookups(target, tilts), 1.0
+    while True:
+        weights = Projector(target, bank, stiffness).project(lookups).weights
+        loudest = max(
+            amplification(bank, State(lookups, weights @ guide, np.nan), _mixed(target, guide))
+            for guide in guides.T[:, :, None]
+        )
+        if loudest <= MOST_AMPLIFICATION or stiffness > _STIFFEST:
+            return weights
+        stiffness *= _STIFFER

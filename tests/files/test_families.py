@@ -1,0 +1,78 @@
+"""The family of lobes that comes with us: as accurate as the page says, and as its command makes it."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.core.brdf.albedo import directional_albedo
+from rsibr.rsibr_addon.core.brdf.fresnel import Fresnel, Index, Schlick
+from rsibr.rsibr_addon.core.brdf.ggx import Ggx
+from rsibr.rsibr_addon.core.errors import InputFileError
+from rsibr.rsibr_addon.core.lobes.accuracy import fit_errors
+from rsibr.rsibr_addon.core.lobes.family import Family
+from rsibr.rsibr_addon.core.lobes.family_fit import WIDTHS, fit_ggx
+from rsibr.rsibr_addon.core.lobes.fresnel_powers import dielectric, schlick
+from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.files.families import read_family, shipped_family, write_family
+
+PAGE = (Path(__file__).parents[2] / "docs" / "materials.md").read_text(encoding="utf-8")
+TERMS = {
+    "white metal": (Schlick(f0=1.0), schlick(1.0)),
+    "F0 = .04": (Schlick(f0=0.04), schlick(0.04)),
+    "glass, 1.5": (Index(eta=1.5), dielectric(1.5)),
+    "water, 1.33": (Index(eta=1.33), dielectric(1.33)),
+}
+
+
+def error(family: Family, alpha: float, fresnel: Fresnel, coefficients: np.ndarray) -> float:
+    fit = family.fit(alpha, np.repeat(coefficients[:, None], 3, axis=1), "ggx")
+    return fit_errors(fit, Ggx(alpha=alpha, fresnel=fresnel)).error
+
+
+@pytest.mark.parametrize("row", [8, 16])
+def test_its_errors_are_those_of_the_page(row: int) -> None:
+    family = shipped_family("ggx")
+    alpha = float(family.alpha[row])
+    (told,) = re.findall(rf"^\| {alpha:.3f} \| (.*) \|$", PAGE, re.MULTILINE)
+    for text, term in zip(told.split(" | "), TERMS.values(), strict=False):
+        # The page rounds to three digits
+        assert error(family, alpha, *term) == pytest.approx(float(text), abs=6e-4)
+
+
+def test_a_few_widths_fitted_anew_are_as_good() -> None:
+    family = shipped_family("ggx")
+    widths = WIDTHS[16:18]
+    made = drain(fit_ggx(widths))
+    for alpha in widths:
+        for term in (TERMS["white metal"], TERMS["water, 1.33"]):
+            # Fewer neighbours smooth the tilts, so they differ a little
+            assert error(made, alpha, *term) == pytest.approx(error(family, alpha, *term), rel=0.1)
+
+
+def test_albedos_are_sums_of_weights() -> None:
+    family = shipped_family("ggx")
+    for row in (8, 16, 24):
+        for fresnel, coefficients in (TERMS["white metal"], TERMS["F0 = .04"]):
+            exact = directional_albedo(Ggx(alpha=family.alpha[row], fresnel=fresnel), family.mu)[:, 0]
+            # The quadrature of `directional_albedo` errs by 5e-4
+            np.testing.assert_allclose(family.albedo[row] @ coefficients, exact, rtol=1e-3)
+
+
+def test_a_family_comes_back_as_it_was_written(tmp_path: Path) -> None:
+    family = shipped_family("ggx")
+    write_family(tmp_path / "again.npz", family)
+    again = read_family(tmp_path / "again.npz")
+    assert again.bank == family.bank
+    for name in ("alpha", "mu", "tilts", "weights"):
+        np.testing.assert_array_equal(getattr(again, name), getattr(family, name))
+
+
+def test_another_file_is_no_family(tmp_path: Path) -> None:
+    path = tmp_path / "family.npz"
+    for content in (b"", b"no arrays", b"PK\x05\x06" + bytes(18)):
+        path.write_bytes(content)
+        with pytest.raises(InputFileError, match=r"is no family of lobes: install RSIBR again"):
+            read_family(path)
+    with pytest.raises(InputFileError, match=r"is no family of lobes"):
+        read_family(tmp_path / "missing.npz")

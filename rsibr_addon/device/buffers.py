@@ -65,7 +65,11 @@ class KeptBlock:
             In the block's order: vectors of up to 4 numbers, filled up with 0; matrices of shape
             (4, 4) for column vectors; arrays of vectors of shape (n, 3) or (n, 4).
         """
-        values = _block(fields).tobytes()
+        return self.with_rows(_block(fields))
+
+    def with_rows(self, rows: Array) -> gpu.types.GPUUniformBuf:
+        """The same of a block's rows, shape (rows, 4), float32."""
+        values = rows.tobytes()
         block = self._uploaded.pop(values, None)
         if block is None and len(self._uploaded) < FRAMES_IN_FLIGHT:
             block = gpu.types.GPUUniformBuf(values)
@@ -113,13 +117,10 @@ def smooth(texture: gpu.types.GPUTexture) -> gpu.types.GPUTexture:
 
 def _block(fields: tuple[Array, ...]) -> Array:
     """Fields in a block's layout, shape (rows, 4), float32."""
-    return np.ascontiguousarray(np.concatenate([_rows_of_four(field) for field in fields]), np.float32)
-
-
-def _rows_of_four(field: Array) -> Array:
-    if field.shape == (4, 4):
-        return field.T  # GLSL stores matrices by column.
-    rows = np.atleast_2d(field)
-    filled: Array = np.zeros((len(rows), 4))
-    filled[:, : rows.shape[1]] = rows
-    return filled
+    heights = [1 if field.ndim == 1 else len(field) for field in fields]
+    block, row = np.zeros((sum(heights), 4), np.float32), 0
+    for field, height in zip(fields, heights, strict=True):
+        # GLSL stores matrices by column
+        block[row : row + height, : field.shape[-1]] = field.T if field.shape == (4, 4) else field
+        row += height
+    return block

@@ -22,25 +22,31 @@ class Draw:
     model, view, projection : ndarray, shape (4, 4)
     eye : ndarray, shape (4,)
         Homogeneous position of the eye in world space: see `core.geometry.camera.Camera.eye`.
-    view_dir : ndarray, shape (3,)
-        Unit vector from the object to the eye: the view of destination maps.
     turn : ndarray, shape (3, 3)
         Rotation from the world to that of the map set, for a world that was turned since the bake. It is for
-        shading alone: it turns position, normal and `eye`; `view_dir` is already turned.
+        shading alone: it turns position, normal and `eye`.
     """
 
     model: Array
     view: Array
     projection: Array
     eye: Array
-    view_dir: Array
     turn: Array = field(default_factory=lambda: np.eye(3))
 
-    def fields(self) -> tuple[Array, ...]:
-        """The block `Draw` of the shaders, as `buffers.KeptBlock` takes it."""
-        turn = np.eye(4)
-        turn[:3, :3] = self.turn
-        return self.model, self.view, self.projection, turn, turn @ self.eye
+    @property
+    def view_dir(self) -> Array:
+        """Unit vector from the object to the eye, turned: the view of destination maps."""
+        to_eye = self.turn @ (self.eye[:3] - self.eye[3] * self.model[:3, 3])
+        view_dir: Array = to_eye / np.sqrt(to_eye @ to_eye)
+        return view_dir
+
+    def block(self) -> Array:
+        """The rows of the block `Draw` of the shaders, which stores matrices by column."""
+        rows = np.zeros((17, 4), np.float32)
+        rows[0:4], rows[4:8], rows[8:12] = self.model.T, self.view.T, self.projection.T
+        rows[12:15, :3], rows[15, 3] = self.turn.T, 1.0
+        rows[16, :3], rows[16, 3] = self.turn @ self.eye[:3], self.eye[3]
+        return rows
 
 
 class GpuMesh:
@@ -72,7 +78,7 @@ class GpuMesh:
             A program of `shaders.mesh_interface`, bound, with all that it needs but the block `draw`.
         draw : Draw
         """
-        shader.uniform_block("draw", self._placed.filled(*draw.fields()))
+        shader.uniform_block("draw", self._placed.with_rows(draw.block()))
         self._batch.draw(shader)
 
 

@@ -16,6 +16,16 @@ def screen_triangle(shader: gpu.types.GPUShader) -> gpu.types.GPUBatch:
     return buffers.triangles(shader, {"position": _TRIANGLE}, np.array([[0, 1, 2]]))
 
 
+def screen_interface() -> gpu.types.GPUShaderCreateInfo:
+    """The interface of programs with screen_vert.glsl, to be completed with what they read and write."""
+    info = gpu.types.GPUShaderCreateInfo()
+    info.vertex_in(0, "VEC2", "position")
+    varyings = gpu.types.GPUStageInterfaceInfo("rsibr_screen")
+    varyings.smooth("VEC2", "map_uv")
+    info.vertex_out(varyings)
+    return info
+
+
 @contextmanager
 def plain_state() -> Iterator[None]:
     """Within, drawing replaces the target's content, whatever state Blender had set."""

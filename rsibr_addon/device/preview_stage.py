@@ -6,7 +6,7 @@ and only visible pixels are brought to the display.
 """
 
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import gpu
@@ -43,9 +43,7 @@ class Sight:
         turn : ndarray, shape (3, 3)
             As in `Draw`.
         """
-        to_eye = turn @ (self.eye[:3] - self.eye[3] * model[:3, 3])
-        view_dir = to_eye / np.linalg.norm(to_eye)
-        return Draw(model, self.view, self.projection, self.eye, view_dir, turn)
+        return Draw(model, self.view, self.projection, self.eye, turn)
 
 
 def current_sight() -> Sight:
@@ -135,12 +133,14 @@ class Stage:
 
 @contextmanager
 def _depth_test(test: str) -> Iterator[None]:
-    with ExitStack() as restored:
-        for change, before, value in (
-            (gpu.state.depth_test_set, gpu.state.depth_test_get(), test),
-            (gpu.state.depth_mask_set, gpu.state.depth_mask_get(), True),
-            (gpu.state.blend_set, gpu.state.blend_get(), "NONE"),
-        ):
-            restored.callback(change, before)
-            change(value)
+    depth_test, depth_mask = gpu.state.depth_test_get(), gpu.state.depth_mask_get()
+    blend = gpu.state.blend_get()
+    try:
+        gpu.state.depth_test_set(test)
+        gpu.state.depth_mask_set(True)
+        gpu.state.blend_set("NONE")
         yield
+    finally:
+        gpu.state.depth_test_set(depth_test)
+        gpu.state.depth_mask_set(depth_mask)
+        gpu.state.blend_set(blend)

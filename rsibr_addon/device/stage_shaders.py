@@ -5,6 +5,7 @@ Each raises a DeviceError where the driver refuses the program.
 
 import gpu
 
+from .passes import screen_interface
 from .shaders import build, kept_until_exit, mesh_interface
 
 
@@ -17,7 +18,7 @@ def occluder_shader() -> gpu.types.GPUShader:
 @kept_until_exit
 def composite_shader() -> gpu.types.GPUShader:
     """Brings a frame's previews to the display."""
-    info = gpu.types.GPUShaderCreateInfo()
+    info = screen_interface()
     info.push_constant("FLOAT", "scale")
     info.push_constant("FLOAT", "left")
     info.push_constant("FLOAT", "right")
@@ -26,10 +27,6 @@ def composite_shader() -> gpu.types.GPUShader:
     info.sampler(1, "DEPTH_2D", "depths")
     info.sampler(2, "FLOAT_3D", "display")
     info.sampler(3, "FLOAT_2D", "others")
-    info.vertex_in(0, "VEC2", "position")
-    varyings = gpu.types.GPUStageInterfaceInfo("rsibr_screen")
-    varyings.smooth("VEC2", "map_uv")
-    info.vertex_out(varyings)
     info.fragment_out(0, "VEC4", "colour")
     info.depth_write("ANY")
     return build("viewport_composite", info, "screen_vert.glsl", "viewport_composite_frag.glsl")

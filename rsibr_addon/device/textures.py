@@ -6,7 +6,7 @@ import numpy as np
 from ..core.conventions import Array
 from ..core.errors import DeviceError
 from . import buffers
-from .passes import plain_state, screen_triangle
+from .passes import plain_state, screen_interface, screen_triangle
 from .shaders import build, kept_until_exit
 
 
@@ -124,12 +124,8 @@ class GpuTexture:
 @kept_until_exit
 def texels_shader() -> gpu.types.GPUShader:
     """Copies rows of texels."""
-    info = gpu.types.GPUShaderCreateInfo()
+    info = screen_interface()
     info.push_constant("INT", "above")
     info.sampler(0, "FLOAT_2D", "piece")
-    info.vertex_in(0, "VEC2", "position")
-    varyings = gpu.types.GPUStageInterfaceInfo("rsibr_screen")
-    varyings.smooth("VEC2", "map_uv")
-    info.vertex_out(varyings)
     info.fragment_out(0, "VEC4", "texels")
     return build("texels", info, "screen_vert.glsl", "texels_frag.glsl")

@@ -228,52 +228,84 @@ def _joined(name: str, scene: bpy.types.Scene) -> TriangleMesh:
     """Everything in a scene as one mesh, in world coordinates."""
     scene.view_layers[0].update()
     depsgraph = scene.view_layers[0].depsgraph
-    positions, normals, triangles, count = [], [], [], 0
+    positions: list[Array] = [np.empty((0, 3), np.float32)]
+    normals: list[Array] = [np.empty((0, 3), np.float32)]
+    triangles: list[Indices] = [np.empty((0, 3), np.int32)]
+    count = 0
     for item in scene.objects:
         mesh = mesh_from_object(item, depsgraph)
-        matrix = np.array(item.matrix_world)
+        matrix = np.array(item.matrix_world, np.float32)
         # The importer only rotates, so normals turn as positions do.
         positions.append(mesh.positions @ matrix[:3, :3].T + matrix[:3, 3])
         normals.append(mesh.normals @ matrix[:3, :3].T)
-        triangles.append(mesh.triangles + count)
+        triangles.append(mesh.triangles + np.int32(count))
         count += len(mesh.positions)
-    empty = np.empty((0, 3))
-    return TriangleMesh(
-        name,
-        np.concatenate([empty, *positions]).astype(np.float32),
-        np.concatenate([empty, *normals]).astype(np.float32),
-        np.concatenate([empty, *triangles]).astype(np.int32),
-    )
+    return TriangleMesh(name, np.concatenate(positions), np.concatenate(normals), np.concatenate(triangles))
 
 
 def _fitted(mesh: TriangleMesh) -> TriangleMesh:
     """Centre the bounding box and scale the farthest vertex onto the unit sphere."""
-    positions = mesh.positions.astype(np.float64)
-    positions -= (positions.min(axis=0) + positions.max(axis=0)) / 2.0
-    radius = np.linalg.norm(positions, axis=-1).max()
-    if radius == 0.0:
+    low, high = (end(mesh.positions, axis=0).astype(np.float64) for end in (np.min, np.max))
+    if np.array_equal(low, high):
         raise InputFileError(f"All vertices of {mesh.name} are one point: give a mesh with an extent.")
-    return replace(mesh, positions=(positions / radius).astype(np.float32))
+    # Before single precision could overflow in a square
+    positions = (mesh.positions - (0.5 * (low + high)).astype(np.float32)) / np.float32((high - low).max())
+    radius = np.sqrt(np.einsum("ij,ij->i", positions, positions).max())
+    return replace(mesh, positions=positions / radius)
 
 
 def triangle_mesh(mesh: bpy.types.Mesh, name: str) -> TriangleMesh:
     """A mesh's surface, its vertices split where corners' normals differ."""
-    mesh.calc_loop_triangles()
-    positions, corner_vertices, normals = _positions(mesh), _corner_vertices(mesh), _normals(mesh)
-    corners = _read(mesh.loop_triangles, "loops", np.int32, 3)
+    positions, normals, corners = _positions(mesh), _normals(mesh), _triangle_corners(mesh)
+    vertices = _corner_vertices(mesh)[:, 0]
     if mesh.normals_domain == "POINT":
-        return TriangleMesh(name, positions, normals, corner_vertices[corners, 0])
-    keys = np.concatenate([corner_vertices, normals.view(np.int32)], axis=1)
+        return TriangleMesh(name, positions, normals, vertices[corners])
+    kept, split = _split_vertices(len(positions), vertices, normals.view(np.int32))
+    return TriangleMesh(name, positions[vertices[kept]], normals[kept], split[corners])
+
+
+def _split_vertices(count: int, vertices: Indices, normals: Indices) -> tuple[Indices, Indices]:
+    """One vertex for all corners that share a vertex and a normal.
+
+    Parameters
+    ----------
+    count : int
+        Number of vertices before.
+    vertices : ndarray, shape (C,)
+        Vertex of each corner.
+    normals : ndarray of int32, shape (C, 3)
+        Bits of each corner's normal.
+
+    Returns
+    -------
+    kept : ndarray, shape (V,)
+        A corner for each new vertex.
+    split : ndarray of int32, shape (C,)
+        New vertex of each corner.
+    """
+    numbers = np.arange(len(vertices), dtype=np.int32)
+    first = np.zeros(count, np.int32)
+    first[vertices[::-1]] = numbers[::-1]  # of what is set more than once, the last value stays
+    chosen = first[vertices]
+    # Most corners have the normal of their vertex's first one, and need no sort
+    others = np.flatnonzero(np.any(normals != normals[chosen], axis=1))
+    keys = np.concatenate([vertices[others, None], normals[others]], axis=1)
     # One sort of 16-byte keys instead of np.unique(axis=0)'s four columns.
-    _, first, vertex_of_corner = np.unique(
+    _, kinds, kind_of_other = np.unique(
         np.ascontiguousarray(keys).view("V16").ravel(), return_index=True, return_inverse=True
     )
-    return TriangleMesh(
-        name,
-        positions[corner_vertices[first, 0]],
-        normals[first],
-        vertex_of_corner[corners].astype(np.int32),
-    )
+    chosen[others] = others[kinds][kind_of_other]
+    is_kept = chosen == numbers
+    new_number = np.cumsum(is_kept, dtype=np.int32) - np.int32(1)
+    return np.flatnonzero(is_kept), new_number[chosen]
+
+
+def _triangle_corners(mesh: bpy.types.Mesh) -> Indices:
+    """Corners of each triangle, shape (T, 3)."""
+    if len(mesh.loops) == 3 * len(mesh.polygons):  # Blender would copy them one by one
+        return np.arange(len(mesh.loops), dtype=np.int32).reshape(-1, 3)
+    mesh.calc_loop_triangles()
+    return _read(mesh.loop_triangles, "loops", np.int32, 3)
 
 
 def _positions(mesh: bpy.types.Mesh) -> Array:

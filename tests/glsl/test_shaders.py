@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 from rsibr.rsibr_addon.core.errors import DeviceError
+from rsibr.rsibr_addon.device import preview, shaders, stage_shaders, textures
 from rsibr.rsibr_addon.device import shader_source as sources
-from rsibr.rsibr_addon.device import shaders, stage_shaders
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.kinds import (
     environment,
@@ -30,6 +30,8 @@ PROGRAMS = [
     reflection_tables.reflection_tables_shader,
     environment.environment_shader,
     lobe_stack.lobe_stack_shader,
+    preview.sample_means_shader,
+    textures.texels_shader,
     stage_shaders.composite_shader,
     stage_shaders.occluder_shader,
     live_environment_shaders.face_shader,

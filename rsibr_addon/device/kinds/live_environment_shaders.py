@@ -5,6 +5,7 @@ Each raises a DeviceError where the driver refuses the program.
 
 import gpu
 
+from ..passes import screen_interface
 from ..shaders import build, kept_until_exit, mesh_interface
 from .mip_chain_shaders import LOOK_FIELDS
 
@@ -62,16 +63,12 @@ def _build_pass(
     name: str, samplers: tuple[str, ...], whole_numbers: tuple[str, ...], *defines: str
 ) -> gpu.types.GPUShader:
     """A program that draws the triangle of the whole target: from maps to a map."""
-    info = gpu.types.GPUShaderCreateInfo()
+    info = screen_interface()
     for define in defines:
         info.define(define)
     for slot, sampler in enumerate(samplers):
         info.sampler(slot, "FLOAT_2D", sampler)
     for number in whole_numbers:
         info.push_constant("INT", number)
-    info.vertex_in(0, "VEC2", "position")
-    varyings = gpu.types.GPUStageInterfaceInfo("rsibr_screen")
-    varyings.smooth("VEC2", "map_uv")
-    info.vertex_out(varyings)
     info.fragment_out(0, "VEC4", "texel")
     return build(name, info, "screen_vert.glsl", f"{name}_frag.glsl")

@@ -19,6 +19,8 @@ from ..drawing import Draw, GpuMesh
 from ..passes import screen_triangle
 from ..textures import GpuTexture
 
+_WARPINGS = tuple(Warping)
+
 
 class GpuRadianceViews:
     """A map set's radiance views."""
@@ -38,7 +40,7 @@ class GpuRadianceViews:
 
     def draw(self, mesh: GpuMesh, draw: Draw, look: ViewsLook) -> None:
         """See `GpuMapSet.draw`. Reference: core/kinds/radiance_views/shading.py."""
-        numbers = list(Warping).index(look.warping), self._last_level, look.antialiased
+        numbers = _WARPINGS.index(look.warping), self._last_level, look.antialiased
         mode = self._mode.filled(np.array(numbers, dtype=float))
         if look.mode is Mode.FRAGMENT:
             shader = shaders.views_fragment_shader()

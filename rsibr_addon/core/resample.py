@@ -9,6 +9,7 @@ from .conventions import Array, ArrayLike, Indices
 from .errors import ShapeError
 from .maps.representation import Representation
 from .splat import BLOCK, Splat
+from .threads import in_order
 
 Wrap = Callable[[Indices, Indices, int, int], tuple[Indices, Indices]]
 """`wrap` of a map representation: from texel indices beyond the edge to the texels that are there."""
@@ -129,7 +130,7 @@ def resample(
     if source.blind_angle == target.blind_angle == 0.0:
         _restore_power(made, after, splat.power.sum(axis=1))
     if target.goes_on:
-        _fill(made, after == 0.0, made, target, target)
+        _fill(made, after == 0.0, made.copy(), target, target)
     else:
         _repeat_rim(made, after == 0.0)
     return made.astype(dtype, copy=False)
@@ -151,12 +152,16 @@ def _fill(
     chosen = None if where is None else np.flatnonzero(where)
     count = made[..., 0].size if chosen is None else len(chosen)
     flat = made.reshape(-1, made.shape[-1])
-    for first in range(0, count, BLOCK):
+
+    def looked_up(first: int) -> tuple[Indices, Array]:
         last = min(first + BLOCK, count)
         texel = np.arange(first, last) if chosen is None else chosen[first:last]
         sheet, row, column = np.unravel_index(texel, shape)
         uv = np.stack([(column + 0.5) / width, (row + 0.5) / height], axis=-1)
-        flat[texel] = lookup(image, target.direction_from_uv(uv, sheet), source)
+        return texel, lookup(image, target.direction_from_uv(uv, sheet), source)
+
+    for texel, radiance in in_order(looked_up, range(0, count, BLOCK)):
+        flat[texel] = radiance
 
 
 def _repeat_rim(made: Array, outside: NDArray[np.bool]) -> None:

@@ -7,6 +7,8 @@ is larger than those beneath is quartered until it is not. All of it goes somewh
 last digits in all maps.
 """
 
+import itertools
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -16,12 +18,19 @@ from numpy.typing import NDArray
 from .conventions import Array, Indices
 from .geometry.directions import dot
 from .maps.representation import Representation
+from .threads import in_order
 from .ties import TIE
 
 Scalar = TypeVar("Scalar", bound=np.generic)
 
-BLOCK = 1 << 17
-"""Texels at a time, so that their data take some 50 MB however large the map is."""
+BLOCK = 1 << 15
+"""Texels at a time, so that their data stay in a processor's cache however large the map is."""
+
+FEWEST_ROWS = 8
+"""Rows of a map at a time, however wide it is: two more are computed with them."""
+
+Shares = Iterator[tuple[Indices, Array, Array]]
+"""What texels of the target get: their numbers, shape (M,), solid angles (M,) and powers (channels, M)."""
 
 DEEPEST = 4
 """Most quarterings of a texel around a pole, or on a rim that is a single direction."""
@@ -33,14 +42,14 @@ class _Texels:
 
     Attributes
     ----------
-    uv : ndarray, shape (grids, rows, columns, 2)
+    uv : ndarray, shape (rows, columns, grids, 2)
         The texels' centres on their own map.
-    sheet : ndarray of int, shape (grids, rows, columns)
+    sheet : ndarray of int, shape (rows, columns, grids)
     step : ndarray, shape (2,)
         The texels' width and height in uv.
-    solid_angle : ndarray, shape (grids, rows, columns)
+    solid_angle : ndarray, shape (rows, columns, grids)
         [sr]
-    radiance : ndarray, shape (grids, rows, columns, channels)
+    radiance : ndarray, shape (rows, columns, grids, channels)
     """
 
     uv: Array
@@ -89,30 +98,37 @@ class Splat:
         sheets, height, width = image.shape[:3]
         solid_angle = source.texel_solid_angle(width)
         step = np.array([1.0 / width, 1.0 / height])
-        rows = max(BLOCK // width, 1)
-        for sheet in range(sheets):
-            for first in range(0, height, rows):
-                # With a row more on either side, of no weight: edges are known from both neighbours.
-                with_rims = np.arange(max(first - 1, 0), min(first + rows + 1, height))
-                own = (with_rims >= first) & (with_rims < first + rows)
-                uv = np.empty((1, len(with_rims), width, 2))
-                uv[..., 0] = (np.arange(width) + 0.5) * step[0]
-                uv[..., 1] = (with_rims[:, None] + 0.5) * step[1]
-                texels = _Texels(
-                    uv,
-                    np.full(uv.shape[:-1], sheet),
-                    step,
-                    (solid_angle[sheet, with_rims] * own[:, None])[None],
-                    image[None, sheet, with_rims[0] : with_rims[-1] + 1],
-                )
-                self._lay_grids(source, texels, DEEPEST)
+        rows = max(BLOCK // width, FEWEST_ROWS)
 
-    def _lay_grids(self, source: Representation, texels: _Texels, quarterings: int) -> None:
+        def shares_of(block: tuple[int, int]) -> list[tuple[Indices, Array, Array]]:
+            sheet, first = block
+            # With a row more on either side, of no weight: edges are known from both neighbours.
+            with_rims = np.arange(max(first - 1, 0), min(first + rows + 1, height))
+            own = (with_rims >= first) & (with_rims < first + rows)
+            uv = np.empty((len(with_rims), width, 1, 2))
+            uv[..., 0] = (np.arange(width)[:, None] + 0.5) * step[0]
+            uv[..., 1] = (with_rims[:, None, None] + 0.5) * step[1]
+            texels = _Texels(
+                uv,
+                np.full(uv.shape[:-1], sheet),
+                step,
+                (solid_angle[sheet, with_rims] * own[:, None])[..., None],
+                image[sheet, with_rims[0] : with_rims[-1] + 1, :, None],
+            )
+            return list(self._of_grids(source, texels, DEEPEST))
+
+        for shares in in_order(shares_of, itertools.product(range(sheets), range(0, height, rows))):
+            for texel, weight, power in shares:
+                np.add.at(self.solid_angle, texel, weight)
+                for sums, values in zip(self.power, power, strict=True):
+                    np.add.at(sums, texel, values)
+
+    def _of_grids(self, source: Representation, texels: _Texels, quarterings: int) -> Shares:
         direction = source.direction_from_uv(texels.uv, texels.sheet)
         weight = np.where(self._target.shows(direction), texels.solid_angle, 0.0)
         uv, sheet = self._target.uv_from_direction(direction)
         centre = np.stack([uv[..., 0] * self._width, uv[..., 1] * self._height])
-        edges = np.stack([self._edges(centre, sheet, 2), self._edges(centre, sheet, 1)])
+        edges = np.stack([self._edges(centre, sheet, 1), self._edges(centre, sheet, 0)])
         extent = np.abs(edges[0]) + np.abs(edges[1])
         coarse = np.maximum(extent[0], extent[1]) > 1.0 + TIE
         if source.disk < np.inf:
@@ -121,10 +137,10 @@ class Splat:
             coarse |= _cut(uv, np.moveaxis(edges, 1, -1) / self._width, self._target.disk)
         coarse &= weight > 0.0
         if quarterings:
-            self._lay_quarters(source, texels, coarse, quarterings)
+            yield from self._of_quarters(source, texels, coarse, quarterings)
             weight[coarse] = 0.0
         extent[:, coarse] = 0.0
-        self._lay_parallelograms(
+        yield from self._of_parallelograms(
             centre.reshape(2, -1),
             edges.reshape(2, 2, -1),
             extent.reshape(2, -1),
@@ -133,11 +149,12 @@ class Splat:
             texels.radiance.reshape(-1, len(self.power)),
         )
 
-    def _lay_quarters(
+    def _of_quarters(
         self, source: Representation, texels: _Texels, chosen: NDArray[np.bool], quarterings: int
-    ) -> None:
-        """Lay down some of `texels` as four each."""
+    ) -> Shares:
+        """Shares of some of `texels`, as four each."""
         quarter = 0.25 * texels.step * np.array([[(-1.0, -1.0), (1.0, -1.0)], [(-1.0, 1.0), (1.0, 1.0)]])
+        quarter = quarter[:, :, None]
         uv, sheet = texels.uv[chosen], texels.sheet[chosen]
         solid_angle, radiance = texels.solid_angle[chosen], texels.radiance[chosen]
         for first in range(0, len(uv), BLOCK // 4):
@@ -146,32 +163,33 @@ class Splat:
             centres, on_sheet = _four(uv[block]) + quarter, _four(sheet[block])
             # A texel that the rim of a disk cuts contributes only with its parts within the disk.
             counts = np.linalg.norm(2.0 * centres - 1.0, axis=-1) < source.disk
-            counts |= ~counts.any(axis=(1, 2), keepdims=True)
-            share = _four(solid_angle[block]) * counts / counts.sum(axis=(1, 2), keepdims=True)
+            counts |= ~counts.any(axis=(0, 1), keepdims=True)
+            share = _four(solid_angle[block]) * counts / counts.sum(axis=(0, 1), keepdims=True)
             parts = _Texels(centres, on_sheet, 0.5 * texels.step, share, _four(radiance[block]))
-            self._lay_grids(source, parts, quarterings - 1)
+            yield from self._of_grids(source, parts, quarterings - 1)
 
     def _edges(self, centre: Array, sheet: Indices, axis: int) -> Array:
         """From one side of each texel to the other along an axis of the grid, shape of `centre`.
 
         The mean of the ways to its two neighbours; across a seam of the target there is no way.
         """
-        centre, sheet = np.swapaxes(centre, axis + 1, -1), np.swapaxes(sheet, axis, -1)
-        way = centre[..., 1:] - centre[..., :-1]
+        later = (slice(None),) * axis + (slice(1, None),)
+        earlier = (slice(None),) * axis + (slice(None, -1),)
+        way = centre[:, *later] - centre[:, *earlier]
         far = (np.abs(way[0]) > 0.5 * self._width) | (np.abs(way[1]) > 0.5 * self._height)
-        known = (sheet[..., 1:] == sheet[..., :-1]) & ~far
+        known = (sheet[later] == sheet[earlier]) & ~far
         way *= known
         edges, count = np.zeros_like(centre), np.zeros(sheet.shape)
-        for neighbour in (slice(1, None), slice(None, -1)):
-            edges[..., neighbour] += way
-            count[..., neighbour] += known
+        for neighbour in (later, earlier):
+            edges[:, *neighbour] += way
+            count[neighbour] += known
         edges /= np.maximum(count, 1.0)
-        return np.swapaxes(edges, axis + 1, -1)
+        return edges
 
-    def _lay_parallelograms(
+    def _of_parallelograms(
         self, centre: Array, edges: Array, extent: Array, sheet: Indices, weight: Array, radiance: Array
-    ) -> None:
-        """Lay down M parallelograms.
+    ) -> Shares:
+        """Shares of M parallelograms.
 
         Parameters
         ----------
@@ -198,13 +216,14 @@ class Splat:
         parts = parts_beyond(np.take(distance, some, axis=-1), side * np.take(edges, some, axis=-1))
         moved = np.take(weight, some) * parts
         weight[some] -= moved.sum(axis=0)
-        self._add(own, weight, radiance)
+        yield own, weight, weight * radiance.T
         texel, sheet, own = np.take(texel, some, axis=-1), np.take(sheet, some), np.take(own, some)
         for (right, up), amount in zip(((1, 0), (0, 1), (1, 1)), moved, strict=True):
             going = np.flatnonzero(amount)
             column, row = np.take(texel + side * np.array([[right], [up]]), going, axis=-1)
             other = self._texel(column, row, np.take(sheet, going), np.take(own, going))
-            self._add(other, np.take(amount, going), np.take(radiance, np.take(some, going), axis=0))
+            share = np.take(amount, going)
+            yield other, share, share * np.take(radiance, np.take(some, going), axis=0).T
 
     def _texel(self, column: Indices, row: Indices, sheet: Indices, otherwise: Indices) -> Indices:
         """Number of a texel, beyond a sheet's edge too; `otherwise` where none is, or none that counts."""
@@ -216,11 +235,6 @@ class Splat:
         found = (sheet * self._height + row) * self._width + column
         texel[outside] = np.where(sheet < 0, otherwise[outside], found)
         return np.where(self._counts[texel], texel, otherwise)
-
-    def _add(self, texel: Indices, weight: Array, radiance: Array) -> None:
-        np.add.at(self.solid_angle, texel, weight)
-        for channel, power in enumerate(self.power):
-            np.add.at(power, texel, weight * radiance[:, channel])
 
 
 def parts_beyond(distance: Array, edges: Array) -> Array:
@@ -285,8 +299,8 @@ def _part_beyond_corner(distance: Array, edges: Array) -> Array:
 
 
 def _four(values: NDArray[Scalar]) -> NDArray[Scalar]:
-    """Each of K values four times, shape (K, 2, 2, ...)."""
-    return np.broadcast_to(values[:, None, None], (len(values), 2, 2, *values.shape[1:]))
+    """Each of K values four times, shape (2, 2, K, ...)."""
+    return np.broadcast_to(values, (2, 2, *values.shape))
 
 
 def _cut(uv: Array, edges: Array, disk: float) -> NDArray[np.bool]:

@@ -1,8 +1,15 @@
 """How many threads numerical work may use. Its results do not depend on their number."""
 
 import os
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import TypeVar
 
 from .errors import RangeError
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
 
 VARIABLE = "RSIBR_THREADS"
 """The environment variable that limits threads, here and in the processes that are started from here."""
@@ -35,3 +42,39 @@ def thread_count() -> int:
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
+
+
+def in_order(function: Callable[[Item], Result], items: Iterable[Item]) -> Iterator[Result]:
+    """Results of a function, computed on several threads and given in the order of the items.
+
+    Parameters
+    ----------
+    function : callable
+        May be called on several threads at once; pays where numpy or another library works long in each call.
+    items : iterable
+
+    Yields
+    ------
+    Result
+        Of every item in turn. Few are computed ahead of it, so that their memory is bounded.
+
+    Raises
+    ------
+    MemoryError
+        There is no memory for a thread.
+    """
+    count = thread_count()
+    if count == 1:
+        yield from map(function, items)
+        return
+    ahead: deque[Future[Result]] = deque()
+    with ThreadPoolExecutor(count) as threads:
+        for item in items:
+            try:
+                ahead.append(threads.submit(function, item))
+            except RuntimeError as error:
+                raise MemoryError(str(error)) from error
+            if len(ahead) > 2 * count:
+                yield ahead.popleft().result()
+        while ahead:
+            yield ahead.popleft().result()

@@ -5,7 +5,6 @@ import hashlib
 import json
 import warnings
 from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +21,7 @@ from ..core.errors import (
 )
 from ..core.half_floats import half_holds
 from ..core.schema import loads
+from ..core.threads import in_order
 from . import radiance_hdr
 from .atomic import check_target, written_aside
 from .exr import MAGIC, OpenExr, Part
@@ -161,14 +161,8 @@ def read_map_set(path: str | Path, kind: str | None = None) -> MapSet:
             )
         found = {part.name: part for part in file.parts()}
     # Most of the time goes into checksums and copies, during which Python lets other threads run
-    try:
-        with ThreadPoolExecutor() as threads:
-            checked = threads.map(
-                lambda part: _checked_pixels(path, part, found[part["name"]]), header["parts"]
-            )
-            maps = {part["name"]: pixels for part, pixels in zip(header["parts"], checked, strict=True)}
-    except RuntimeError as error:  # which Python raises where a thread finds no memory
-        raise MemoryError(str(error)) from error
+    checked = in_order(lambda part: _checked_pixels(path, part, found[part["name"]]), header["parts"])
+    maps = {part["name"]: pixels for part, pixels in zip(header["parts"], checked, strict=True)}
     kept = {field: value for field, value in header.items() if field not in ("format", "kind")}
     kept["parts"] = [
         {field: value for field, value in part.items() if field not in DERIVED} for part in header["parts"]

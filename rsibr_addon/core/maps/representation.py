@@ -113,18 +113,20 @@ class Representation:
         ndarray, shape (..., 3), float64
             Unit directions in world coordinates.
         """
-        direction: Array = self.own_direction(uv, sheet) @ self.frame.T
-        return direction
+        direction = self.own_direction(uv, sheet)
+        return direction if self.frame is WORLD else direction @ self.frame.T
 
     def uv_from_direction(self, direction: ArrayLike) -> tuple[Array, Indices]:
         """The inverse of `direction_from_uv`; directions in the blind spot are taken to its edge."""
-        return self.own_uv(np.asarray(direction, dtype=np.float64) @ self.frame)
+        direction = np.asarray(direction, dtype=np.float64)
+        return self.own_uv(direction if self.frame is WORLD else direction @ self.frame)
 
     def shows(self, direction: ArrayLike) -> NDArray[np.bool]:
         """Whether unit directions in world coordinates, shape (..., 3), lie outside the blind spot."""
-        # In this form rounding hides nothing of a map without a blind spot.
+        if self.blind_angle == 0.0:  # rounding shall hide nothing
+            return np.ones(np.shape(direction)[:-1], dtype=np.bool)
         towards_blind = -np.asarray(direction) @ self.frame[:, 2]
-        shown: NDArray[np.bool] = (towards_blind <= np.cos(self.blind_angle)) | (self.blind_angle == 0.0)
+        shown: NDArray[np.bool] = towards_blind <= np.cos(self.blind_angle)
         return shown
 
     def texel_solid_angle(self, size: int) -> Array:

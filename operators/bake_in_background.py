@@ -60,5 +60,5 @@ def queue_bake(context: bpy.types.Context, content: str = "") -> str:
     if is_baked(output) and content in ("", map_set_content(output)):
         assign(item.session_uid, output, request.shown)
         return f"Baked before: {output.name}"
-    background.submit(bake_of(request, item, output))
+    background.submit(bake_of(request, context.scene, item, output))
     return f"Baking {output.name}"

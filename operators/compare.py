@@ -31,4 +31,4 @@ class RSIBR_OT_compare(AtOnce, bpy.types.Operator):
     def work(self, context: bpy.types.Context) -> None:
         """Queue the comparison."""
         item = context.object
-        background.submit(comparison_of(item, written_path(item.rsibr)))
+        background.submit(comparison_of(context.scene, item, written_path(item.rsibr)))

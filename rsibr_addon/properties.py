@@ -93,6 +93,7 @@ class RSIBR_PG_preview(bpy.types.PropertyGroup):
         description="Turn and scale the light as the world's Mapping and Background do with its Environment "
         "Texture; for map sets that were made in the bare environment",
         update=_notice,
+        default=True,
     )
     other = bpy.props.PointerProperty(type=RSIBR_PG_looks)
     live = bpy.props.PointerProperty(type=RSIBR_PG_live)

@@ -9,6 +9,10 @@ import numpy as np
 from .conventions import Array
 from .errors import InputFileError, RsibrWarning
 
+NEGLIGIBLE = 1e-6
+"""Sum of negative values, relative to that of the others, up to which they are nothing but a picture's
+compression: Blender's own environments have up to 2.5e-7, and a map in half floats errs by 5e-4."""
+
 
 @dataclass(frozen=True)
 class Environment:
@@ -88,7 +92,8 @@ def usable_radiance(pixels: Array, name: str, clamp: float | None = None) -> Arr
     ndarray, shape of `pixels`, float32
         At least 0 and finite; `pixels` itself, where it already is. Values above `clamp` become `clamp`.
         Without it infinite values, such as a sun that half floats cannot hold, become the greatest finite
-        value. NaN and negative values, which no light has, become 0.
+        value. NaN and negative values, which no light has, become 0; negative ones without a word where they
+        are `NEGLIGIBLE`.
 
     Raises
     ------
@@ -115,13 +120,22 @@ def usable_radiance(pixels: Array, name: str, clamp: float | None = None) -> Arr
         ("undefined (NaN) values", np.isnan(radiance), np.float32(0.0)),
         ("negative values", radiance < 0.0, np.float32(0.0)),
     )
+    is_told = not _has_negligible_negatives(radiance)
     radiance = radiance.copy()
     for kind, where, instead in changes:
-        if count := np.count_nonzero(where):
-            radiance[where] = instead
+        if not (count := np.count_nonzero(where)):
+            continue
+        radiance[where] = instead
+        if is_told or kind != "negative values":
             warnings.warn(
                 f"{name} holds {count} {kind}; they are taken as {instead:g}.",
                 RsibrWarning,
                 stacklevel=2,
             )
     return radiance
+
+
+def _has_negligible_negatives(radiance: Array) -> bool:
+    negative = -np.sum(radiance, where=radiance < 0.0, dtype=np.float64)
+    others = np.sum(radiance, where=(radiance > 0.0) & np.isfinite(radiance), dtype=np.float64)
+    return bool(negative <= NEGLIGIBLE * others)

@@ -180,16 +180,27 @@ def user_folder() -> Path:
         return Path(bpy.utils.user_resource("DATAFILES", path="rsibr"))
 
 
-def save_copy(path: Path) -> None:
-    """Write a copy of the open file with its unsaved changes; the open file stays as it was.
+def save_copy(path: Path, scene: bpy.types.Scene) -> None:
+    """Write a scene and all that it needs, with unsaved changes; the open file stays as it was.
+
+    Parameters
+    ----------
+    path : Path
+        The file to write.
+    scene : bpy.types.Scene
 
     Raises
     ------
     OutputFileError
+
+    Notes
+    -----
+    *Save a Copy* would rewrite the open file's relative paths and put them back, which evaluates objects
+    anew: particles would be gone until the next frame.
     """
     try:
-        bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True, check_existing=False)
-    except RuntimeError as error:
+        bpy.data.libraries.write(str(path), {scene}, path_remap="ABSOLUTE")
+    except (OSError, RuntimeError) as error:
         raise OutputFileError(f"No copy of the file can be written to {path}: free some space.") from error
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from ..core.conventions import Array
 from .live_light import live_name
 from .map_sets import planned_path
-from .world_light import AS_IT_IS, WorldLight, world_light
+from .world_light import AS_IT_IS, WorldLight, followed_light
 
 UNSHADED = ("WIRE", "BOUNDS")
 """Ways to display an object without its surface."""
@@ -105,9 +105,7 @@ class View:
 
     def light_of(self, item: bpy.types.Object) -> WorldLight:
         """The world's turn and strength for an object's map set; none unless the object follows the world."""
-        follows = item.rsibr.follow_world and not item.rsibr.live.on
-        followed = world_light(self.scene.world) if follows else None
-        return followed or AS_IT_IS
+        return followed_light(item, self.scene.world) or AS_IT_IS
 
 
 def current_view() -> View:

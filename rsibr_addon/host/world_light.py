@@ -50,6 +50,21 @@ def world_light(world: bpy.types.World | None) -> WorldLight | None:
     return WorldLight(strength, rotation.T if mapping.vector_type == "TEXTURE" else rotation)
 
 
+def followed_light(item: bpy.types.Object, world: bpy.types.World | None) -> WorldLight | None:
+    """The world's strength and rotation, for an object's map set; None where it follows none.
+
+    A map set that was baked in the world itself holds them already, and live light shows them.
+    """
+    in_world = item.is_property_set("rsibr_baked") and item.rsibr_baked.light == "WORLD"
+    follows = item.rsibr.follow_world and not item.rsibr.live.on and not in_world
+    return world_light(world) if follows else None
+
+
+def has_environment(world: bpy.types.World | None) -> bool:
+    """Whether a world has an Environment Texture."""
+    return world is not None and any(node.type == "TEX_ENVIRONMENT" for node in world.node_tree.nodes)
+
+
 def _before(node: bpy.types.Node | None, socket: str, kind: str) -> bpy.types.Node | None:
     """The node that a socket's value comes from, if it is of a kind."""
     links = node.inputs[socket].links if node else ()

@@ -86,8 +86,6 @@ class ReflectionTablesSettings(MethodSettings):
         most=LARGEST,
         none="what the lobes need; for a mirror, the environment's own",
         none_as=0,
-        draft=128,
-        final=1024,
     )
     exact: bool = option(
         False,

@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..host.world_light import world_light
+from ..host.world_light import has_environment, world_light
 from ..session.running import session
 from ..tasks.methods.kinds import KINDS
 from .sentences import tell
@@ -36,7 +36,8 @@ class RSIBR_PT_preview(InSidebar, bpy.types.Panel):
         row.prop(item.rsibr, "map_set")
         row.operator("rsibr.reload_map_sets", text="", icon="FILE_REFRESH")
         layout.prop(item.rsibr, "follow_world")
-        if item.rsibr.follow_world and world_light(context.scene.world) is None:
+        world = context.scene.world
+        if item.rsibr.follow_world and has_environment(world) and world_light(world) is None:
             tell(layout, NOT_FOLLOWED, context.region.width)
         previews = session().previews
         for message in previews.messages(item):

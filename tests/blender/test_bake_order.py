@@ -86,6 +86,17 @@ def test_better_costs_more(kind: str) -> None:
         assert less.disk < more.disk
 
 
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_better_quality_is_never_coarser(kind: str) -> None:
+    qualities = [quality_values(STORED[kind].settings, each.lower()) for each in QUALITIES]
+    for declared in declared_options(STORED[kind].settings):
+        draft, good, final = (each.get(declared.name) for each in qualities)
+        if declared.wanted is int and good is None:
+            assert final is None  # as much as light and lobe need is not to be had with a number
+        elif declared.wanted is int:
+            assert draft <= good <= final
+
+
 @pytest.mark.slow
 def test_the_file_is_as_large_as_was_said(tmp_path: Path) -> None:
     chosen = bpy.context.scene.rsibr_bake
@@ -221,11 +232,11 @@ def test_a_bake_gets_a_copy_of_the_file_as_it_is(tmp_path: Path, monkeypatch: py
     monkeypatch.setattr("rsibr.rsibr_addon.tasks.queue.bake_request.blender_program", lambda: "blender")
     bpy.context.scene.rsibr_bake.radiance_views.samples = 5
     before = open_file_state()
-    bake = bake_of(order(), bpy.context.object, tmp_path / "out.rsibr.exr")
+    bake = bake_of(order(), bpy.context.scene, bpy.context.object, tmp_path / "out.rsibr.exr")
     assert open_file_state() == before
     assert bake.variables["RSIBR_ORIGINAL"] == ""
     assert is_staging_folder(Path(bake.variables["TMPDIR"]))
-    blend, job = Path(bake.command[3]), Path(bake.command[9])
+    blend, job = Path(bake.command[3]), Path(bake.command[11])
     assert read_job(job.read_text(), "job") == order().job(tmp_path / "out.rsibr.exr")
     with bpy.data.libraries.load(str(blend)) as (found, _):
         assert "Material" in found.materials
@@ -233,11 +244,45 @@ def test_a_bake_gets_a_copy_of_the_file_as_it_is(tmp_path: Path, monkeypatch: py
     assert not blend.parent.exists()
 
 
+def test_a_bake_leaves_particles_and_relative_paths_as_they_are(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.queue.bake_request.blender_program", lambda: "blender")
+    cube, scene = bpy.context.object, bpy.context.scene
+    cube.modifiers.new("Dust", "PARTICLE_SYSTEM")
+    image = bpy.data.images.new("Rust", 4, 4)
+    cube.active_material.node_tree.nodes.new("ShaderNodeTexImage").image = image
+    image.filepath_raw = str(tmp_path / "rust.png")
+    image.save()
+    image.source, image.filepath = "FILE", "//rust.png"
+    bpy.data.scenes.new("Another")  # before the cube's, by the alphabet
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "dust.blend"))
+    for frame in range(1, 15):
+        scene.frame_set(frame)
+    before, dust = open_file_state(), _particles(cube)
+    bake = bake_of(order(), scene, cube, tmp_path / "out.rsibr.exr")
+    assert np.array_equal(_particles(cube), dust)
+    assert np.ptp(dust) > 0.0
+    assert open_file_state() == before
+
+    bpy.ops.wm.open_mainfile(filepath=bake.command[3])
+    assert bake.command[4:6] == ["--scene", bpy.context.scene.name] == ["--scene", "Scene"]
+    assert bpy.context.scene.world.name == "World"
+    (image,) = (each for each in bpy.data.images if each.name == "Rust")
+    assert Path(image.filepath) == tmp_path / "rust.png"
+    bake.tidy()
+
+
+def _particles(item: bpy.types.Object) -> np.ndarray:
+    (system,) = item.evaluated_get(bpy.context.evaluated_depsgraph_get()).particle_systems
+    return np.array([(*each.location, each.alive_state == "ALIVE") for each in system.particles])
+
+
 def test_without_a_blender_there_is_a_sentence(tmp_path: Path) -> None:
     with pytest.raises(
         SceneError, match="There is no Blender to bake in: bake with the command rsibr instead"
     ):
-        bake_of(order(), bpy.context.object, tmp_path / "out.rsibr.exr")
+        bake_of(order(), bpy.context.scene, bpy.context.object, tmp_path / "out.rsibr.exr")
     with pytest.raises(RuntimeError, match="There is no Blender to bake in"):
         bpy.ops.rsibr.bake()
 
@@ -302,8 +347,8 @@ def test_a_comparison_is_a_job_with_a_page(tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.setattr("rsibr.rsibr_addon.tasks.queue.bake_request.blender_program", lambda: "blender")
     path = tmp_path / "flat.rsibr.exr"
     write_flat_capture(path, (0.5, 0.0, 0.5))
-    comparison = comparison_of(bpy.context.object, path)
-    job = read_job(Path(comparison.command[9]).read_text(), "job")
+    comparison = comparison_of(bpy.context.scene, bpy.context.object, path)
+    job = read_job(Path(comparison.command[11]).read_text(), "job")
     comparison.tidy()
     assert comparison.output == tmp_path / "flat-compared" / "index.html"
     assert isinstance(job, CommandJob)
@@ -313,7 +358,7 @@ def test_a_comparison_is_a_job_with_a_page(tmp_path: Path, monkeypatch: pytest.M
     mips = output()
     assert run_job(order().job(mips), tmp_path) == 0
     with pytest.raises(MapSetError, match="is of a kind without a truth to compare with"):
-        comparison_of(bpy.context.object, mips)
+        comparison_of(bpy.context.scene, bpy.context.object, mips)
 
 
 def test_the_original_counts_as_open(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -134,7 +134,7 @@ def test_the_panel_names_the_file_that_its_artist_chose(
     gold.touch()
 
     def arguments() -> tuple[str, ...]:
-        bake = comparison_of(item, path)
+        bake = comparison_of(bpy.context.scene, item, path)
         job = read_job(Path(bake.command[-4]).read_text(), "job")
         bake.tidy()
         return job.arguments

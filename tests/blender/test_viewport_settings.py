@@ -14,6 +14,7 @@ from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import Role
 from rsibr.rsibr_addon.files.kinds.registry import look_types
 from rsibr.rsibr_addon.host.option_properties import options_of
 from rsibr.rsibr_addon.host.visible_surfaces import is_wanted, map_set_of, surfaces
+from rsibr.rsibr_addon.host.world_light import followed_light
 from rsibr.rsibr_addon.settings.lobe_stack import LobeStackSettings
 from rsibr.rsibr_addon.tasks.viewport.faults import settings_of
 
@@ -124,3 +125,20 @@ def test_a_fit_spares_what_fits_are_told(tmp_path: Path) -> None:
     fit.touch()
     settings = options_of(LobeStackSettings, group)
     assert (settings.brdf, settings.fit, settings.lobes) == (None, str(fit), 3)
+
+
+def test_an_object_follows_the_world_unless_that_was_baked() -> None:
+    cube, world = bpy.data.objects["Cube"], bpy.context.scene.world
+    tree = world.node_tree
+    texture = tree.nodes.new("ShaderNodeTexEnvironment")
+    tree.links.new(texture.outputs["Color"], tree.nodes["Background"].inputs["Color"])
+    tree.nodes["Background"].inputs["Strength"].default_value = 2.0
+    followed = followed_light(cube, world)
+    assert followed is not None
+    assert followed.strength == 2.0
+    cube.rsibr_baked.light = "WORLD"
+    assert followed_light(cube, world) is None
+    cube.rsibr_baked.light = "STUDIO"
+    assert followed_light(cube, world) is not None
+    cube.rsibr.follow_world = False
+    assert followed_light(cube, world) is None

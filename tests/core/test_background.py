@@ -135,18 +135,20 @@ def test_what_the_artist_does_comes_first() -> None:
 
 
 def test_the_command_is_blenders() -> None:
-    command = blender_command("/opt/blender", "ours", Path("a.blend"), Path("job.json"))
-    assert command[:8] == [
+    command = blender_command("/opt/blender", "ours", (Path("a.blend"), "Two"), Path("job.json"))
+    assert command[:10] == [
         "/opt/blender",
         "--background",
         "--disable-autoexec",
         "a.blend",
+        "--scene",
+        "Two",
         "--addons",
         "ours",
         "--command",
         "rsibr",
     ]
-    assert command[8:] == ["bake", "job.json", "--json", "--progress", "json"]
+    assert command[10:] == ["bake", "job.json", "--json", "--progress", "json"]
     assert blender_command("/opt/blender", "ours", None, Path("j"))[:4] == [
         "/opt/blender",
         "--background",

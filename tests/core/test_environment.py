@@ -106,6 +106,15 @@ def test_negative_values_become_black_with_their_count() -> None:
     np.testing.assert_array_equal(pixels, before)
 
 
+def test_negligible_negative_values_become_black_without_a_word() -> None:
+    pixels = np.ones((2, 4, 3), dtype=np.float32)
+    pixels[0, 0, 0] = -22e-6  # the other 23 are 1: just below a millionth of their sum
+    np.testing.assert_array_equal(environment_from_pixels(pixels, "room.exr").radiance, np.maximum(pixels, 0))
+    pixels[0, 0, 0] = -24e-6
+    with pytest.warns(RsibrWarning, match=r"^room\.exr holds 1 negative values"):
+        environment_from_pixels(pixels, "room.exr")
+
+
 def test_a_good_map_passes_without_a_word() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")

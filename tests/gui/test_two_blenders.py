@@ -17,7 +17,7 @@ def another_blender(cube):
     order = bake_order.request_for(bpy.context.scene, cube)
     output = bake_order.output_for(order, bpy.context.scene, cube)
     queue = type(session().bakes)()
-    queue.add(bake_order.bake_of(order, cube, output))
+    queue.add(bake_order.bake_of(order, bpy.context.scene, cube, output))
     return queue
 
 def ended(queue):

@@ -2,13 +2,10 @@
 
 from pathlib import Path
 
-import numpy as np
-
-from ...core.environment import Environment, environment_from_pixels
+from ...core.environment import Environment
 from ...core.errors import InputFileError
 from ...core.near_names import did_you_mean
 from ...files.environments import read_environment
-from ...files.radiance_pictures import read_radiance
 from ...host.installation import studio_environments
 
 WORLD_HEIGHT = 512
@@ -51,11 +48,6 @@ def load_environment(spec: str | None, clamp: float | None = None) -> Environmen
     # A folder may have the name of one of Blender's own
     if spec in own and not Path(spec).is_file():
         spec = str(own[spec])
-    if Path(spec) in own.values():
-        # Some hold negative values; a warning would not help, as nobody can mend the file
-        radiance = read_radiance(spec)
-        radiance = np.where(radiance < 0.0, np.float32(0.0), radiance)
-        return environment_from_pixels(radiance, Path(spec).name, clamp)
     is_path = Path(spec).suffix or Path(spec).name != spec
     if not is_path and not Path(spec).exists():
         near = did_you_mean(spec, own)

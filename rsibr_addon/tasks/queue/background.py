@@ -40,7 +40,7 @@ class State(StrEnum):
     CANCELLED = "cancelled"
 
 
-def blender_command(blender: str, extension: str, blend: Path | None, job: Path) -> list[str]:
+def blender_command(blender: str, extension: str, opened: tuple[Path, str] | None, job: Path) -> list[str]:
     """What starts a job in a background Blender.
 
     Parameters
@@ -49,14 +49,15 @@ def blender_command(blender: str, extension: str, blend: Path | None, job: Path)
         The program.
     extension : str
         The package that Blender knows us by; it may not be enabled in the preferences that are saved.
-    blend : Path or None
-        The file that is opened first, where the job's world or material are its own.
+    opened : (Path, str) or None
+        The file that is opened first and its scene's name, where the job's world or material are its own.
     job : Path
         The job's JSON.
     """
     return [
         # First of all, as it forbids only what is opened after it
-        *(blender, "--background", "--disable-autoexec", *(() if blend is None else (str(blend),))),
+        *(blender, "--background", "--disable-autoexec"),
+        *(() if opened is None else (str(opened[0]), "--scene", opened[1])),
         *("--addons", extension, "--command", "rsibr"),
         *("bake", str(job), "--json", "--progress", "json"),
     ]

@@ -192,12 +192,14 @@ def is_baked(output: Path) -> bool:
     return True
 
 
-def bake_of(request: BakeRequest, item: Any, output: Path) -> ObjectBake:
+def bake_of(request: BakeRequest, scene: Any, item: Any, output: Path) -> ObjectBake:
     """Make everything ready that a background Blender needs to bake.
 
     Parameters
     ----------
     request : BakeRequest
+        The request of `scene` and `item`.
+    scene : bpy.types.Scene
     item : bpy.types.Object
         The object that the map set will shade.
     output : Path
@@ -215,13 +217,13 @@ def bake_of(request: BakeRequest, item: Any, output: Path) -> ObjectBake:
         The open file cannot be copied.
     """
     title = f"{item.name}: {request.title}"
-    bake = _in_background(title, request.job(output), item, output, request.needs_file)
+    bake = _in_background(title, request.job(output), scene, item, output, request.needs_file)
     bake.settings = request.shown
     return bake
 
 
-def comparison_of(item: Any, map_set: Path) -> ObjectBake:
-    """Make everything ready to compare an object's map set with the truth.
+def comparison_of(scene: Any, item: Any, map_set: Path) -> ObjectBake:
+    """Make everything ready to compare the map set of an object of a scene with the truth.
 
     Returns
     -------
@@ -241,7 +243,7 @@ def comparison_of(item: Any, map_set: Path) -> ObjectBake:
     job = CommandJob(
         ("compare", str(map_set), *views, *_named_model(item), "--output", str(folder), "--force")
     )
-    return _in_background(f"{item.name}: comparison", job, item, folder / "index.html", True)
+    return _in_background(f"{item.name}: comparison", job, scene, item, folder / "index.html", True)
 
 
 def _named_model(item: Any) -> tuple[str, ...]:
@@ -264,7 +266,7 @@ def _named_model(item: Any) -> tuple[str, ...]:
 
 
 def _in_background(
-    title: str, job: BakeJob[Any] | CommandJob, item: Any, output: Path, needs_file: bool
+    title: str, job: BakeJob[Any] | CommandJob, scene: Any, item: Any, output: Path, needs_file: bool
 ) -> ObjectBake:
     program = blender_program()
     if not program:
@@ -273,14 +275,14 @@ def _in_background(
         folder = stack.enter_context(temporary_folder())
         path = folder / "job.json"
         path.write_text(job.to_json(), encoding="utf-8")
-        blend = folder / "open.blend" if needs_file else None
-        if blend is not None:
-            save_copy(blend)
+        opened = (folder / "open.blend", scene.name) if needs_file else None
+        if opened is not None:
+            save_copy(opened[0], scene)
         reads = stack.pop_all()
     return ObjectBake(
         title=title,
         output=output,
-        command=blender_command(program, EXTENSION, blend, path),
+        command=blender_command(program, EXTENSION, opened, path),
         # What a Blender leaves that is ended while it starts goes with the folder
         variables={ORIGINAL: open_file(), "TMPDIR": str(folder)},
         items=[item.session_uid],

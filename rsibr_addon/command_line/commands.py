@@ -5,6 +5,7 @@ import os
 from collections.abc import Mapping, Sequence
 from functools import partial
 from importlib import import_module
+from itertools import pairwise
 from typing import Any, NoReturn
 
 from ..core.errors import RsibrError
@@ -67,7 +68,7 @@ def parsed(argv: Sequence[str]) -> argparse.Namespace:
 
 def _limit_threads(argv: Sequence[str]) -> None:
     """Tell what counts threads of their limit: numpy's OpenBLAS asks once, when a command imports it."""
-    for word, following in zip(argv, [*argv[1:], ""], strict=True):
+    for word, following in pairwise([*argv, ""]):
         name, _, said = word.partition("=")
         if name == "--threads":
             os.environ[VARIABLE] = said or following

@@ -136,6 +136,7 @@ def usable_radiance(pixels: Array, name: str, clamp: float | None = None) -> Arr
 
 
 def _has_negligible_negatives(radiance: Array) -> bool:
-    negative = -np.sum(radiance, where=radiance < 0.0, dtype=np.float64)
-    others = np.sum(radiance, where=(radiance > 0.0) & np.isfinite(radiance), dtype=np.float64)
+    with np.errstate(invalid="ignore"):  # a signalling NaN is heard where it is not summed, too
+        negative = -np.sum(radiance, where=radiance < 0.0, dtype=np.float64)
+        others = np.sum(radiance, where=(radiance > 0.0) & np.isfinite(radiance), dtype=np.float64)
     return bool(negative <= NEGLIGIBLE * others)

@@ -57,6 +57,7 @@ bench: $(READY)
 	$(PYTHON) .ci/bench_commands.py
 	$(PYTHON) .ci/bench.py
 	$(PYTHON) .ci/bench_prefilter.py
+	$(PYTHON) .ci/bench_growth.py
 	$(PYTHON) .ci/bench_antialiased.py
 	$(PYTHON) .ci/bench_fits.py
 	$(PYTHON) .ci/bench_lobes.py

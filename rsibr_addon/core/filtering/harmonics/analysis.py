@@ -43,9 +43,10 @@ def analyse_environment(radiance: Array, degree: int) -> EnvironmentHarmonics:
     solid_angle = equirect.texel_solid_angle(width, height)[::-1, :1]
     flux = np.empty(channels)
     coefficients = np.empty((channels, (degree + 1) * (degree + 2) // 2), dtype=np.complex128)
-    for channel in range(channels):  # one after the other, to limit the memory in double precision
+    light = np.empty((height, width))  # of one channel after the other, to limit the memory
+    for channel in range(channels):
         # Rows from north to south; longitude, which falls with the column, from -pi (1 - 1 / width) up
-        light = radiance[::-1, ::-1, channel] * solid_angle
+        np.multiply(radiance[::-1, ::-1, channel], solid_angle, out=light)
         flux[channel] = sum(np.abs(row).sum() for row in light)
         if not np.isfinite(flux[channel]):
             raise RangeError("The map holds NaN or infinite values: repair it in an image editor.")

@@ -14,6 +14,7 @@ from .drag_split import RSIBR_OT_drag_split
 from .fit_lobes import RSIBR_OT_fit_lobes
 from .lift_painting import RSIBR_OT_lift_painting
 from .merge_brackets import RSIBR_OT_merge_brackets
+from .open_comparison import RSIBR_OT_open_comparison
 from .open_report import RSIBR_OT_open_report
 from .pack import RSIBR_OT_pack
 from .reload_map_sets import RSIBR_OT_reload_map_sets
@@ -37,6 +38,7 @@ CLASSES: tuple[type, ...] = (
     RSIBR_OT_pack,
     RSIBR_OT_unpack,
     RSIBR_OT_open_report,
+    RSIBR_OT_open_comparison,
     *export.CLASSES,
     RSIBR_OT_compare,
     RSIBR_OT_reload_map_sets,

@@ -5,7 +5,7 @@ import bpy
 from ..rsibr_addon.core.errors import RsibrError
 from ..rsibr_addon.host.bake_settings import assign
 from ..rsibr_addon.session.running import session
-from ..rsibr_addon.tasks.queue.bake_request import bake_of, is_baked, output_for, request_for
+from ..rsibr_addon.tasks.queue.bake_request import bake_of, is_baked, output_for, plain_name, request_for
 from ..rsibr_addon.tasks.report.facts import map_set_content
 from . import background
 from .at_once import Undoable
@@ -56,9 +56,9 @@ def queue_bake(context: bpy.types.Context, content: str = "") -> str:
     output = output_for(request, context.scene, item)
     if (unfinished := session().bakes.unfinished(output)) is not None:
         unfinished.items.append(item.session_uid)
-        return f"Being baked already: {output.name}"
+        return f"Being baked already: {plain_name(output)}"
     if is_baked(output) and content in ("", map_set_content(output)):
         assign(item.session_uid, output, request.shown)
-        return f"Baked before: {output.name}"
+        return f"Baked before: {plain_name(output)}"
     background.submit(bake_of(request, context.scene, item, output))
-    return f"Baking {output.name}"
+    return f"Baking {plain_name(output)}"

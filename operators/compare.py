@@ -3,7 +3,9 @@
 import bpy
 
 from ..rsibr_addon.core.errors import RsibrError
+from ..rsibr_addon.files.output_paths import comparison_page
 from ..rsibr_addon.host.map_sets import written_path
+from ..rsibr_addon.session.running import session
 from ..rsibr_addon.tasks.compare.compare import truth_of
 from ..rsibr_addon.tasks.queue.bake_request import comparison_of
 from . import background
@@ -29,6 +31,11 @@ class RSIBR_OT_compare(AtOnce, bpy.types.Operator):
         return True
 
     def work(self, context: bpy.types.Context) -> None:
-        """Queue the comparison."""
+        """Queue the comparison, unless it is there already."""
         item = context.object
-        background.submit(comparison_of(context.scene, item, written_path(item.rsibr)))
+        path = written_path(item.rsibr)
+        if session().bakes.unfinished(comparison_page(path)) is not None:
+            self.report({"INFO"}, f"Being compared already: {path.name}")
+            return
+        background.submit(comparison_of(context.scene, item, path))
+        self.report({"INFO"}, f"Comparing {path.name}")

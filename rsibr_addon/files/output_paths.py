@@ -13,5 +13,10 @@ def comparison_beside(map_set: Path) -> Path:
     return map_set.with_name(f"{_name(map_set)}-compared")
 
 
+def comparison_page(map_set: Path) -> Path:
+    """The page of that comparison."""
+    return comparison_beside(map_set) / "index.html"
+
+
 def _name(map_set: Path) -> str:
     return map_set.name.removesuffix(".exr").removesuffix(".rsibr")

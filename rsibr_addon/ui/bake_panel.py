@@ -19,33 +19,51 @@ class RSIBR_PT_bake(InSidebar, bpy.types.Panel):
         """Show what a bake would cost or what it lacks, the button, and every bake."""
         layout, width = self.layout, context.region.width
         try:
-            cost = request_for(context.scene, context.object).cost
+            request = request_for(context.scene, context.object)
         except RsibrError as error:
             tell(layout, str(error), width)
         else:
+            cost = request.cost
+            for remark in request.remarks:
+                tell(layout, remark, width, icon="INFO")
             takes = f"{amount(cost.memory)} of memory, {amount(cost.disk)} on disk"
             tell(layout, capital(f"{duration(cost.seconds)}, {takes}"), width, icon="TIME")
         row = layout.row()
         row.scale_y = 1.5
         row.operator("rsibr.bake", text="Bake", icon="RENDER_STILL")
         for number, bake in enumerate(session().bakes.bakes):
-            _draw_bake(layout.box(), bake, number, width)
+            _draw_bake(layout, bake, number, width)
+
+
+def draw_progress(layout: bpy.types.UILayout, bake: Bake, width: int) -> None:
+    """Show how far a bake is that has not ended."""
+    if bake.state is State.WAITING:
+        layout.label(text="Waits for other bakes", icon=_ICONS[bake.state])
+        return
+    what = "starting Blender" if bake.progress is None else bake.progress.what
+    left = "" if bake.seconds_left is None else f"{duration(bake.seconds_left)} left"
+    layout.progress(factor=bake.fraction, text=capital(left))
+    tell(layout, capital(what), width, icon="NONE")
 
 
 def _draw_bake(layout: bpy.types.UILayout, bake: Bake, number: int, width: int) -> None:
-    row = layout.row()
+    """Show a bake in one line, and below it what goes on, why it failed or, on demand, its warnings."""
+    if not bake.warnings:
+        _draw_title(layout.row(), bake, number)
+    else:
+        header, opened = layout.panel(f"RSIBR_bake_{bake.output.name}", default_closed=True)
+        _draw_title(header, bake, number)
+        for warning in bake.warnings if opened else ():
+            tell(opened, warning, width, icon="INFO")
+    if bake.state is State.RUNNING:
+        draw_progress(layout, bake, width)
+    elif bake.state is State.FAILED:
+        tell(layout, bake.message, width)
+
+
+def _draw_title(row: bpy.types.UILayout, bake: Bake, number: int) -> None:
     row.label(text=bake.title, icon=_ICONS[bake.state])
     row.operator("rsibr.cancel_bake", text="", icon="X", emboss=False).number = number
-    match bake.state:
-        case State.RUNNING:
-            what = "starting Blender" if bake.progress is None else bake.progress.what
-            left = "" if bake.seconds_left is None else f"{duration(bake.seconds_left)} left"
-            layout.progress(factor=bake.fraction, text=capital(left))
-            tell(layout, capital(what), width, icon="NONE")
-        case State.FAILED:
-            tell(layout, bake.message, width)
-    for warning in bake.warnings:
-        tell(layout, warning, width, icon="INFO")
 
 
 _ICONS = {

@@ -2,7 +2,10 @@
 
 import bpy
 
+from .sentences import tell
 from .sidebar import InSidebar
+
+SOLID = "Solid shading has neither lamps nor world: choose Material Preview or Rendered for their light."
 
 
 class RSIBR_PT_live(InSidebar, bpy.types.Panel):
@@ -18,6 +21,8 @@ class RSIBR_PT_live(InSidebar, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Show the light's resolution, and the time that a frame may spend on it."""
+        if context.object.rsibr.live.on and context.space_data.shading.type == "SOLID":
+            tell(self.layout, SOLID, context.region.width, icon="INFO")
         self.layout.use_property_split = True
         self.layout.prop(context.object.rsibr.live, "size")
         self.layout.prop(context.object.rsibr.live, "budget")

@@ -5,6 +5,7 @@ from pathlib import Path
 import bpy
 
 from ..host.map_sets import is_packed
+from ..tasks.queue.bake_request import plain_name
 from ..tasks.report.facts import map_set_content
 from .sentences import tell
 
@@ -23,7 +24,7 @@ def draw_file(layout: bpy.types.UILayout, item: bpy.types.Object, path: Path, wi
     """
     packed = is_packed(item.rsibr)
     row = layout.row(align=True)
-    row.label(text=path.name, icon="FILE_IMAGE")
+    row.label(text=plain_name(path), icon="FILE_IMAGE")
     if packed:
         row.operator("rsibr.unpack", text="", icon="PACKAGE")
     else:

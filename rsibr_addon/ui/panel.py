@@ -2,6 +2,8 @@
 
 import bpy
 
+from ..files.kinds.registry import look_types
+from ..host.option_properties import said_by
 from ..host.world_light import has_environment, world_light
 from ..session.running import session
 from ..tasks.methods.kinds import KINDS
@@ -12,6 +14,9 @@ NOT_FOLLOWED = (
     "The world is more than a Background and an Environment Texture with a Mapping that rotates: bake in "
     "the world itself instead of following it."
 )
+
+
+EQUAL_LOOKS = "Both looks are the same, and so nothing differs: change the other look below."
 
 
 class RSIBR_PT_preview(InSidebar, bpy.types.Panel):
@@ -61,7 +66,15 @@ class RSIBR_PT_preview(InSidebar, bpy.types.Panel):
         if view.split and view.beyond == "difference":
             layout.prop(view, "difference")
         if view.split and view.beyond != "blender":
+            layout.label(text="Other look")
+            if _looks_are_equal(item, kind):
+                tell(layout, EQUAL_LOOKS, context.region.width, icon="INFO")
             _show_look(layout, getattr(item.rsibr.other, kind, None))
+
+
+def _looks_are_equal(item: bpy.types.Object, kind: str) -> bool:
+    look = look_types()[kind]
+    return said_by(look, getattr(item.rsibr, kind)) == said_by(look, getattr(item.rsibr.other, kind))
 
 
 def _show_look(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup | None) -> None:

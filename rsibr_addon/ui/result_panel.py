@@ -5,10 +5,12 @@ import math
 import bpy
 
 from ..core.errors import RsibrError
+from ..files.output_paths import comparison_page
 from ..host.map_sets import written_path
 from ..session.running import session
 from ..tasks.compare.measured_error import measured_facts
 from ..tasks.report.facts import is_picture, map_set_facts, map_set_fit, map_set_header
+from .bake_panel import draw_progress
 from .map_set_file import draw_file, draw_remedies
 from .sentences import tell
 from .sidebar import InSidebar
@@ -53,6 +55,11 @@ class RSIBR_PT_result(InSidebar, bpy.types.Panel):
         row = layout.row(align=True)
         row.operator("rsibr.open_report", icon="URL")
         row.operator("rsibr.compare", icon="MOD_DATA_TRANSFER")
+        page = comparison_page(path)
+        if (comparing := session().bakes.unfinished(page)) is not None:
+            draw_progress(layout, comparing, context.region.width)
+        elif measured and page.is_file():
+            layout.operator("rsibr.open_comparison", icon="URL")
 
 
 class RSIBR_PT_result_maps(InSidebar, bpy.types.Panel):

@@ -19,6 +19,7 @@ from rsibr.rsibr_addon.files.staging import is_staging_folder
 from rsibr.rsibr_addon.host.bake_settings import apply_settings, plain_settings
 from rsibr.rsibr_addon.host.option_properties import property_name, shown_value
 from rsibr.rsibr_addon.job import CommandJob, read_job
+from rsibr.rsibr_addon.session.running import session
 from rsibr.rsibr_addon.tasks.light.light_pictures import NO_RADIANCE, light_remarks
 from rsibr.rsibr_addon.tasks.queue.bake_request import (
     BakeRequest,
@@ -26,6 +27,7 @@ from rsibr.rsibr_addon.tasks.queue.bake_request import (
     comparison_of,
     is_baked,
     output_for,
+    plain_name,
     request_for,
 )
 from rsibr.rsibr_addon.ui.environment_panel import RSIBR_PT_environment
@@ -84,6 +86,43 @@ def test_better_costs_more(kind: str) -> None:
         # More maps of a lobe stack take no more: they are made one after another
         assert less.memory < more.memory or (kind == "lobe_stack" and less.memory == more.memory)
         assert less.disk < more.disk
+
+
+def test_the_panel_names_a_map_set_without_its_hash() -> None:
+    bpy.context.scene.rsibr_bake.kind = "mip_chain"
+    assert plain_name(output()) == "mip-chain-in-the-world"
+    assert plain_name(Path("/art/paint.rsibr.exr")) == "paint.rsibr.exr"
+
+
+def test_what_a_map_set_will_lack_is_told_before_it_is_baked() -> None:
+    bpy.context.scene.rsibr_bake.kind = "radiance_views"
+    assert order().remarks == ()
+    tree = bpy.context.object.active_material.node_tree
+    checker = tree.nodes.new("ShaderNodeTexChecker")
+    coordinates = tree.nodes.new("ShaderNodeTexCoord")
+    tree.links.new(coordinates.outputs["UV"], checker.inputs["Vector"])
+    tree.links.new(checker.outputs["Color"], tree.nodes["Principled BSDF"].inputs["Base Color"])
+    (remark,) = order().remarks
+    assert remark.startswith("Material is baked as it looks on one shape: ")
+    assert "Texture Coordinate" in remark
+
+
+def test_a_comparison_is_queued_once_and_its_page_opens_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(
+        "rsibr.rsibr_addon.tasks.queue.bake_request.blender_program", lambda: "no-such-program"
+    )
+    write_flat_capture(tmp_path / "flat.rsibr.exr", (0.5, 0.0, 0.5))
+    bpy.context.object.rsibr.map_set = str(tmp_path / "flat.rsibr.exr")
+    with pytest.raises(RuntimeError, match=r"There is no comparison of flat\.rsibr\.exr: press Compare"):
+        bpy.ops.rsibr.open_comparison()
+    bakes = session().bakes
+    monkeypatch.setattr(type(bakes), "update", lambda queue: [])  # all wait
+    for _ in range(2):
+        assert bpy.ops.rsibr.compare() == {"FINISHED"}
+    assert [bake.output for bake in bakes.bakes] == [tmp_path / "flat-compared" / "index.html"]
+    bakes.close()
 
 
 @pytest.mark.parametrize("kind", KINDS)

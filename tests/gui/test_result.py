@@ -88,9 +88,9 @@ def test_maps_and_lobes_are_shown_and_read_once(told: Callable[[str], dict]) -> 
         "of another": "lobe01.slice003",
         "stack": [
             *(
-                f"Lobe {lobe}, n\N{DOT OPERATOR}v {mu}"
+                f"Lobe {lobe}, Seen at {angle}\N{DEGREE SIGN}"
                 for lobe in (1, 2, 3)
-                for mu in (0.12, 0.38, 0.62, 0.88)
+                for angle in (83, 68, 51, 29)
             ),
             "Environment",
         ],

@@ -8,6 +8,16 @@ def _lacquer(alpha: float, base: str) -> str:
     return f"layered:coat=(ggx:alpha={alpha},eta=1.5),base=({base})"
 
 
+_PAINT_NAMES = {
+    "ford_f8": "Black (Ford)",
+    "polaris_silber": "Polaris silver",
+    "opel_titan": "Titanium (Opel)",
+    "bmw_339": "Titanium (BMW)",
+    "2k_acrylack": "Yellow acrylic",
+    "blue_matte": "Matte blue",
+}
+"""Measured paint -> its name for people, by its colour, where its own is not that."""
+
 GALLERY: dict[str, dict[str, str]] = {
     "Metals": {
         **{f"Brushed {metal}": f"ggx:alpha=0.3,metal={metal}" for metal in METALS},
@@ -20,7 +30,7 @@ GALLERY: dict[str, dict[str, str]] = {
         "Black plastic": _lacquer(0.2, "lambert:kd=0.02"),
         "White ceramic": _lacquer(0.04, "lambert:kd=0.8/0.78/0.72"),
     },
-    "Car paints": {name.replace("_", " ").capitalize(): f"car_paint:name={name}" for name in PAINTS},
+    "Car paints": {_PAINT_NAMES.get(name, name.capitalize()): f"car_paint:name={name}" for name in PAINTS},
     "Wood and cloth": {
         "Varnished wood": _lacquer(0.08, "lambert:kd=0.35/0.15/0.05"),
         "Satin": "sum:parts=(lambert:kd=0.15/0.03/0.05)+(ward:alpha=0.35,ks=0.4)",

@@ -1,5 +1,6 @@
 """Map sets of kind `lobe_stack`."""
 
+import math
 from collections import defaultdict
 from collections.abc import Callable, Iterable
 from dataclasses import replace
@@ -257,7 +258,8 @@ def _part_title(part: dict[str, Any]) -> str:
     if part["role"] not in STORED.roles:
         return role_in_words(part)
     first, *others = part["elevations"]
-    at = "All Elevations" if others else f"n\N{DOT OPERATOR}v {first['mu']:.2f}"
+    angle = math.degrees(math.acos(min(first["mu"], 1.0)))
+    at = "All Views" if others else f"Seen at {angle:.0f}\N{DEGREE SIGN}"
     return f"Lobe {part['lobe'] + 1}, {at}"
 
 

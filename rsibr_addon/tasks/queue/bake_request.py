@@ -12,7 +12,7 @@ from ...core.errors import MapSetError, SceneError
 from ...core.options import declared_options, to_plain
 from ...files.kinds.registry import STORED
 from ...files.map_set import read_map_set
-from ...files.output_paths import comparison_beside
+from ...files.output_paths import comparison_beside, comparison_page
 from ...files.pictures import split_layer
 from ...files.temporary import temporary_folder
 from ...host.bake_settings import (
@@ -30,6 +30,7 @@ from ...host.bake_settings import (
 )
 from ...host.materials import ORIGINAL, fingerprint
 from ...host.option_properties import FILE, OWN, options_of
+from ...host.shape_dependence import shape_dependence
 from ...host.version import software
 from ...host.worlds import world_of
 from ...job import BakeJob, CommandJob
@@ -65,6 +66,8 @@ class BakeRequest:
         Paths of the files that hold the material or its fit, if any.
     shown : dict
         All that the scene says, to bake the same again.
+    remarks : tuple of str
+        What the map set will lack, as far as it is known beforehand.
     """
 
     settings: MethodSettings
@@ -72,6 +75,7 @@ class BakeRequest:
     own_material: str | None
     files: tuple[str, ...]
     shown: dict[str, Any]
+    remarks: tuple[str, ...] = ()
 
     @property
     def needs_file(self) -> bool:
@@ -137,13 +141,16 @@ def request_for(scene: Any, item: Any) -> BakeRequest:
     chosen = getattr(scene.rsibr_bake, scene.rsibr_bake.kind)
     check_choices(chosen)
     source = getattr(chosen, "source", None)
-    own = own_material(item).name if source == OWN else None
+    material = own_material(item) if source == OWN else None
+    own = material.name if material else None
     files = [existing(chosen.path, "measured material", "its file")] if source == FILE else []
     settings = options_of(STORED[scene.rsibr_bake.kind].settings, chosen, own or "")
     named = [each for each in declared_options(type(settings)) if each.option.subtype == "FILE_PATH"]
     files += filter(None, (getattr(settings, each.name) for each in named))
     light = Light(environment=chosen_environment(scene), clamp=options_of(Clamp, scene.rsibr_bake).clamp)
-    request = BakeRequest(settings, light, own, tuple(files), plain_settings(scene.rsibr_bake))
+    request = BakeRequest(
+        settings, light, own, tuple(files), plain_settings(scene.rsibr_bake), _remarks(material)
+    )
     _ = request.cost  # which a text that describes no model has not
     return request
 
@@ -181,6 +188,11 @@ def output_for(request: BakeRequest, scene: Any, item: Any) -> Path:
     letters = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:HASH_LETTERS]
     words = re.sub(r"[^\w.-]+", "-", request.title.lower())[:NAME_LETTERS]
     return baked_folder() / f"{words}-{letters}.rsibr.exr"
+
+
+def plain_name(map_set: Path) -> str:
+    """The name of a map set's file for people: without the hash of `output_for`, if it has one."""
+    return re.sub(rf"-[0-9a-f]{{{HASH_LETTERS}}}\.rsibr\.exr$", "", map_set.name)
 
 
 def is_baked(output: Path) -> bool:
@@ -243,7 +255,7 @@ def comparison_of(scene: Any, item: Any, map_set: Path) -> ObjectBake:
     job = CommandJob(
         ("compare", str(map_set), *views, *_named_model(item), "--output", str(folder), "--force")
     )
-    return _in_background(f"{item.name}: comparison", job, scene, item, folder / "index.html", True)
+    return _in_background(f"{item.name}: comparison", job, scene, item, comparison_page(map_set), True)
 
 
 def _named_model(item: Any) -> tuple[str, ...]:
@@ -288,6 +300,11 @@ def _in_background(
         items=[item.session_uid],
         reads=reads,
     )
+
+
+def _remarks(material: Any) -> tuple[str, ...]:
+    reasons = "; ".join(shape_dependence(material)) if material else ""
+    return (f"{material.name} is baked as it looks on one shape: {reasons}.",) if reasons else ()
 
 
 def _light(environment: str) -> str:

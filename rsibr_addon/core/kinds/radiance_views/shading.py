@@ -67,8 +67,8 @@ class ViewsLook(Options):
         label="Warp",
         help="How the views' light is warped",
         choices={
-            Warping.ALBEDO: Choice("Albedo", "as split, over the material's directional albedo"),
-            Warping.SPLIT: Choice("Split", "diffuse light by the normal, glossy by the mirror direction"),
+            Warping.ALBEDO: Choice("Albedo", "as by parts, over the material's directional albedo"),
+            Warping.SPLIT: Choice("By Parts", "diffuse light by the normal, glossy by the mirror direction"),
             Warping.SINGLE: Choice("Single", "all light by the mirror direction, as in the paper of 1999"),
         },
         flag="--warp",

@@ -1,0 +1,1 @@
+"""What a material's inputs are, in words that know nothing of Blender."""

@@ -67,7 +67,7 @@ class PreviewRenderer:
             projection=camera.projection,
             eye=camera.eye,
         )
-        mesh = GpuMesh(positions, normals, triangles)
+        mesh = GpuMesh(positions, normals, _nearest_first(positions, triangles, camera))
         depth_test, depth_mask = gpu.state.depth_test_get(), gpu.state.depth_mask_get()
         with target.bind():
             target.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
@@ -91,6 +91,13 @@ class PreviewRenderer:
             shader.uniform_sampler("samples", samples)
             screen_triangle(shader).draw(shader)
             return buffers.pixels(target, size)
+
+
+def _nearest_first(positions: Array, triangles: Indices, camera: Camera) -> Indices:
+    """Triangles from the eye onwards: what others hide is then not shaded, most of the far side of a mesh."""
+    nearness = positions @ camera.world_from_camera[:3, 2]
+    ordered: Indices = triangles[np.argsort(-nearness[triangles].sum(axis=1), kind="stable")]
+    return ordered
 
 
 @kept_until_exit

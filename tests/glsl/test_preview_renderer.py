@@ -202,3 +202,13 @@ def test_pictures_do_not_depend_on_what_was_drawn_before(smooth) -> None:
     np.testing.assert_array_equal(
         renderer.draw(*SPHERE, CAMERAS[0], SIZE, ViewsLook(Mode.TEXEL, Warping.SPLIT)), first
     )
+
+
+def test_the_order_of_triangles_does_not_show() -> None:
+    positions, normals, triangles = fine_sphere(64)
+    renderer = PreviewRenderer(GpuRadianceViews(smooth_views(12, 32)))
+    shuffled = np.random.default_rng(3).permutation(triangles)
+    given, other = (
+        renderer.draw(positions, normals, of, CAMERAS[1], SIZE, ViewsLook()) for of in (triangles, shuffled)
+    )
+    np.testing.assert_array_equal(given, other)

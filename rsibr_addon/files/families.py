@@ -22,7 +22,8 @@ def shipped_family(name: str) -> Family:
     Parameters
     ----------
     name : str
-        "ggx": reflection from GGX microfacets times each of `fresnel_powers.POWERS`.
+        "ggx": reflection from GGX microfacets times each of `fresnel_powers.POWERS`; "leaning": what leaning
+        facets add to diffuse reflection, `oren_nayar.tilt`.
 
     Raises
     ------

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.brdf.albedo import directional_albedo
 from rsibr.rsibr_addon.core.brdf.fresnel import Fresnel, Index, Schlick
+from rsibr.rsibr_addon.core.brdf.fresnel_powers import dielectric, schlick
 from rsibr.rsibr_addon.core.brdf.ggx import Ggx
 from rsibr.rsibr_addon.core.errors import InputFileError
 from rsibr.rsibr_addon.core.lobes.accuracy import fit_errors
 from rsibr.rsibr_addon.core.lobes.family import Family
 from rsibr.rsibr_addon.core.lobes.family_fit import WIDTHS, fit_ggx
-from rsibr.rsibr_addon.core.lobes.fresnel_powers import dielectric, schlick
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.families import read_family, shipped_family, write_family
 

@@ -96,7 +96,7 @@ class Family:
                 (column, 1.0 - by_column),
                 (np.minimum(column + 1, len(self.mu) - 1), by_column),
             ):
-                found += (of_row * of_column).reshape(*alpha.shape, *rest) * table[number, other]
+                found += (of_row * of_column).reshape((*alpha.shape, *rest)) * table[number, other]
         return found
 
     def fit(self, alpha: float, coefficients: Array, brdf: str) -> Fit:

@@ -9,13 +9,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..brdf.ggx import ggx_ndf, smith_visibility
+from ..brdf.fresnel_powers import dielectric, schlick
 from ..brdf.model import BrdfFunction, Geometry
+from ..brdf.oren_nayar import tilt
+from ..brdf.principled import ggx_by_powers
 from ..conventions import Array
 from ..progress import Progress, Steps
 from .bank import KernelBank
 from .family import KERNELS, Family
-from .fresnel_powers import dielectric, powers_of, schlick
 from .joint import MOST_AMPLIFICATION, State, added_lobe, amplification, settled, tilts_of, tracked
 from .projection import Lookups, Projector
 from .smoothing import lines
@@ -24,7 +25,7 @@ from .target import TargetSlice, elevation_slices, target_slices
 WIDTHS = 2.0 ** np.linspace(-6.0, 0.0, 25)
 """alpha of the rows of the GGX family, four an octave."""
 
-ELEVATIONS, LOBES = 16, 4
+ELEVATIONS, LOBES, LEANING_LOBES = 16, 4, 2
 
 GUIDES = np.stack([schlick(1.0), dielectric(1.5)], axis=1)
 """A white metal and glass, as coefficients of `POWERS`, shape (C, 2)."""
@@ -37,24 +38,22 @@ _FIRST_WIDTH, _FIRST_ELEVATION = 0.25, 0.25
 _STIFFER, _STIFFEST = 1.4, 1e4
 
 
-def ggx_by_powers(alpha: float) -> BrdfFunction:
-    """GGX times each of `fresnel_powers.POWERS`, as a function called like a `Brdf` with C channels."""
-
-    def brdf(light_dir: Array, view_dir: Array) -> Array:
-        light_dir, view_dir = np.broadcast_arrays(light_dir, view_dir)
-        above = (light_dir[..., 2] > 0.0) & (view_dir[..., 2] > 0.0)
-        pair = Geometry(light_dir[above], view_dir[above])
-        facets = ggx_ndf(pair.half_sine_squared, alpha) * smith_visibility(pair.n_dot_l, pair.n_dot_v, alpha)
-        found = np.zeros((*light_dir.shape[:-1], GUIDES.shape[0]))
-        found[above] = facets[:, None] * powers_of(pair.h_dot_l)
-        return found
-
-    return brdf
+def fit_leaning(elevations: int = ELEVATIONS, lobes: int = LEANING_LOBES) -> Steps[Family]:
+    """The family of what leaning facets add to diffuse reflection: `oren_nayar.tilt`, of one width, 1."""
+    return (
+        yield from fit_family(
+            lambda _: _above(lambda pair: tilt(pair.n_dot_l, pair.n_dot_v, pair.l_dot_v)[:, None]),
+            np.ones((1, 1)),
+            np.ones(1),
+            elevation_slices(elevations),
+            lobes,
+        )
+    )
 
 
 def fit_ggx(widths: Array = WIDTHS, elevations: int = ELEVATIONS, lobes: int = LOBES) -> Steps[Family]:
     """The family of GGX reflection of all widths and all Fresnel terms that are sums of `POWERS`."""
-    return (yield from fit_family(ggx_by_powers, GUIDES, widths, elevation_slices(elevations), lobes))
+    return (yield from fit_family(_ggx, GUIDES, widths, elevation_slices(elevations), lobes))
 
 
 def fit_family(
@@ -107,6 +106,25 @@ def fit_family(
         for column, target in enumerate(rows[row]):
             weights[row, column, :, : len(bank)] = _solved(target, bank, tilts[row, column], guides)
     return Family(widths, mu, KERNELS, tilts, weights)
+
+
+def _ggx(alpha: float) -> BrdfFunction:
+    """GGX times each of `POWERS`."""
+    return _above(lambda pair: ggx_by_powers(pair, alpha))
+
+
+def _above(model: Callable[[Geometry], Array]) -> BrdfFunction:
+    """A model of several channels above the horizon, called like a `Brdf`."""
+
+    def brdf(light_dir: Array, view_dir: Array) -> Array:
+        light_dir, view_dir = np.broadcast_arrays(light_dir, view_dir)
+        above = (light_dir[..., 2] > 0.0) & (view_dir[..., 2] > 0.0)
+        values = model(Geometry(light_dir[above], view_dir[above]))
+        found = np.zeros((*light_dir.shape[:-1], values.shape[1]))
+        found[above] = values
+        return found
+
+    return brdf
 
 
 def kernels_of(alpha: float) -> KernelBank:

@@ -1,0 +1,147 @@
+"""An environment filtered with the kernels of families of lobes, each map as large as its kernel needs."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...brdf.oren_nayar import leaning_albedo
+from ...conventions import Array, ArrayLike
+from ...errors import ShapeError
+from ...filtering.harmonics.analysis import analyse_environment
+from ...filtering.prefilter import analysis_degree, prefilter, resolved_width
+from ...filtering.radial_lobes import cosine_lobe
+from ...filtering.zonal import ZonalLobe, ZonalSeries, expand
+from ...lobes.bank import KernelBank
+from ...lobes.family import KERNELS
+from ...maps.representation import representation
+from ...resample import lookup, resample
+from ...ties import TIE
+
+OCTAHEDRAL, EQUIRECT = representation("octahedral"), representation("equirect")
+
+TEXELS_BY_SHARPNESS = 8.0
+"""Width of a kernel's map over the root of its concentration. Bilinear lookups cost up to 5 % of a kernel's
+peak, and far less of a lobe, of which the sharpest kernel is the tip."""
+
+SMALLEST, LARGEST = 32, 1024
+"""Widths of maps in texels. Broad kernels have larger maps than they need: diffuse light is theirs alone."""
+
+TOLERANCE = 1e-5
+"""Relative root-mean-square error of filtering; less than that of half floats."""
+
+_TOLERANCE_AT_HORIZON = 1e-3
+
+
+@dataclass(frozen=True, eq=False)
+class Pyramid:
+    """Octahedral maps of an environment: itself, K kernels, and two diffuse ones.
+
+    Attributes
+    ----------
+    bank : KernelBank
+        K kernels.
+    mirror : ndarray, shape (1, n, n, 3)
+        The environment itself: what a mirror shows.
+    maps : tuple of ndarray, shape (1, n, n, 3) each
+        Radiance filtered with each kernel, each of its own width n.
+    diffuse : ndarray, shape (2, n, n, 3)
+        By direction of the normal: what Lambert's reflection shows of white, and the integral of radiance
+        times n.l times `oren_nayar.leaning_albedo`.
+
+    Raises
+    ------
+    ShapeError
+        There are not as many maps as kernels, or a map is no square.
+    """
+
+    bank: KernelBank
+    mirror: Array
+    maps: tuple[Array, ...]
+    diffuse: Array
+
+    def __post_init__(self) -> None:
+        square = all(sheets.shape[1:] == (sheets.shape[1], sheets.shape[1], 3) for sheets in self.all_maps)
+        if len(self.maps) != len(self.bank) or not square:
+            raise ShapeError("A pyramid has a square map for each of its kernels: bake it again.")
+
+    @property
+    def all_maps(self) -> tuple[Array, ...]:
+        """Every map, the sharpest first."""
+        return (self.mirror, *self.maps[::-1], self.diffuse)
+
+    @property
+    def texels(self) -> int:
+        """Number of texels of all maps; as half floats with four channels, each takes 8 bytes of memory."""
+        return sum(sheets[..., 0].size for sheets in self.all_maps)
+
+    def kernel(self, concentration: float, direction: ArrayLike) -> Array:
+        """The environment filtered with a kernel.
+
+        Parameters
+        ----------
+        concentration : float
+            One of the bank's, or a larger one: the environment resolves none of these, and is shown itself.
+        direction : array_like, shape (..., 3)
+            Axes of the kernel.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+        """
+        if concentration > self.bank.concentrations[-1]:
+            return lookup(self.mirror, direction, OCTAHEDRAL)
+        number = self.bank.concentrations.index(concentration)
+        return lookup(self.maps[number], direction, OCTAHEDRAL)
+
+
+def width_of(concentration: float) -> int:
+    """Texels along the map of a kernel: a power of 2."""
+    needed = max(TEXELS_BY_SHARPNESS * np.sqrt(concentration), SMALLEST)
+    return min(int(2.0 ** np.ceil(np.log2(needed) - TIE)), LARGEST)
+
+
+def bake_pyramid(radiance: Array) -> Pyramid:
+    """Filter an environment.
+
+    Parameters
+    ----------
+    radiance : ndarray, shape (height, 2 * height, 3)
+        Latitude-longitude map, not negative.
+
+    Returns
+    -------
+    Pyramid
+        With those of `family.KERNELS` that the environment resolves, and its own width up to `LARGEST`.
+    """
+    least = (1.0 - TIE) * resolved_width(len(radiance))
+    expanded = zip(KERNELS.concentrations, KERNELS.lobes(), strict=True)
+    series = {kappa: expand(lobe, TOLERANCE) for kappa, lobe in expanded}
+    series = {kappa: lobe for kappa, lobe in series.items() if lobe.width >= least}
+    diffuse = [expand(lobe, _TOLERANCE_AT_HORIZON) for lobe in (cosine_lobe(), leaning_lobe())]
+    harmonics = analyse_environment(radiance, analysis_degree([*series.values(), *diffuse]))
+
+    def filtered(lobes: Sequence[ZonalSeries], size: int) -> Array:
+        return (
+            prefilter(harmonics, lobes, OCTAHEDRAL.texel_directions(size)).radiance[:, 0].astype(np.float32)
+        )
+
+    cosine, leaning = filtered(diffuse, SMALLEST)
+    size = min(LARGEST, 2 * len(radiance))
+    return Pyramid(
+        KernelBank(tuple(series)),
+        resample(radiance[None], EQUIRECT, OCTAHEDRAL, size, np.float32),
+        tuple(filtered([lobe], width_of(kappa)) for kappa, lobe in series.items()),
+        np.stack([cosine / np.float32(np.pi), leaning]),
+    )
+
+
+def leaning_lobe() -> ZonalLobe:
+    """max(cos, 0) times `oren_nayar.leaning_albedo`."""
+
+    def profile(lobe_angle: Array) -> Array:
+        cosine = np.cos(lobe_angle)
+        values: Array = np.where(cosine > 0.0, cosine * leaning_albedo(cosine), 0.0)
+        return values
+
+    return ZonalLobe(profile, (0.0, 0.25 * np.pi, 0.5 * np.pi, np.pi))

@@ -35,6 +35,17 @@ def baked(size: int = 32, layout: str = "dual_paraboloid", radiance: Array = LIG
     return drain(bake_bank(radiance, layout, size))
 
 
+def test_in_the_dark_nothing_is_reflected_and_nothing_errs() -> None:
+    dark = np.zeros_like(LIGHT)
+    found = baked(radiance=dark)
+    fit = random_fit(found.filtered.bank, lobes=1)
+    stack = drain(bake_stack(dark, fit, "dual_paraboloid", None))
+    assert not found.filtered.maps.any()
+    assert not stack.stack.maps.any()
+    assert not np.any(found.interpolation)
+    assert stack.interpolation == 0.0
+
+
 @pytest.mark.parametrize("layout", LAYOUTS)
 def test_a_sum_of_the_bank_is_the_stack_that_is_baked(layout: str) -> None:
     filtered = baked(16, layout).filtered

@@ -216,7 +216,7 @@ def _laplacian(degree: int) -> Array:
 def _curvature_of_kernel(kernel: ZonalSeries, harmonics: EnvironmentHarmonics) -> float:
     """Root mean square of the Laplacian of a kernel's map over that of the map itself."""
     power = kernel.coefficients[:, None] ** 2 * _light(harmonics, kernel.degree)
-    return float(np.sqrt(np.sum(power * _laplacian(kernel.degree) ** 2) / np.sum(power)))
+    return _root_of_share(np.sum(power * _laplacian(kernel.degree) ** 2), np.sum(power))
 
 
 def _curvature(fit: Fit, weights: Array, series: list[ZonalSeries], harmonics: EnvironmentHarmonics) -> float:
@@ -235,7 +235,12 @@ def _curvature(fit: Fit, weights: Array, series: list[ZonalSeries], harmonics: E
     lookups = np.sum(fit.taps**2, axis=2)
     bent = np.einsum("s,ls,lsdc,dc->", fit.mu, lookups, amplitude**2, light * _laplacian(degree) ** 2)
     together = np.einsum("ls,lsdc->sdc", fit.taps.sum(axis=2), amplitude)
-    return float(np.sqrt(bent / np.einsum("s,sdc,dc->", fit.mu, together**2, light)))
+    return _root_of_share(bent, np.einsum("s,sdc,dc->", fit.mu, together**2, light))
+
+
+def _root_of_share(power: Array, whole: Array) -> float:
+    """Root of a power over the whole; 0 in the dark, where nothing can err."""
+    return float(np.sqrt(power / whole)) if whole > 0.0 else 0.0
 
 
 def _interpolation(curvature: float, layout: str, size: int) -> float:

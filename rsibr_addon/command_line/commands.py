@@ -9,7 +9,7 @@ from itertools import pairwise
 from typing import Any, NoReturn
 
 from ..core.errors import RsibrError
-from ..core.threads import VARIABLE, limited, thread_count
+from ..core.threads import MOST, VARIABLE, limited, thread_count
 from .parser import Parser
 
 COMMANDS = {
@@ -80,7 +80,7 @@ def _threads(word: str) -> int:
     try:
         return thread_count()
     except RsibrError as error:
-        raise argparse.ArgumentTypeError(f"{word} is no number of threads from 1") from error
+        raise argparse.ArgumentTypeError(f"{word} is no number of threads from 1 to {MOST}") from error
 
 
 def _with_todays_names(argv: Sequence[str]) -> Sequence[str]:

@@ -1,9 +1,11 @@
-"""How many threads numerical work may use. Its results do not depend on their number."""
+"""How many threads numerical work may use. Results depend on their number in their last bits at most."""
 
+import errno
 import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import contextmanager
 from typing import TypeVar
 
 from .errors import RangeError
@@ -13,6 +15,9 @@ Result = TypeVar("Result")
 
 VARIABLE = "RSIBR_THREADS"
 """The environment variable that limits threads, here and in the processes that are started from here."""
+
+MOST = 1024
+"""Greatest number of threads that one may ask for."""
 
 
 def limited() -> bool:
@@ -32,16 +37,42 @@ def thread_count() -> int:
     Raises
     ------
     RangeError
-        The variable holds no number of at least 1.
+        The variable holds no number from 1 to `MOST`.
     """
     if limited():
         said = os.environ[VARIABLE]
-        if not said.isdecimal() or int(said) < 1:
-            raise RangeError(f'{VARIABLE} says "{said}": set it to a number of threads from 1, or unset it.')
+        if not (said.isdecimal() and len(said) <= len(str(MOST)) and 1 <= int(said) <= MOST):
+            raise RangeError(
+                f'{VARIABLE} says "{said}": set it to a number of threads from 1 to {MOST}, or unset it.'
+            )
         return int(said)
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
+
+
+@contextmanager
+def starting() -> Iterator[None]:
+    """Within, a compiled library may start as many threads as `thread_count` says.
+
+    Raises
+    ------
+    RangeError
+        The system starts no more threads.
+    """
+    try:
+        yield
+    except RuntimeError as error:  # as C++ tells it
+        if os.strerror(errno.EAGAIN) not in str(error):
+            raise
+        raise _too_many() from error
+
+
+def _too_many() -> RangeError:
+    return RangeError(
+        f"The system starts no {thread_count()} threads, as where memory or addresses are limited: ask for "
+        f"fewer by --threads or {VARIABLE}."
+    )
 
 
 def in_order(function: Callable[[Item], Result], items: Iterable[Item]) -> Iterator[Result]:
@@ -60,8 +91,8 @@ def in_order(function: Callable[[Item], Result], items: Iterable[Item]) -> Itera
 
     Raises
     ------
-    MemoryError
-        There is no memory for a thread.
+    RangeError
+        The system starts no more threads.
     """
     count = thread_count()
     if count == 1:
@@ -73,7 +104,7 @@ def in_order(function: Callable[[Item], Result], items: Iterable[Item]) -> Itera
             try:
                 ahead.append(threads.submit(function, item))
             except RuntimeError as error:
-                raise MemoryError(str(error)) from error
+                raise _too_many() from error
             if len(ahead) > 2 * count:
                 yield ahead.popleft().result()
         while ahead:

@@ -13,7 +13,7 @@ import OpenEXR
 
 from ..core.conventions import Array, Indices
 from ..core.errors import InputFileError
-from ..core.threads import thread_count
+from ..core.threads import starting, thread_count
 from .exr_sampling import interpolated
 from .memory import check_memory
 from .reading import opened
@@ -28,7 +28,8 @@ CUBE = OpenEXR.ENVMAP_CUBE
 primaries_named = OpenEXR.colorInteropIDToChromaticities
 """Chromaticities of a linear colour space by its `colorInteropID`; None for other identifiers."""
 
-OpenEXR.set_global_thread_count(thread_count())
+with starting():
+    OpenEXR.set_global_thread_count(thread_count())
 
 FEWEST_STORED = 1000
 """Number of pixels in a picture of which at least one must be stored."""

@@ -32,11 +32,11 @@ def test_the_version_is_told(capfd: pytest.CaptureFixture[str]) -> None:
     assert capfd.readouterr().out == f"{rsibr()}\n"
 
 
-@pytest.mark.parametrize("word", ["0", "-2", "many"])
+@pytest.mark.parametrize("word", ["0", "-2", "many", "1025", "9" * 5000])
 def test_what_is_no_number_of_threads(
     word: str, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("RSIBR_THREADS", "2")
     monkeypatch.setenv("OPENBLAS_NUM_THREADS", "2")
     assert run(["info", "light.exr", f"--threads={word}"]) == 2
-    assert f"argument --threads: {word} is no number of threads from 1" in capfd.readouterr().err
+    assert f"argument --threads: {word} is no number of threads from 1 to 1024" in capfd.readouterr().err

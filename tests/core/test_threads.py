@@ -1,12 +1,15 @@
 """Work on several threads gives what it gives on one, in order and with bounded memory."""
 
+import errno
+import os
 import threading
 
 import numpy as np
 import pytest
+from rsibr.rsibr_addon.core.errors import RangeError
 from rsibr.rsibr_addon.core.maps.representation import representation
 from rsibr.rsibr_addon.core.resample import resample
-from rsibr.rsibr_addon.core.threads import VARIABLE, in_order
+from rsibr.rsibr_addon.core.threads import VARIABLE, in_order, starting
 
 THREADS = ["1", "2", "5"]
 
@@ -44,6 +47,14 @@ def test_an_error_is_the_functions_own(monkeypatch: pytest.MonkeyPatch, threads:
 
     with pytest.raises(RuntimeError, match="at 0"):
         list(in_order(fails, range(10)))
+
+
+def test_threads_that_the_system_does_not_start_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(VARIABLE, "64")
+    with pytest.raises(RangeError, match="starts no 64 threads"), starting():
+        raise RuntimeError(os.strerror(errno.EAGAIN))
+    with pytest.raises(RuntimeError, match="of another kind"), starting():
+        raise RuntimeError("of another kind")
 
 
 @pytest.mark.parametrize("target", ["octahedral", "dual_paraboloid", "angular_map"])

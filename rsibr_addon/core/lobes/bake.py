@@ -238,7 +238,7 @@ def _curvature(fit: Fit, weights: Array, series: list[ZonalSeries], harmonics: E
     return _root_of_share(bent, np.einsum("s,sdc,dc->", fit.mu, together**2, light))
 
 
-def _root_of_share(power: Array, whole: Array) -> float:
+def _root_of_share(power: np.floating, whole: np.floating) -> float:
     """Root of a power over the whole; 0 in the dark, where nothing can err."""
     return float(np.sqrt(power / whole)) if whole > 0.0 else 0.0
 

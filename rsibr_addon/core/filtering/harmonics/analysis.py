@@ -6,7 +6,7 @@ import numpy as np
 from ...conventions import Array
 from ...errors import RangeError, ShapeError
 from ...maps import equirect
-from ...threads import thread_count
+from ...threads import starting, thread_count
 from .coefficients import EnvironmentHarmonics
 
 MAX_DEGREE = 3000
@@ -50,13 +50,14 @@ def analyse_environment(radiance: Array, degree: int) -> EnvironmentHarmonics:
         flux[channel] = sum(np.abs(row).sum() for row in light)
         if not np.isfinite(flux[channel]):
             raise RangeError("The map holds NaN or infinite values: repair it in an image editor.")
-        ducc0.sht.adjoint_synthesis_2d(
-            map=light[None],
-            spin=0,
-            lmax=degree,
-            geometry="F1",
-            phi0=-np.pi * (1.0 - 1.0 / width),
-            nthreads=thread_count(),
-            alm=coefficients[channel, None],
-        )
+        with starting():
+            ducc0.sht.adjoint_synthesis_2d(
+                map=light[None],
+                spin=0,
+                lmax=degree,
+                geometry="F1",
+                phi0=-np.pi * (1.0 - 1.0 / width),
+                nthreads=thread_count(),
+                alm=coefficients[channel, None],
+            )
     return EnvironmentHarmonics(coefficients, flux, degree, height)

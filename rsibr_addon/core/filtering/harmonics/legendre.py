@@ -6,7 +6,7 @@ import ducc0
 import numpy as np
 
 from ...conventions import Array
-from ...threads import thread_count
+from ...threads import starting, thread_count
 
 
 def legendre_sums(weight: Array, theta: Array, degree: int) -> Array:
@@ -23,7 +23,8 @@ def legendre_sums(weight: Array, theta: Array, degree: int) -> Array:
     -------
     ndarray, shape (degree + 1,)
     """
-    found = ducc0.sht.adjoint_synthesis(map=weight[None], lmax=degree, **_meridian(theta))
+    with starting():
+        found = ducc0.sht.adjoint_synthesis(map=weight[None], lmax=degree, **_meridian(theta))
     sums: Array = found[0].real / _normalisation(degree)
     return sums
 
@@ -43,7 +44,8 @@ def legendre_series(coefficients: Array, theta: Array) -> Array:
     """
     degree = len(coefficients) - 1
     harmonics = (coefficients / _normalisation(degree)).astype(np.complex128)
-    values: Array = ducc0.sht.synthesis(alm=harmonics[None], lmax=degree, **_meridian(theta))[0]
+    with starting():
+        values: Array = ducc0.sht.synthesis(alm=harmonics[None], lmax=degree, **_meridian(theta))[0]
     return values
 
 

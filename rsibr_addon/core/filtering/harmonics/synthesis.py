@@ -4,7 +4,7 @@ import ducc0
 import numpy as np
 
 from ...conventions import Array
-from ...threads import thread_count
+from ...threads import starting, thread_count
 from .coefficients import Complex, EnvironmentHarmonics, order_start
 
 INTERPOLATION = 1e-10
@@ -38,15 +38,16 @@ def synthesise(harmonics: EnvironmentHarmonics, gains: Array, theta: Array, phi:
     varying = np.concatenate([[0.0], gains[1:]])
     where = np.stack([theta, phi], axis=-1)
     for channel, values in enumerate(made):  # one after the other, to limit memory
-        ducc0.sht.synthesis_general(
-            alm=_amplified(harmonics, channel, varying)[None],
-            spin=0,
-            lmax=degree,
-            loc=where,
-            epsilon=0.01 * INTERPOLATION,
-            nthreads=thread_count(),
-            map=values[None],
-        )
+        with starting():
+            ducc0.sht.synthesis_general(
+                alm=_amplified(harmonics, channel, varying)[None],
+                spin=0,
+                lmax=degree,
+                loc=where,
+                epsilon=0.01 * INTERPOLATION,
+                nthreads=thread_count(),
+                map=values[None],
+            )
     mean = gains[0] * harmonics.order(0)[:, 0].real * np.sqrt(0.25 / np.pi)
     made += mean[:, None]
     return made

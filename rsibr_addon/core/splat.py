@@ -23,11 +23,11 @@ from .ties import TIE
 
 Scalar = TypeVar("Scalar", bound=np.generic)
 
-BLOCK = 1 << 15
-"""Texels at a time, so that their data stay in a processor's cache however large the map is."""
+TILE = 128
+"""Rows and columns of a map at a time, so that their data stay in a processor's cache however large it is."""
 
-FEWEST_ROWS = 8
-"""Rows of a map at a time, however wide it is: two more are computed with them."""
+BLOCK = TILE**2
+"""Texels at a time where they do not make a tile."""
 
 Shares = Iterator[tuple[Indices, Array, Array]]
 """What texels of the target get: their numbers, shape (M,), solid angles (M,) and powers (channels, M)."""
@@ -44,15 +44,18 @@ class _Texels:
     ----------
     uv : ndarray, shape (rows, columns, grids, 2)
         The texels' centres on their own map.
+    direction : ndarray, shape (rows, columns, grids, 3)
+        What the centres show.
     sheet : ndarray of int, shape (rows, columns, grids)
     step : ndarray, shape (2,)
         The texels' width and height in uv.
     solid_angle : ndarray, shape (rows, columns, grids)
         [sr]
-    radiance : ndarray, shape (rows, columns, grids, channels)
+    radiance : ndarray, shape (channels, rows, columns, grids)
     """
 
     uv: Array
+    direction: Array
     sheet: Indices
     step: Array
     solid_angle: Array
@@ -97,38 +100,44 @@ class Splat:
         """
         sheets, height, width = image.shape[:3]
         solid_angle = source.texel_solid_angle(width)
-        step = np.array([1.0 / width, 1.0 / height])
-        rows = max(BLOCK // width, FEWEST_ROWS)
+        u, v = (np.arange(width) + 0.5) / width, (np.arange(height) + 0.5) / height
 
-        def shares_of(block: tuple[int, int]) -> list[tuple[Indices, Array, Array]]:
-            sheet, first = block
-            # With a row more on either side, of no weight: edges are known from both neighbours.
-            with_rims = np.arange(max(first - 1, 0), min(first + rows + 1, height))
-            own = (with_rims >= first) & (with_rims < first + rows)
-            uv = np.empty((len(with_rims), width, 1, 2))
-            uv[..., 0] = (np.arange(width)[:, None] + 0.5) * step[0]
-            uv[..., 1] = (with_rims[:, None, None] + 0.5) * step[1]
+        def shares_of(tile: tuple[int, int, int]) -> list[tuple[Indices, Array, Array]]:
+            sheet, *first = tile
+            # With a rim of texels more, of no weight: edges are known from both neighbours.
+            rows, columns = (slice(max(start - 1, 0), start + TILE + 1) for start in first)
+            weight = np.zeros((len(v[rows]), len(u[columns]), 1))
+            own = tuple(
+                slice(start - rim.start, start - rim.start + TILE)
+                for start, rim in zip(first, (rows, columns), strict=True)
+            )
+            weight[own] = solid_angle[sheet, rows, columns, None][own]
+            uv = np.stack(np.broadcast_arrays(u[columns], v[rows, None]))[..., None]
             texels = _Texels(
-                uv,
-                np.full(uv.shape[:-1], sheet),
-                step,
-                (solid_angle[sheet, with_rims] * own[:, None])[..., None],
-                image[sheet, with_rims[0] : with_rims[-1] + 1, :, None],
+                np.moveaxis(uv, 0, -1),
+                source.direction_of_grid(u[columns], v[rows], sheet)[:, :, None],
+                np.full(weight.shape, sheet),
+                np.array([1.0 / width, 1.0 / height]),
+                weight,
+                np.moveaxis(image[sheet, rows, columns, None], -1, 0).astype(np.float64, order="C"),
             )
             return list(self._of_grids(source, texels, DEEPEST))
 
-        for shares in in_order(shares_of, itertools.product(range(sheets), range(0, height, rows))):
+        tiles = itertools.product(range(sheets), range(0, height, TILE), range(0, width, TILE))
+        for shares in in_order(shares_of, tiles):
             for texel, weight, power in shares:
                 np.add.at(self.solid_angle, texel, weight)
                 for sums, values in zip(self.power, power, strict=True):
                     np.add.at(sums, texel, values)
 
     def _of_grids(self, source: Representation, texels: _Texels, quarterings: int) -> Shares:
-        direction = source.direction_from_uv(texels.uv, texels.sheet)
-        weight = np.where(self._target.shows(direction), texels.solid_angle, 0.0)
-        uv, sheet = self._target.uv_from_direction(direction)
-        centre = np.stack([uv[..., 0] * self._width, uv[..., 1] * self._height])
-        edges = np.stack([self._edges(centre, sheet, 1), self._edges(centre, sheet, 0)])
+        weight = np.where(self._target.shows(texels.direction), texels.solid_angle, 0.0)
+        uv, sheet = self._target.uv_from_direction(texels.direction)
+        size = np.array([self._width, self._height])[:, None, None, None]
+        centre = np.multiply(np.moveaxis(uv, -1, 0), size, order="C")
+        edges = np.empty((2, *centre.shape))
+        for edge, axis in zip(edges, (1, 0), strict=True):
+            self._measure(edge, centre, sheet, axis)
         extent = np.abs(edges[0]) + np.abs(edges[1])
         coarse = np.maximum(extent[0], extent[1]) > 1.0 + TIE
         if source.disk < np.inf:
@@ -146,7 +155,7 @@ class Splat:
             extent.reshape(2, -1),
             sheet.ravel(),
             weight.ravel(),
-            texels.radiance.reshape(-1, len(self.power)),
+            texels.radiance.reshape(len(self.power), -1),
         )
 
     def _of_quarters(
@@ -156,35 +165,48 @@ class Splat:
         quarter = 0.25 * texels.step * np.array([[(-1.0, -1.0), (1.0, -1.0)], [(-1.0, 1.0), (1.0, 1.0)]])
         quarter = quarter[:, :, None]
         uv, sheet = texels.uv[chosen], texels.sheet[chosen]
-        solid_angle, radiance = texels.solid_angle[chosen], texels.radiance[chosen]
+        solid_angle, radiance = texels.solid_angle[chosen], texels.radiance[:, chosen]
         for first in range(0, len(uv), BLOCK // 4):
             block = slice(first, first + BLOCK // 4)
 
             centres, on_sheet = _four(uv[block]) + quarter, _four(sheet[block])
             # A texel that the rim of a disk cuts contributes only with its parts within the disk.
-            counts = np.linalg.norm(2.0 * centres - 1.0, axis=-1) < source.disk
+            counts = np.hypot(*np.moveaxis(2.0 * centres - 1.0, -1, 0)) < source.disk
             counts |= ~counts.any(axis=(0, 1), keepdims=True)
             share = _four(solid_angle[block]) * counts / counts.sum(axis=(0, 1), keepdims=True)
-            parts = _Texels(centres, on_sheet, 0.5 * texels.step, share, _four(radiance[block]))
+            parts = _Texels(
+                centres,
+                source.direction_from_uv(centres, on_sheet),
+                on_sheet,
+                0.5 * texels.step,
+                share,
+                np.moveaxis(_four(radiance[:, block].T), -1, 0),
+            )
             yield from self._of_grids(source, parts, quarterings - 1)
 
-    def _edges(self, centre: Array, sheet: Indices, axis: int) -> Array:
-        """From one side of each texel to the other along an axis of the grid, shape of `centre`.
+    def _measure(self, edge: Array, centre: Array, sheet: Indices, axis: int) -> None:
+        """Fill in the `edge` of each texel from one side to the other along an axis of the grid.
 
         The mean of the ways to its two neighbours; across a seam of the target there is no way.
         """
-        later = (slice(None),) * axis + (slice(1, None),)
-        earlier = (slice(None),) * axis + (slice(None, -1),)
+        along = (slice(None),) * axis
+        later, earlier = (*along, slice(1, None)), (*along, slice(None, -1))
+        first, middle = (*along, slice(None, 1)), (*along, slice(1, -1))
         way = centre[:, *later] - centre[:, *earlier]
-        far = (np.abs(way[0]) > 0.5 * self._width) | (np.abs(way[1]) > 0.5 * self._height)
-        known = (sheet[later] == sheet[earlier]) & ~far
+        known = sheet[later] == sheet[earlier]
+        for distance, size in zip(way, (self._width, self._height), strict=True):
+            known &= np.abs(distance) <= 0.5 * size
         way *= known
-        edges, count = np.zeros_like(centre), np.zeros(sheet.shape)
-        for neighbour in (later, earlier):
-            edges[:, *neighbour] += way
-            count[neighbour] += known
-        edges /= np.maximum(count, 1.0)
-        return edges
+        edge[:, *first] = 0.0
+        edge[:, *later] = way
+        edge[:, *earlier] += way
+        if known.all():
+            edge[:, *middle] *= 0.5
+        else:
+            count = np.zeros(sheet.shape)
+            count[later] = known
+            count[earlier] += known
+            edge /= np.maximum(count, 1.0)
 
     def _of_parallelograms(
         self, centre: Array, edges: Array, extent: Array, sheet: Indices, weight: Array, radiance: Array
@@ -202,38 +224,40 @@ class Splat:
         sheet : ndarray of int, shape (M,)
         weight : ndarray, shape (M,)
             [sr]
-        radiance : ndarray, shape (M, channels)
+        radiance : ndarray, shape (channels, M)
         """
-        texel = centre.astype(np.intp)
-        np.minimum(texel, [[self._width - 1], [self._height - 1]], out=texel)
-        own = (sheet * self._height + texel[1]) * self._width + texel[0]
+        # Whole numbers, as float64 until they are indices: that is the faster arithmetic.
+        texel = np.minimum(np.floor(centre), [[self._width - 1.0], [self._height - 1.0]])
+        own = ((sheet * self._height + texel[1]) * self._width + texel[0]).astype(np.intp)
         # So small a parallelogram crosses at most one line beside its centre and one above or below.
         within = centre - texel
         distance = np.minimum(within, 1.0 - within)
         reaches = distance < 0.5 * extent
         some = np.flatnonzero((reaches[0] | reaches[1]) & (weight > 0.0))
-        side = np.where(np.take(within, some, axis=-1) > 0.5, 1, -1)
+        side = np.copysign(1.0, np.take(within, some, axis=-1) - 0.5)
         parts = parts_beyond(np.take(distance, some, axis=-1), side * np.take(edges, some, axis=-1))
         moved = np.take(weight, some) * parts
         weight[some] -= moved.sum(axis=0)
-        yield own, weight, weight * radiance.T
-        texel, sheet, own = np.take(texel, some, axis=-1), np.take(sheet, some), np.take(own, some)
+        yield own, weight, weight * radiance
+        texel, sheet, own = (np.take(of, some, axis=-1) for of in (texel, sheet, own))
         for (right, up), amount in zip(((1, 0), (0, 1), (1, 1)), moved, strict=True):
             going = np.flatnonzero(amount)
-            column, row = np.take(texel + side * np.array([[right], [up]]), going, axis=-1)
+            beside = np.take(texel, going, axis=-1) + np.take(side, going, axis=-1) * [[right], [up]]
+            column, row = beside.astype(np.intp)
             other = self._texel(column, row, np.take(sheet, going), np.take(own, going))
             share = np.take(amount, going)
-            yield other, share, share * np.take(radiance, np.take(some, going), axis=0).T
+            yield other, share, share * np.take(radiance, np.take(some, going), axis=-1)
 
     def _texel(self, column: Indices, row: Indices, sheet: Indices, otherwise: Indices) -> Indices:
         """Number of a texel, beyond a sheet's edge too; `otherwise` where none is, or none that counts."""
         texel = (sheet * self._height + row) * self._width + column
         outside = np.flatnonzero((column < 0) | (column >= self._width) | (row < 0) | (row >= self._height))
-        column, row, sheet = self._target.wrap(
-            column[outside], row[outside], sheet[outside], self._width, self._height
-        )
-        found = (sheet * self._height + row) * self._width + column
-        texel[outside] = np.where(sheet < 0, otherwise[outside], found)
+        if outside.size:
+            column, row, sheet = self._target.wrap(
+                column[outside], row[outside], sheet[outside], self._width, self._height
+            )
+            found = (sheet * self._height + row) * self._width + column
+            texel[outside] = np.where(sheet < 0, otherwise[outside], found)
         return np.where(self._counts[texel], texel, otherwise)
 
 
@@ -268,10 +292,11 @@ def _part_beyond_line(distance: Array, a: Array, b: Array) -> Array:
 
     Its extent along the line is a trapezoid: a box of width a blurred by one of width b.
     """
-    reach, flat = 0.5 * (a + b), 0.5 * np.abs(a - b)
-    slope = np.maximum(reach - distance, 0.0) ** 2 / np.where(a * b > 0.0, 2.0 * a * b, 1.0)
-    top = 0.5 - distance / np.where(reach > 0.0, reach + flat, 1.0)
-    part: Array = np.where(distance >= reach, 0.0, np.where(distance <= flat, top, slope))
+    longer, twice_area = np.maximum(a, b), 2.0 * a * b
+    reach = 0.5 * (a + b)
+    slope = np.maximum(reach - distance, 0.0) ** 2 / np.where(twice_area > 0.0, twice_area, 1.0)
+    top = 0.5 - distance / np.where(longer > 0.0, longer, 1.0)
+    part: Array = np.where(distance < longer - reach, top, slope)
     return part
 
 

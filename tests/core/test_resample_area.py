@@ -132,6 +132,7 @@ def test_blocks_do_not_show(monkeypatch: pytest.MonkeyPatch) -> None:
     source, target = representation("cube_map"), representation("octahedral")
     image = sky(source, 32)
     whole = resample(image, source, target, 20)
+    monkeypatch.setattr(splat, "TILE", 7)
     monkeypatch.setattr(splat, "BLOCK", 100)
     np.testing.assert_allclose(resample(image, source, target, 20), whole, rtol=1e-12)
 

@@ -46,14 +46,18 @@ def uv_from_direction(direction: ArrayLike) -> tuple[Array, Indices]:
     A direction on an edge belongs to the face that comes first along the axes.
     """
     x, y, z = np.moveaxis(np.asarray(direction, dtype=np.float64), -1, 0)
-    along_x = (np.abs(x) >= np.abs(y)) & (np.abs(x) >= np.abs(z))
-    along_y = ~along_x & (np.abs(y) >= np.abs(z))
+    far_x, far_y, far_z = np.abs(x), np.abs(y), np.abs(z)
+    along_x = far_x >= np.maximum(far_y, far_z)
+    along_y = ~along_x & (far_y >= far_z)
     major = np.where(along_x, x, np.where(along_y, y, z))
-    sign = np.where(major < 0.0, -1.0, 1.0)
-    s = np.where(along_x, -sign * z, np.where(along_y, x, sign * x))
-    t = np.where(along_y, sign * z, -y)
-    uv = 0.5 * np.stack([s, t], axis=-1) / np.abs(major)[..., None] + 0.5
-    return uv, np.where(along_x, 0, np.where(along_y, 2, 4)) + (major < 0.0)
+    sign = np.copysign(1.0, major)
+    sign_z = sign * z
+    uv = np.empty((2, *major.shape))
+    uv[0] = np.where(along_x, -sign_z, np.where(along_y, x, sign * x))
+    uv[1] = np.where(along_y, sign_z, -y)
+    uv *= 0.5 / np.abs(major)
+    uv += 0.5
+    return np.moveaxis(uv, 0, -1), np.where(along_x, 0, np.where(along_y, 2, 4)) + (major < 0.0)
 
 
 def texel_solid_angle(size: int) -> Array:

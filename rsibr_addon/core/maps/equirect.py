@@ -14,6 +14,20 @@ def direction_from_uv(uv: ArrayLike) -> Array:
     return np.stack([sine * np.cos(azimuth), sine * np.sin(azimuth), np.cos(polar)], axis=-1)
 
 
+def direction_of_grid(u: Array, v: Array) -> Array:
+    """The directions that a grid shows, shape (rows, columns, 3), given u of its columns and v of its rows.
+
+    Their sines and cosines are those of rows and columns, which takes a fraction of `direction_from_uv`.
+    """
+    azimuth = np.pi * (1.0 - 2.0 * u)
+    polar = np.pi * (1.0 - v[:, None])
+    direction = np.empty((3, len(v), len(u)))
+    np.multiply(np.sin(polar), np.cos(azimuth), out=direction[0])
+    np.multiply(np.sin(polar), np.sin(azimuth), out=direction[1])
+    direction[2] = np.cos(polar)
+    return np.moveaxis(direction, 0, -1)
+
+
 def uv_from_direction(direction: ArrayLike) -> Array:
     """The inverse of `direction_from_uv`; the poles, where u is arbitrary, have u = 0.5."""
     direction = np.asarray(direction, dtype=np.float64)

@@ -36,6 +36,7 @@ AHEAD = FRONT * (1.0, 1.0, -1.0)
 """Axes of a viewer who looks along +Y: x right, y up, z ahead. Left-handed, as axes of cube pictures are."""
 
 DirectionFromUv = Callable[[ArrayLike, Indices], Array]
+DirectionOfGrid = Callable[[Array, Array], Array]
 UvFromDirection = Callable[[ArrayLike], tuple[Array, Indices]]
 WrapSheets = Callable[[Indices, Indices, Indices, int, int], tuple[Indices, Indices, Indices]]
 
@@ -60,6 +61,8 @@ class Representation:
         Whether texels outside the disk show directions of their own, instead of repeating its rim.
     blind_angle : float
         Half-angle of the cone about its own -z that the map does not show [rad].
+    own_grid : callable, optional
+        The module's directions of a grid, in the map's own axes, where that is faster than point by point.
     own_direction, own_uv, solid_angle, wrap_sheets : callable
         The module's four functions with their parameters filled in, in the map's own axes.
     """
@@ -75,6 +78,7 @@ class Representation:
     disk: float = np.inf
     goes_on: bool = False
     blind_angle: float = 0.0
+    own_grid: DirectionOfGrid | None = None
 
     def shape(self, size: int) -> tuple[int, int, int]:
         """The shape of a map, without its channels.
@@ -114,6 +118,26 @@ class Representation:
             Unit directions in world coordinates.
         """
         direction = self.own_direction(uv, sheet)
+        return direction if self.frame is WORLD else direction @ self.frame.T
+
+    def direction_of_grid(self, u: Array, v: Array, sheet: int) -> Array:
+        """The directions that a grid of points shows.
+
+        Parameters
+        ----------
+        u : ndarray, shape (columns,)
+        v : ndarray, shape (rows,)
+            Coordinates of its columns and rows on the sheet, in [0, 1].
+        sheet : int
+
+        Returns
+        -------
+        ndarray, shape (rows, columns, 3), float64
+            As those of `direction_from_uv`.
+        """
+        if self.own_grid is None:
+            return self.direction_from_uv(np.stack(np.meshgrid(u, v), axis=-1), np.array(sheet))
+        direction = self.own_grid(u, v)
         return direction if self.frame is WORLD else direction @ self.frame.T
 
     def uv_from_direction(self, direction: ArrayLike) -> tuple[Array, Indices]:
@@ -218,7 +242,14 @@ def _one_sheet(
 
 def _equirect() -> Representation:
     functions = _one_sheet(equirect.direction_from_uv, equirect.uv_from_direction, equirect.wrap)
-    return Representation("equirect", *functions, equirect.texel_solid_angle, WORLD, aspect=2)
+    return Representation(
+        "equirect",
+        *functions,
+        equirect.texel_solid_angle,
+        WORLD,
+        aspect=2,
+        own_grid=equirect.direction_of_grid,
+    )
 
 
 def _sphere_map() -> Representation:

@@ -35,6 +35,7 @@ from .metals import METALS
 from .model import Brdf
 from .parameters import Color, parameter_ranges
 from .phong import Phong
+from .principled import Principled
 from .retroreflective import Retroreflective
 from .tabulated import Tabulated
 from .ward import Ward
@@ -45,7 +46,8 @@ ReadMeasured = Callable[[str, str], Brdf]
 MODELS: dict[str, type[Brdf]] = {
     owner.model: owner
     for owner in (
-        Lambert, Phong, Ward, Ggx, CookTorrance, HeTorrance, Retroreflective, CarPaint, Layered, Sum,
+        Lambert, Phong, Ward, Ggx, CookTorrance, HeTorrance, Retroreflective, CarPaint, Principled, Layered,
+        Sum,
     )
 }  # fmt: skip
 """Name -> model whose parameters are the spec's keys."""

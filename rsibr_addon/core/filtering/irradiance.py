@@ -190,25 +190,31 @@ def irradiance_exact(radiance: Array, normal: ArrayLike) -> Array:
     solid_angle = equirect.texel_solid_angle(width, height)[:, 0]
     phi = np.pi * (1.0 - 2.0 * (np.arange(width) + 0.5) / width)
     waves = np.stack([np.ones(width), np.cos(phi), np.sin(phi)], axis=-1)
-    irradiance = np.zeros((len(n), channels))
+    # Of each row's light times 1, cos(phi) and sin(phi), what the normals' arcs hold; summed over rows.
+    arcs = np.zeros((len(n), 3 * channels))
+    # Around the horizon twice, so that an arc may cross the seam.
+    running = np.zeros((2 * width + 1, 3 * channels))
     for row in range(height):
         sine, cosine = np.hypot(*directions[row, :2]), directions[row, 2]
-        running = np.zeros((width + 1, 3, channels))
-        np.cumsum(waves[:, :, None] * radiance[row, :, None, :], axis=0, out=running[1:])
+        weights = solid_angle[row] * np.array([cosine, sine, sine]) * waves
+        light = weights[:, :, None] * radiance[row, :, None, :]
+        np.cumsum(light.reshape(width, -1), axis=0, out=running[1 : width + 1])
+        np.add(running[1 : width + 1], running[width], out=running[width + 1 :])
         # n.l = n_z cos(theta) + |n_xy| sin(theta) cos(phi - azimuth) is positive within this half arc.
         with np.errstate(divide="ignore", invalid="ignore"):
             edge = np.nan_to_num(-n[:, 2] * cosine / (horizontal * sine), nan=1.0)
         half_arc = np.arccos(np.clip(edge, -1.0, 1.0))
         # Columns run against phi; the first whose centre is inside, and the first beyond.
-        first = np.ceil(width * (0.5 - (azimuth + half_arc) / (2.0 * np.pi)) - 0.5).astype(np.intp)
-        beyond = np.ceil(width * (0.5 - (azimuth - half_arc) / (2.0 * np.pi)) - 0.5).astype(np.intp)
+        first = np.ceil(width * (0.5 - (azimuth + half_arc) / (2.0 * np.pi)) - 0.5)
+        beyond = np.ceil(width * (0.5 - (azimuth - half_arc) / (2.0 * np.pi)) - 0.5)
         # A row that is lit all around has no ends: rounded ends could drop the texel there.
         beyond = np.where(edge <= -1.0, first + width, beyond)
-        lap = beyond // width - first // width
-        arc = running[beyond % width] - running[first % width] + lap[:, None, None] * running[-1]
-        factors = np.stack([n[:, 2] * cosine, n[:, 0] * sine, n[:, 1] * sine], axis=-1)
-        irradiance += solid_angle[row] * np.einsum("nk,nkc->nc", factors, arc)
-    return irradiance.reshape(*normal.shape[:-1], channels)
+        lap = width * np.floor(first / width)
+        arcs += np.take(running, (beyond - lap).astype(np.intp), axis=0)
+        arcs -= np.take(running, (first - lap).astype(np.intp), axis=0)
+    factors = n[:, [2, 0, 1]].reshape(*normal.shape[:-1], 3)
+    irradiance: Array = np.einsum("...k,...kc->...c", factors, arcs.reshape(*normal.shape, channels))
+    return irradiance
 
 
 def _row_centres(height: int) -> Array:

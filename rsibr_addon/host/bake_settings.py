@@ -10,7 +10,7 @@ from ..core.errors import InputFileError, OutputFileError, SceneError
 from ..files.pictures import split_layer
 from .installation import studio_environments
 from .map_sets import Settings, chosen_path, stored_path, use_file, written_path
-from .materials import surface_output
+from .materials import check_saved, surface_output
 from .worlds import world_of
 
 EXTENSION = __package__.rpartition(".rsibr_addon")[0]
@@ -53,7 +53,7 @@ def chosen_environment(scene: bpy.types.Scene) -> str | None:
     Raises
     ------
     SceneError
-        There is no world.
+        There is no world, or it has an image that is not saved.
     InputFileError
         No file is given, or it is missing.
     OutputFileError
@@ -62,7 +62,7 @@ def chosen_environment(scene: bpy.types.Scene) -> str | None:
     chosen = scene.rsibr_bake
     match chosen.light:
         case "WORLD":
-            world_of(scene)
+            check_saved(world_of(scene))
             return None
         case "STUDIO":
             return str(studio_environments()[chosen.studio])
@@ -135,7 +135,7 @@ def own_material(item: bpy.types.Object) -> bpy.types.Material:
     Raises
     ------
     SceneError
-        It has none, or its material has no surface.
+        It has none, or its material has no surface, or an image that is not saved.
     """
     material = item.active_material
     if material is None:
@@ -144,6 +144,7 @@ def own_material(item: bpy.types.Object) -> bpy.types.Material:
         raise SceneError(
             f"Material {material.name} has no surface: link a shader to the Surface of its Material Output."
         )
+    check_saved(material)
     return material
 
 

@@ -4,7 +4,7 @@ import hashlib
 import json
 import os
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -102,6 +102,29 @@ def fingerprint(material: bpy.types.Material | bpy.types.World) -> str:
     """
     content = {"nodes": _tree_content(material.node_tree), "cycles": _struct_content(material.cycles)}
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
+
+
+def check_saved(material: bpy.types.Material | bpy.types.World) -> None:
+    """Refuse a material or world with an image whose pixels only this Blender's memory holds.
+
+    Raises
+    ------
+    SceneError
+        An image was painted or computed, and no file has it yet.
+    """
+    unsaved = next((image for image in _images(material.node_tree) if image.is_dirty), None)
+    if unsaved is not None:
+        raise SceneError(
+            f"Image {unsaved.name} has pixels that are not saved, so no bake would see them: save or pack it."
+        )
+
+
+def _images(tree: bpy.types.NodeTree | None) -> Iterator[bpy.types.Image]:
+    """Images of a tree's nodes and of its groups."""
+    for node in tree.nodes if tree else ():
+        if image := getattr(node, "image", None):
+            yield image
+        yield from _images(getattr(node, "node_tree", None))
 
 
 def _parsed(spec: str) -> tuple[str | None, str]:

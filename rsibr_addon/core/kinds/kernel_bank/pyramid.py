@@ -15,14 +15,14 @@ from ...filtering.zonal import ZonalLobe, ZonalSeries, expand
 from ...lobes.bank import KernelBank
 from ...lobes.family import KERNELS
 from ...maps.representation import representation
+from ...progress import Progress, Steps
 from ...resample import lookup, resample
 from ...ties import TIE
 
 OCTAHEDRAL, EQUIRECT = representation("octahedral"), representation("equirect")
 
-TEXELS_BY_SHARPNESS = 8.0
-"""Width of a kernel's map over the root of its concentration. Bilinear lookups cost up to 5 % of a kernel's
-peak, and far less of a lobe, of which the sharpest kernel is the tip."""
+TEXELS_BY_SHARPNESS = 16.0
+"""Width of a kernel's map over the root of its concentration: lookups cost up to 1.2 % of its peak."""
 
 SMALLEST, LARGEST = 32, 1024
 """Widths of maps in texels. Broad kernels have larger maps than they need: diffuse light is theirs alone."""
@@ -101,7 +101,7 @@ def width_of(concentration: float) -> int:
     return min(int(2.0 ** np.ceil(np.log2(needed) - TIE)), LARGEST)
 
 
-def bake_pyramid(radiance: Array) -> Pyramid:
+def bake_pyramid(radiance: Array) -> Steps[Pyramid]:
     """Filter an environment.
 
     Parameters
@@ -114,26 +114,26 @@ def bake_pyramid(radiance: Array) -> Pyramid:
     Pyramid
         With those of `family.KERNELS` that the environment resolves, and its own width up to `LARGEST`.
     """
+    yield Progress(0, len(KERNELS) + 1, "analysing the environment")
     least = (1.0 - TIE) * resolved_width(len(radiance))
-    expanded = zip(KERNELS.concentrations, KERNELS.lobes(), strict=True)
-    series = {kappa: expand(lobe, TOLERANCE) for kappa, lobe in expanded}
-    series = {kappa: lobe for kappa, lobe in series.items() if lobe.width >= least}
+    expanded = [expand(kernel, TOLERANCE) for kernel in KERNELS.lobes()]
+    series = [lobe for lobe in expanded if lobe.width >= least]
     diffuse = [expand(lobe, _TOLERANCE_AT_HORIZON) for lobe in (cosine_lobe(), leaning_lobe())]
-    harmonics = analyse_environment(radiance, analysis_degree([*series.values(), *diffuse]))
+    harmonics = analyse_environment(radiance, analysis_degree([*series, *diffuse]))
 
     def filtered(lobes: Sequence[ZonalSeries], size: int) -> Array:
-        return (
-            prefilter(harmonics, lobes, OCTAHEDRAL.texel_directions(size)).radiance[:, 0].astype(np.float32)
-        )
+        found = prefilter(harmonics, lobes, OCTAHEDRAL.texel_directions(size)).radiance
+        return found[:, 0].astype(np.float32)
 
     cosine, leaning = filtered(diffuse, SMALLEST)
+    maps: list[Array] = []
+    bank = KernelBank(KERNELS.concentrations[: len(series)])
+    for lobe, kappa in zip(series, bank.concentrations, strict=True):
+        yield Progress(1 + len(maps), len(KERNELS) + 1, f"filtering {width_of(kappa)} texels")
+        maps.append(filtered([lobe], width_of(kappa)))
     size = min(LARGEST, 2 * len(radiance))
-    return Pyramid(
-        KernelBank(tuple(series)),
-        resample(radiance[None], EQUIRECT, OCTAHEDRAL, size, np.float32),
-        tuple(filtered([lobe], width_of(kappa)) for kappa, lobe in series.items()),
-        np.stack([cosine / np.float32(np.pi), leaning]),
-    )
+    mirror = resample(radiance[None], EQUIRECT, OCTAHEDRAL, size, np.float32)
+    return Pyramid(bank, mirror, tuple(maps), np.stack([cosine / np.float32(np.pi), leaning]))
 
 
 def leaning_lobe() -> ZonalLobe:

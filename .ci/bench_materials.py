@@ -1,0 +1,228 @@
+"""Measure Principled materials from a pyramid of kernels against Cycles, beside the split sum of the same.
+
+A picture of a sphere in tiles, each flat, with the sphere's normal at its middle and inputs of its own: what
+a textured sphere shows, without what the filters of textures and pixels add. All errors are relative
+root-mean-square errors over the picture.
+"""
+
+import argparse
+import time
+import warnings
+from collections.abc import Iterator
+
+import bpy
+import numpy as np
+from docs_table import write_table
+from rsibr.rsibr_addon.core.brdf.principled import Surface, layers_of
+from rsibr.rsibr_addon.core.conventions import Array
+from rsibr.rsibr_addon.core.environment import Environment
+from rsibr.rsibr_addon.core.errors import RsibrWarning
+from rsibr.rsibr_addon.core.filtering.harmonics.analysis import analyse_environment
+from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_exact
+from rsibr.rsibr_addon.core.filtering.prefilter import prefilter
+from rsibr.rsibr_addon.core.filtering.radial_lobes import ggx_n_dot_l_lobe
+from rsibr.rsibr_addon.core.filtering.zonal import ZonalSeries, expand
+from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.geometry.directions import dot, normalize, reflect
+from rsibr.rsibr_addon.core.kinds.kernel_bank.principled import Families, principled_radiance
+from rsibr.rsibr_addon.core.kinds.kernel_bank.pyramid import bake_pyramid
+from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.files.families import shipped_family
+from rsibr.rsibr_addon.host.cameras import add_camera
+from rsibr.rsibr_addon.host.cycles import RenderSettings, render_view
+from rsibr.rsibr_addon.host.scenes import temporary_scene
+from rsibr.rsibr_addon.host.worlds import light_with
+from rsibr.rsibr_addon.tasks.light.environments import load_environment
+
+TILES, PIXELS, EDGE = 32, 5, 1
+"""Along a side of the picture; pixels along a tile; and those at its edges that Cycles' filter mixes."""
+
+LEAST_COSINE = 0.05
+STEPS = 12
+"""Roughnesses of a textured sphere, so that the split sum has as many maps."""
+
+INPUTS = {
+    "base_color": "Base Color",
+    "metallic": "Metallic",
+    "roughness": "Roughness",
+    "ior": "IOR",
+    "diffuse_roughness": "Diffuse Roughness",
+    "specular_level": "Specular IOR Level",
+    "specular_tint": "Specular Tint",
+    "coat_weight": "Coat Weight",
+    "coat_roughness": "Coat Roughness",
+    "coat_tint": "Coat Tint",
+}
+RED, GOLD = (0.5, 0.05, 0.03), (1.0, 0.75, 0.3)
+MATERIALS: dict[str, dict[str, object]] = {
+    "metal, roughness .2": {"base_color": GOLD, "metallic": 1.0, "roughness": 0.2},
+    "metal, roughness .3": {"base_color": GOLD, "metallic": 1.0, "roughness": 0.3},
+    "metal, roughness .55": {"base_color": GOLD, "metallic": 1.0, "roughness": 0.55},
+    "metal, roughness 1": {"base_color": GOLD, "metallic": 1.0, "roughness": 1.0},
+    "plastic, roughness .3": {"base_color": RED, "roughness": 0.3},
+    "plastic, roughness .6": {"base_color": RED, "roughness": 0.6},
+    "coated plastic": {"base_color": RED, "roughness": 0.5, "coat_weight": 1.0, "coat_roughness": 0.15},
+    "tinted coat on metal": {
+        "base_color": GOLD,
+        "metallic": 1.0,
+        "roughness": 0.5,
+        "coat_weight": 0.8,
+        "coat_roughness": 0.3,
+        "coat_tint": (0.6, 0.8, 1.0),
+    },
+    "clay": {"base_color": (0.55, 0.4, 0.3), "specular_level": 0.0, "diffuse_roughness": 1.0},
+}
+ASKED = {"textured": ("3 %, 5x", "5 %, 5x"), "coated plastic": ("4 %, 5x", "6 %, 5x")}
+
+
+def tiles() -> tuple[Array, Array, Array]:
+    """Column and row of each tile, shapes (N,), and the sphere's normal there in the camera's axes (N, 3)."""
+    middle = -1.0 + 2.0 * (np.arange(TILES) + 0.5) / TILES
+    x, y = (grid.ravel() for grid in np.meshgrid(middle, middle))
+    inside = x**2 + y**2 < 1.0 - LEAST_COSINE**2
+    x, y = x[inside], y[inside]
+    column, row = (np.rint((each + 1.0) * TILES / 2.0 - 0.5).astype(int) for each in (x, y))
+    return column, row, np.stack([x, y, np.sqrt(1.0 - x**2 - y**2)], axis=-1)
+
+
+def surfaces(normal: Array) -> Iterator[tuple[str, Surface, Array]]:
+    """Names of materials, what they are at each tile, and shading normals in the camera's axes."""
+    for name, inputs in MATERIALS.items():
+        every = {
+            key: np.broadcast_to(np.asarray(value, np.float64), (len(normal), *np.shape(value)))
+            for key, value in inputs.items()
+        }
+        yield name, Surface(**every), normal
+    rng = np.random.default_rng(15)
+    checker = (np.floor(4.0 * normal[:, 0]) + np.floor(4.0 * normal[:, 1])) % 2.0
+    roughness = np.rint(STEPS * (0.25 + 0.6 * rng.random(len(normal)))) / STEPS
+    bumped = normalize(normal + 0.15 * rng.normal(size=normal.shape))
+    bumped = np.where((bumped[:, 2] > LEAST_COSINE)[:, None], bumped, normal)
+    yield (
+        "textured",
+        Surface(base_color=rng.random(normal.shape), metallic=checker, roughness=roughness),
+        bumped,
+    )
+
+
+def by_cycles(environment: Environment, surface: Surface, bumped: Array, samples: int) -> tuple[Array, float]:
+    """Radiance of each tile, and its relative standard error, from two renders of as many samples."""
+    column, row, normal = tiles()
+    camera = Camera((0.0, 0.0, 1.0))
+    inputs = {INPUTS[name]: np.asarray(getattr(surface, name)) for name in INPUTS}
+    varied = {name: each for name, each in inputs.items() if len(each.shape) and len(each) == len(normal)}
+    varied["Normal"] = bumped @ camera.frame.T
+    seen = []
+    for seed in (1, 2):
+        with temporary_scene() as scene:
+            light_with(scene, environment)
+            add_camera(scene, camera)
+            _add_tiles(scene, normal, camera.frame, varied)
+            view = render_view(scene, RenderSettings(TILES * PIXELS, samples, seed=seed))
+        parts = (view.diffuse + view.glossy).reshape(TILES, PIXELS, TILES, PIXELS, 3)
+        inner = slice(EDGE, PIXELS - EDGE)
+        seen.append(parts[:, inner, :, inner].mean(axis=(1, 3), dtype=np.float64)[row, column])
+    mean = 0.5 * (seen[0] + seen[1])
+    return mean, 0.5 * error(seen[0], seen[1])
+
+
+def _add_tiles(scene: bpy.types.Scene, normal: Array, frame: Array, varied: dict[str, Array]) -> None:
+    """A tile for each normal, seen by the camera alone, of a Principled BSDF with inputs of its own."""
+    corners = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]) / TILES
+    drop = -(normal[:, None, :2] * corners).sum(axis=-1) / normal[:, 2:]
+    across = normal[:, None, :2] + corners
+    vertices = np.concatenate([across, drop[..., None]], axis=-1).reshape(-1, 3) @ frame.T
+    mesh = bpy.data.meshes.new("tiles")
+    mesh.from_pydata(vertices.tolist(), [], np.arange(len(vertices)).reshape(-1, 4).tolist())
+    material = bpy.data.materials.new("tiles")
+    nodes = material.node_tree.nodes
+    (principled,) = (each for each in nodes if each.bl_idname == "ShaderNodeBsdfPrincipled")
+    for name, values in varied.items():
+        kind, output = ("FLOAT", "Fac") if values.ndim == 1 else ("FLOAT_VECTOR", "Vector")
+        stored = mesh.attributes.new(f"tile {name}", kind, "FACE")
+        field = "value" if values.ndim == 1 else "vector"
+        stored.data.foreach_set(field, np.ascontiguousarray(values, np.float32).ravel())
+        node = nodes.new("ShaderNodeAttribute")
+        node.attribute_name = f"tile {name}"
+        material.node_tree.links.new(node.outputs[output], principled.inputs[name])
+    mesh.materials.append(material)
+    shown = bpy.data.objects.new("tiles", mesh)
+    shown.visible_diffuse = shown.visible_glossy = shown.visible_transmission = shown.visible_shadow = False
+    scene.collection.objects.link(shown)
+
+
+class SplitSum:
+    """Light filtered with GGX at normal = view = mirror direction, times the exact albedo of each layer."""
+
+    def __init__(self, radiance: Array, families: Families) -> None:
+        self._radiance, self._families = radiance, families
+        self._harmonics = analyse_environment(radiance, len(radiance) - 1)
+
+    def shaded(self, surface: Surface, normal: Array, view_dir: Array) -> Array:
+        """Radiance of points, shape (N, 3)."""
+        mu, mirror_dir = dot(normal, view_dir), reflect(view_dir, normal)
+        layers = layers_of(surface, mu, self._families)
+        # Engines have Lambert's reflection alone
+        shown = layers.diffuse * surface.base_color * irradiance_exact(self._radiance, normal) / np.pi
+        for roughness, coefficients in (
+            (surface.roughness, layers.base),
+            (surface.coat_roughness, layers.coat),
+        ):
+            each = np.broadcast_to(roughness, mu.shape)
+            for value in np.unique(each[np.any(coefficients, axis=(1, 2))]):
+                chosen = each == value
+                albedo = self._families.powers(np.full(chosen.sum(), value**2), mu[chosen])
+                factor = np.einsum("nc,nci->ni", albedo, coefficients[chosen])
+                light = prefilter(self._harmonics, [_ggx(value**2)], mirror_dir[chosen]).radiance[0]
+                shown[chosen] += factor * light
+        return shown
+
+
+def _ggx(alpha: float) -> ZonalSeries:
+    return expand(ggx_n_dot_l_lobe(alpha), 1e-4)
+
+
+def error(shown: Array, truth: Array) -> float:
+    """Relative root-mean-square error."""
+    return float(np.linalg.norm(shown - truth) / np.linalg.norm(truth))
+
+
+def main() -> None:
+    """Print the table, and write it into docs/materials.md."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--environments", nargs="*", default=["forest", "city"])
+    parser.add_argument("--samples", type=int, default=256)
+    chosen = parser.parse_args()
+    warnings.simplefilter("ignore", RsibrWarning)
+    families = Families(shipped_family("ggx"), shipped_family("leaning"))
+    _, _, normal = tiles()
+    frame = Camera((0.0, 0.0, 1.0)).frame
+    view_dir = np.broadcast_to(frame[:, 2], normal.shape)
+    lines = [
+        "| material | environment | ours | split sum | Cycles' noise | asked "
+        f"| CPU: pyramid, {len(normal)} points |",
+        "|---|---|---:|---:|---:|---|---:|",
+    ]
+    for place, environment in enumerate(map(load_environment, chosen.environments)):
+        start = time.process_time()
+        pyramid = drain(bake_pyramid(environment.radiance))
+        baking = time.process_time() - start
+        split = SplitSum(environment.radiance, families)
+        for name, surface, bumped in surfaces(normal):
+            truth, noise = by_cycles(environment, surface, bumped, chosen.samples)
+            turned = bumped @ frame.T
+            start = time.process_time()
+            ours = error(principled_radiance(pyramid, families, surface, turned, view_dir), truth)
+            shading = time.process_time() - start
+            theirs = error(split.shaded(surface, turned, view_dir), truth)
+            asked = ASKED.get(name, ("", ""))[min(place, 1)]
+            lines.append(
+                f"| {name} | {environment.name} | {ours:.1%} | {theirs:.1%} ({theirs / ours:.1f}x) "
+                f"| {noise:.1%} | {asked} | {baking:.1f}, {shading:.2f} s |"
+            )
+            print(lines[-1], flush=True)
+    write_table("materials.md", "spheres", "\n".join(lines))
+
+
+if __name__ == "__main__":
+    main()

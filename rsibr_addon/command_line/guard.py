@@ -47,12 +47,14 @@ def guarded(work: Callable[[], int], argv: Sequence[str]) -> int:
     asking = endings.heeded()
     signal.signal(signal.SIGCHLD, lambda number, frame: None)  # of an ignored one there would be no word
     before = signal.pthread_sigmask(signal.SIG_BLOCK, asking | {signal.SIGCHLD, signal.SIGALRM})
+    reader, writer = os.pipe()
     with _temporary_folder():
         child = os.fork()
         if not child:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)
-            _work(work)
+            _work(work, writer)
         code = _watch(child, asking)
+    os.close(writer)
     if code < 0:
         for folder in _output_folders(argv):
             clear_strays(folder)
@@ -62,6 +64,9 @@ def guarded(work: Callable[[], int], argv: Sequence[str]) -> int:
         return 128 + number
     if code < 0:
         endings.tell(_crash(number), argv, 1, 2)
+        return 1
+    if not _came_to_its_end(reader):
+        endings.tell(f"A library ended the process{_remedy()}", argv, 1, 2)
         return 1
     return code
 
@@ -77,16 +82,29 @@ def _temporary_folder() -> Iterator[None]:
         yield
 
 
-def _work(work: Callable[[], int]) -> NoReturn:
-    """Do the work, and exit without Blender's own exit, which takes time and does nothing needed."""
+def _work(work: Callable[[], int], writer: int) -> NoReturn:
+    """Do the work, tell that it came to its end, and exit.
+
+    Blender's own exit takes time and does nothing needed.
+    """
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
     endings.listen(_end)
     try:
-        os._exit(work())
+        code = work()
     except BaseException:
         sys.excepthook(*sys.exc_info())
-        os._exit(1)
+        code = 1
+    os.write(writer, b".")
+    os._exit(code)
+
+
+def _came_to_its_end(reader: int) -> bool:
+    """Whether the work did: OpenBLAS, for one, calls C's exit where it gets no memory."""
+    os.set_blocking(reader, False)  # what Blender started may hold the other end
+    with contextlib.suppress(BlockingIOError):
+        return os.read(reader, 1) != b""
+    return False
 
 
 def _end(number: int) -> NoReturn:
@@ -123,10 +141,16 @@ def _crash(number: int) -> str:
     name = signal.Signals(number).name
     if number == signal.SIGKILL:
         return f"The system ended the process ({name}), as it does when memory is short: ask for less."
+    return f"The process crashed ({name}){_remedy()}"
+
+
+def _remedy() -> str:
+    """How the sentence on an end that none of ours made goes on."""
+    heard = "--verbose shows what was said."
     limit = address_limit()
-    if limit < math.inf:
-        return (
-            f"Blender crashed ({name}), as it does where addresses are short: raise their limit of "
-            f"{limit / 1e9:.1f} GB (ulimit -v); --verbose shows what it said."
-        )
-    return f"Blender crashed ({name}): --verbose shows what it said."
+    if limit == math.inf:
+        return f": {heard}"
+    return (
+        ", as happens where addresses are short: raise their limit of "
+        f"{limit / 1e9:.1f} GB (ulimit -v); {heard}"
+    )

@@ -113,7 +113,11 @@ class RSIBR_PG_view(bpy.types.PropertyGroup):
         items=[
             ("blender", "Blender's Shading", "What the viewport shows without previews"),
             ("other", "Another Look", "The same map sets, shaded in another way"),
-            ("difference", "Difference", "How far both looks are apart, from black over red to white"),
+            (
+                "difference",
+                "Difference",
+                "How far this look and the other are apart, from black over red to white",
+            ),
         ],
     )
     difference = bpy.props.FloatProperty(

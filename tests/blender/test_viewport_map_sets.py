@@ -1,10 +1,13 @@
 """Which map sets stay on the GPU when no object uses them."""
 
+import warnings
 from pathlib import Path
 
+import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import MapSetError
 from rsibr.rsibr_addon.files.map_set import write_map_set
+from rsibr.rsibr_addon.files.pictures import write_exr
 from rsibr.rsibr_addon.tasks.methods.live_materials import LiveFits
 from rsibr.rsibr_addon.tasks.viewport import map_sets as viewport_map_sets
 from rsibr.rsibr_addon.tasks.viewport.map_sets import UnusedMapSets, ViewportMapSet, read_if_new, stamp_of
@@ -53,6 +56,18 @@ def test_what_has_been_written_anew_is_read_anew(tmp_path: Path) -> None:
     path.unlink()
     with pytest.raises(MapSetError):
         read_if_new(path, LiveFits(), read.stamp)
+
+
+def test_what_reading_tells_comes_with_what_was_read(tmp_path: Path) -> None:
+    radiance = np.ones((8, 16, 4), np.float32)
+    radiance[2, 3, 0] = -1.0
+    write_exr(tmp_path / "light.exr", radiance)
+    with warnings.catch_warnings(action="error"):
+        read = read_if_new(tmp_path / "light.exr", LiveFits(), None)
+    assert read is not None
+    (warning,) = read.warnings
+    assert "light.exr" in warning
+    assert "negative" in warning
 
 
 def test_light_that_is_rendered_is_not_kept() -> None:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ...core.recorded_warnings import recorded_warnings
 from ...host.live_light import is_live_name
 from ...host.map_sets import written_path
 from ...host.visible_surfaces import Surface
@@ -39,12 +40,15 @@ class ViewportMapSet:
         The file that it was read from, as it was then; None for light that is rendered.
     size : int
         Bytes that it takes on the GPU, about.
+    warnings : tuple of str
+        What reading it had to tell.
     """
 
     kind: str
     gpu_map_set: Any
     stamp: Stamp | None = None
     size: int = 0
+    warnings: tuple[str, ...] = ()
 
 
 def read_if_new(path: Path, fits: LiveFits, known: Stamp | None) -> ViewportMapSet | None:
@@ -71,8 +75,10 @@ def read_if_new(path: Path, fits: LiveFits, known: Stamp | None) -> ViewportMapS
     stamp = stamp_of(path)  # before it is read, so that what is written meanwhile counts as new
     if stamp is not None and stamp == known:
         return None
-    opened = open_map_set(path)
-    return ViewportMapSet(opened.kind, opened.drawable(fits), stamp, TEXEL_BYTES * opened.texels)
+    with recorded_warnings() as warnings:
+        opened = open_map_set(path)
+        drawable = opened.drawable(fits)
+    return ViewportMapSet(opened.kind, drawable, stamp, TEXEL_BYTES * opened.texels, tuple(warnings))
 
 
 def stamp_of(path: Path) -> Stamp | None:

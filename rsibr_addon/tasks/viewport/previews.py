@@ -110,7 +110,7 @@ class Previews:
         """What an artist should know of an object's preview: what went wrong, and warnings."""
         map_set = self._map_sets.used.get(map_set_of(item))
         fault = self.faults.message(item)
-        warnings = self._looks.warnings(item, map_set) if map_set and not fault else []
+        warnings = [*map_set.warnings, *self._looks.warnings(item, map_set)] if map_set and not fault else []
         return [*filter(None, (fault, self.faults.trouble)), *warnings]
 
     def draw(self, view: View) -> bool:

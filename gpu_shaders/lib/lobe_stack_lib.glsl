@@ -6,6 +6,7 @@
 #include "lib/directions_lib.glsl"
 #include "lib/dual_paraboloid_lib.glsl"
 #include "lib/footprint_lib.glsl"
+#include "lib/lobe_axes_lib.glsl"
 #include "lib/octahedral_lib.glsl"
 
 #define LAYOUT_DUAL_PARABOLOID 0
@@ -35,24 +36,6 @@ vec3 elevation_value(sampler2D elevations, int row, vec2 elevation)
   return mix(texelFetch(elevations, ivec2(below, row), 0).rgb,
              texelFetch(elevations, ivec2(above, row), 0).rgb,
              elevation.y);
-}
-
-// Normals that point away from the eye, turned to the horizon.
-vec3 facing_normal(vec3 normal, vec3 view_dir)
-{
-  vec3 turned = normal - min(dot(normal, view_dir), 0.0) * view_dir;
-  return turned / max(length(turned), 1e-9);
-}
-
-// Twin of core/lobes/fit.py `lobe_axes`; offset is (tilt, turn).
-vec3 lobe_axis(vec3 normal, vec3 mirror_dir, vec2 offset)
-{
-  vec3 up = normal - dot(normal, mirror_dir) * mirror_dir;
-  vec3 tangent = offset.x * up + offset.y * cross(normal, mirror_dir);
-  float angle = length(tangent);
-  // sin(angle) / angle by its series, where the quotient would be 0 / 0
-  float slope = (angle > 1e-3) ? sin(angle) / angle : 1.0 - angle * angle / 6.0;
-  return cos(angle) * mirror_dir + slope * tangent;
 }
 
 // u and v on a sheet, and the sheet's number.

@@ -75,6 +75,11 @@ def principled_radiance(
     -------
     ndarray, shape (N, 3), float64
         Covered by `surface.alpha`: what is behind is to be added with the rest.
+
+    Notes
+    -----
+    GLSL twin: gpu_shaders/lib/principled_radiance_lib.glsl `principled_radiance`, within 2e-3 of the
+    brightest from half floats.
     """
     normal, view_dir = np.asarray(normal, np.float64), np.asarray(view_dir, np.float64)
     normal = facing_normal(normal, view_dir)

@@ -1,0 +1,181 @@
+"""A pyramid of kernels and the families of lobes on the GPU: one pass over a mesh of a Principled material.
+
+Blender's `gpu` module cannot fill the mips of a texture, so the pyramid's maps lie in one picture.
+"""
+
+import numpy as np
+
+from ...core.brdf.fresnel_powers import rise_table
+from ...core.brdf.principled import Surface
+from ...core.conventions import Array
+from ...core.errors import ShapeError
+from ...core.half_floats import half_holds
+from ...core.kinds.kernel_bank.principled import Families
+from ...core.kinds.kernel_bank.pyramid import OCTAHEDRAL, Pyramid
+from ...core.lobes.family import KERNELS, Family
+from .. import buffers
+from ..drawing import Draw, GpuMesh
+from ..shaders import mesh_program
+from ..textures import GpuTexture
+
+_LOBES = 4
+"""Lobes of a family at most: a texel has as many numbers."""
+
+_WIDTHS_AN_OCTAVE = 4
+"""As gpu_shaders/lib/family_lib.glsl has it."""
+
+SAMPLERS = {
+    "atlas": "FLOAT_2D",
+    "places": "FLOAT_2D",
+    "ggx": "FLOAT_2D_ARRAY",
+    "leaning": "FLOAT_2D_ARRAY",
+    "albedos": "FLOAT_2D_ARRAY",
+    "rises": "FLOAT_2D",
+}
+"""Name of each of a pyramid's textures, in their order -> its type."""
+
+principled_shader = mesh_program(
+    "principled",
+    "PrincipledLook look",
+    "vec4 base; vec4 specular; vec4 coat; vec4 emission; vec4 boundary; vec4 coating;",
+    SAMPLERS,
+)
+"""Draws a mesh of one Principled material."""
+
+
+class GpuPyramid:
+    """The light's half and the material's, for Principled materials.
+
+    Parameters
+    ----------
+    pyramid : Pyramid
+    families : Families
+
+    Raises
+    ------
+    ShapeError
+        A family has more than four lobes, or is not sampled as ours are.
+    """
+
+    def __init__(self, pyramid: Pyramid, families: Families) -> None:
+        half = half_holds(pyramid.all_maps)
+        atlas, places = atlas_texels(pyramid)
+        self.textures = (
+            GpuTexture("kernel bank", atlas, "RGBA16F" if half else "RGBA32F"),
+            GpuTexture("kernel bank's places", places),
+            GpuTexture("family of GGX", family_texels(families.ggx)),
+            GpuTexture("family of leaning facets", family_texels(families.leaning)),
+            GpuTexture("albedos of GGX", albedo_texels(families)),
+            GpuTexture("Fresnel terms", rise_table()[None, :, 1:]),
+        )
+        self._block = buffers.KeptBlock()
+
+    def draw(self, mesh: GpuMesh, draw: Draw, look: Surface) -> None:
+        """See `GpuMapSet.draw`. Reference: core/kinds/kernel_bank/principled.py."""
+        shader = principled_shader()
+        shader.bind()
+        shader.uniform_block("look", self._block.filled(*look_fields(look)))
+        for name, texture in zip(SAMPLERS, self.textures, strict=True):
+            shader.uniform_sampler(name, texture.whole())
+        mesh.draw(shader, draw)
+
+
+def look_fields(look: Surface) -> tuple[Array, ...]:
+    """One material as the block of gpu_shaders/principled_frag.glsl."""
+    return (
+        np.append(look.base_color, look.metallic),
+        np.append(look.specular_tint, look.specular_level),
+        np.append(look.coat_tint, look.coat_weight),
+        np.append(look.emission, look.alpha),
+        np.array([look.roughness, look.ior, look.diffuse_roughness]),
+        np.array([look.coat_roughness, look.coat_ior]),
+    )
+
+
+def atlas_texels(pyramid: Pyramid) -> tuple[Array, Array]:
+    """The maps as gpu_shaders/lib/pyramid_lib.glsl reads them.
+
+    Returns
+    -------
+    atlas : ndarray, shape (height, width, 4), float32
+        Alpha is 1; the width is that of the widest map within its border.
+    places : ndarray, shape (1, K + 3, 4), float32
+        Column and row of a map's first texel, and its width: of each of `KERNELS`, the mirror, and both
+        diffuse ones. What the environment does not resolve is where the mirror is.
+    """
+    sheets = [sheet for sheets in pyramid.all_maps for sheet in sheets]
+    corners, height = _shelves([len(sheet) + 2 for sheet in sheets])
+    atlas = np.ones((height, max(map(len, sheets)) + 2, 4), dtype=np.float32)
+    for sheet, (left, bottom) in zip(sheets, corners, strict=True):
+        size = len(sheet) + 2
+        atlas[bottom : bottom + size, left : left + size, :3] = _bordered(sheet)
+    mirror, *kernels, cosine, leaning = (
+        (left + 1, bottom + 1, len(sheet), 0) for sheet, (left, bottom) in zip(sheets, corners, strict=True)
+    )
+    resolved = dict(zip(pyramid.bank.concentrations, kernels[::-1], strict=True))
+    of_kernels = [resolved.get(kappa, mirror) for kappa in KERNELS.concentrations]
+    return atlas, np.array([[*of_kernels, mirror, cosine, leaning]], dtype=np.float32)
+
+
+def _shelves(widths: list[int]) -> tuple[list[tuple[int, int]], int]:
+    """Corners (left, bottom) of squares in rows as wide as the widest, in turn, and the height of all."""
+    corners, left, bottom, top = [], 0, 0, 0
+    for width in widths:
+        if left + width > max(widths):
+            left, bottom = 0, top
+        corners.append((left, bottom))
+        left, top = left + width, max(top, bottom + width)
+    return corners, top
+
+
+def _bordered(sheet: Array) -> Array:
+    """A map within what continues it on the sphere, shape (n + 2, n + 2, 3)."""
+    beyond = np.arange(-1, len(sheet) + 1)
+    row, column = np.meshgrid(beyond, beyond, indexing="ij")
+    columns, rows, _ = OCTAHEDRAL.wrap(column, row, np.zeros_like(row), len(sheet), len(sheet))
+    bordered: Array = sheet[rows, columns]
+    return bordered
+
+
+def family_texels(family: Family) -> Array:
+    """A family as gpu_shaders/lib/principled_radiance_lib.glsl reads it.
+
+    Returns
+    -------
+    ndarray, shape (1 + K * C, S, A, 4), float32
+        The tilts of up to four lobes; for each kernel and function, their weights.
+
+    Raises
+    ------
+    ShapeError
+        It has more lobes, or is not sampled as the shader takes it to be.
+    """
+    count, rows = len(family.alpha), len(family.mu)
+    widths = 2.0 ** ((np.arange(count) - count + 1) / _WIDTHS_AN_OCTAVE)
+    regular = np.allclose(family.alpha, widths) and np.allclose(family.mu, (np.arange(rows) + 0.5) / rows)
+    lobes, functions = family.weights.shape[2], family.weights.shape[4]
+    if lobes > _LOBES or not regular or family.bank != KERNELS:
+        raise ShapeError(
+            f"Graphics cards take families of {len(KERNELS)} kernels and up to {_LOBES} lobes, at "
+            f"{_WIDTHS_AN_OCTAVE} widths an octave and regular elevations: fit it anew."
+        )
+    texels = np.zeros((1 + len(KERNELS) * functions, rows, count, _LOBES), dtype=np.float32)
+    texels[0, ..., :lobes] = family.tilts.swapaxes(0, 1)
+    texels[1:, ..., :lobes] = family.weights.transpose(3, 4, 1, 0, 2).reshape(-1, rows, count, lobes)
+    return texels
+
+
+def albedo_texels(families: Families) -> Array:
+    """Albedos of GGX as gpu_shaders/lib/principled_lib.glsl reads them.
+
+    Returns
+    -------
+    ndarray, shape (2, S, A, 4), float32
+        The albedos of GGX times the powers from 2 onwards; that of GGX itself, its mean, 0 and 0.
+    """
+    albedo = families.ggx.albedo.swapaxes(0, 1)
+    texels = np.zeros((2, *albedo.shape[:2], 4), dtype=np.float32)
+    texels[0] = albedo[..., 1:]
+    texels[1, ..., 0] = albedo[..., 0]
+    texels[1, ..., 1] = families.mean(families.ggx.alpha)
+    return texels

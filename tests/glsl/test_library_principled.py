@@ -1,0 +1,519 @@
+"""The functions that Principled materials are shaded with against their numpy twins."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.core.brdf import fresnel_powers, oren_nayar, principled
+from rsibr.rsibr_addon.core.brdf.principled import Layers, Surface, layers_of
+from rsibr.rsibr_addon.core.conventions import texel_centres
+from rsibr.rsibr_addon.core.errors import ShapeError
+from rsibr.rsibr_addon.core.geometry.directions import dot, reflect
+from rsibr.rsibr_addon.core.kinds.kernel_bank import principled as shading
+from rsibr.rsibr_addon.core.kinds.kernel_bank.principled import Families, principled_radiance
+from rsibr.rsibr_addon.core.kinds.kernel_bank.pyramid import OCTAHEDRAL, Pyramid, bake_pyramid, width_of
+from rsibr.rsibr_addon.core.lobes.bank import KernelBank
+from rsibr.rsibr_addon.core.lobes.family import KERNELS
+from rsibr.rsibr_addon.core.maps import equirect
+from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.core.resample import lookup
+from rsibr.rsibr_addon.device.kinds.principled import SAMPLERS, GpuPyramid, atlas_texels, family_texels
+from rsibr.rsibr_addon.files.families import shipped_family
+from rsibr.tests.glsl.evaluation import Samplers, evaluate
+from rsibr.tests.glsl.twins import COUNT, ULP, Twin, check, single, unit_vectors
+
+LIBRARY = "principled_radiance_lib.glsl"
+POINTS = 10_000
+"""Enough for random materials; the numpy twin takes a second."""
+
+KERNEL_COUNT = len(KERNELS)
+
+
+@cache
+def families() -> Families:
+    return Families(shipped_family("ggx"), shipped_family("leaning"))
+
+
+@cache
+def pyramid() -> Pyramid:
+    """A dim sky over a red floor, with a window whose light is 60 times as bright."""
+    texels = equirect.direction_from_uv(texel_centres(128, 64))
+    light = np.where(texels[..., 2:] > 0.0, [0.3, 0.4, 0.6], [0.3, 0.1, 0.05])
+    window = np.exp(40.0 * (texels @ [0.6, 0.48, 0.64] - 1.0))
+    return drain(bake_pyramid(light + 20.0 * window[..., None] * [1.0, 0.9, 0.7]))
+
+
+def samplers_of(light: Pyramid) -> Samplers:
+    textures = GpuPyramid(light, families()).textures
+    return {
+        name: (kind, texture.whole())
+        for (name, kind), texture in zip(SAMPLERS.items(), textures, strict=True)
+    }
+
+
+def samplers() -> Samplers:
+    return samplers_of(pyramid())
+
+
+def numbers(seed: int, low: float = 0.0, high: float = 1.0, columns: int = 1) -> np.ndarray:
+    return single(np.random.default_rng(seed).uniform(low, high, (COUNT, columns)))
+
+
+def often_zero(seed: int) -> np.ndarray:
+    """Half of the numbers are 0."""
+    values = numbers(seed)
+    values[::2] = 0.0
+    return values
+
+
+def surface_arguments() -> list[np.ndarray]:
+    """Random inputs of materials, each argument four numbers wide."""
+    return [
+        np.hstack([numbers(1, columns=3), often_zero(2)]),
+        np.hstack([numbers(3, columns=3), numbers(4, 0.0, 2.0)]),
+        np.hstack([numbers(5, columns=3), np.roll(often_zero(6), 1, axis=0)]),
+        np.hstack([numbers(7, columns=3), numbers(8)]),
+        np.hstack([numbers(9), numbers(10, 1.0, 3.0), np.roll(often_zero(11), COUNT // 2, axis=0)]),
+        np.hstack([numbers(12), numbers(13, 1.0, 3.0)]),
+    ]
+
+
+def surface_of(*arguments: np.ndarray) -> Surface:
+    base, specular, coat, emission, boundary, coating = arguments
+    return Surface(
+        base_color=base[:, :3],
+        metallic=base[:, 3],
+        roughness=boundary[:, 0],
+        ior=boundary[:, 1],
+        alpha=emission[:, 3],
+        diffuse_roughness=boundary[:, 2],
+        specular_level=specular[:, 3],
+        specular_tint=specular[:, :3],
+        coat_weight=coat[:, 3],
+        coat_roughness=coating[:, 0],
+        coat_ior=coating[:, 1],
+        coat_tint=coat[:, :3],
+        emission=emission[:, :3],
+    )
+
+
+SURFACE = """
+Surface surface = Surface(in_0.rgb, in_0.a, in_4.x, in_4.y, in_3.a, in_4.z, in_1.a, in_1.rgb, in_2.a, in_5.x,
+                          in_5.y, in_2.rgb, in_3.rgb);
+"""
+
+
+def written(powers: str, first: int = 0) -> str:
+    """GLSL that tells coefficients, as five results."""
+    rising = "".join(f"result_{first + 1 + n}.rgb = {powers}.rising[{n}];" for n in range(4))
+    return f"result_{first}.rgb = {powers}.zeroth; {rising}"
+
+
+def surfaces_and_mu() -> list[np.ndarray]:
+    return [*surface_arguments(), numbers(14, 0.02, 1.0)]
+
+
+def albedo_arguments() -> list[np.ndarray]:
+    """Widths, those of mirrors and beyond 1 among them, and cosines."""
+    return [numbers(15, 0.0, 1.1) ** 2, numbers(16)]
+
+
+def expected_albedo(alpha: np.ndarray, mu: np.ndarray) -> np.ndarray:
+    powers = families().powers(alpha[:, 0], mu[:, 0])
+    mean = families().mean(alpha[:, 0])
+    return np.stack([powers[:, 1:], np.c_[powers[:, 0], mean, 0.0 * powers[:, :2]]], axis=1)
+
+
+def bounced_arguments() -> list[np.ndarray]:
+    """Means, a metal's F0, an albedo and the mean albedo."""
+    return [
+        numbers(17, columns=3),
+        numbers(18, columns=3),
+        numbers(19, 0.3, 1.0, 2),
+        numbers(20, 0.0, 0.3, 4),
+    ]
+
+
+def expected_bounced(mean: np.ndarray, f0: np.ndarray, white: np.ndarray, rising: np.ndarray) -> np.ndarray:
+    class Given:
+        def powers(self, alpha: np.ndarray, mu: np.ndarray) -> np.ndarray:
+            return np.hstack([white[:, :1], rising])
+
+        def mean(self, alpha: np.ndarray) -> np.ndarray:
+            return white[:, 1]
+
+    single_bounce = np.moveaxis(fresnel_powers.schlick(f0), -1, -2)
+    found, reflected = principled._bounced(single_bounce, mean, 0.5, white[:, 0], Given())
+    return np.concatenate([found, reflected[:, None]], axis=1)
+
+
+def layer_twin(code: str, expected, results: int) -> Twin:
+    """Of a function of a surface, seen at a cosine."""
+    return Twin(
+        "principled_lib.glsl",
+        f"{SURFACE} float mu = in_6.x; vec3 beside; {code}",
+        surfaces_and_mu,
+        lambda *arguments: expected(surface_of(*arguments[:6]), arguments[6][:, 0], families()),
+        # Weights of texels of 8 bits are another mu, by 1e-4, of albedos that rise with slopes up to 6
+        2e-3,
+        results=results,
+        samplers=samplers_of_layers,
+    )
+
+
+def samplers_of_layers() -> Samplers:
+    made = samplers()
+    return {name: made[name] for name in ("albedos", "rises")}
+
+
+def beside_lobes(layers: Layers) -> np.ndarray:
+    return np.stack([layers.diffuse, layers.emission], axis=1)
+
+
+ALBEDO = "Albedo albedo = ggx_albedo(albedos, surface.roughness * surface.roughness, mu);"
+
+
+def coefficients(powers: np.ndarray, *beside: np.ndarray) -> np.ndarray:
+    return np.concatenate([powers, *(colors[:, None] for colors in beside)], axis=1)
+
+
+TWINS = {
+    "facets": Twin(
+        "oren_nayar_lib.glsl",
+        "result_0.xy = facets(in_0.x);",
+        lambda: [numbers(21)],
+        lambda roughness: np.stack(oren_nayar.facets(roughness[:, 0]), axis=-1),
+        # A product, a sum and a quotient of numbers below 1
+        4 * ULP,
+    ),
+    "leaning_albedo": Twin(
+        "oren_nayar_lib.glsl",
+        "result_0.x = leaning_albedo(in_0.x);",
+        lambda: [numbers(22, 1e-4, 1.0)],
+        lambda cosine: oren_nayar.leaning_albedo(cosine[:, 0]),
+        # Mesa's arctangent is good to 2e-6
+        5e-6,
+    ),
+    "bounces": Twin(
+        "oren_nayar_lib.glsl",
+        "result_0.rgb = bounces(in_0.rgb, in_1.x, in_2.x);",
+        lambda: [numbers(23, columns=3), numbers(24, 0.01, 1.0), numbers(25, 1e-3, 1.0)],
+        lambda color, roughness, mu: oren_nayar.bounces(color, roughness[:, 0], mu[:, 0]),
+        # Of `leaning_albedo`, times 1 / (.68 pi)
+        5e-6,
+    ),
+    "powers_of": Twin(
+        "fresnel_powers_lib.glsl",
+        "result_0 = powers_of(in_0.x);",
+        lambda: [numbers(26)],
+        lambda cosine: fresnel_powers.powers_of(cosine[:, 0])[:, 1:],
+        8 * ULP,
+    ),
+    "schlick": Twin(
+        "fresnel_powers_lib.glsl",
+        f"Powers found = schlick(in_0.rgb, in_1.rgb); {written('found')}",
+        lambda: [numbers(27, columns=3), numbers(28, columns=3)],
+        lambda f0, edge: np.moveaxis(fresnel_powers.schlick(f0, edge), -1, -2),
+        ULP,
+        results=5,
+    ),
+    "edge_of": Twin(
+        "fresnel_powers_lib.glsl",
+        "result_0.rgb = edge_of(in_0.rgb, in_1.rgb);",
+        lambda: [numbers(29, columns=3), numbers(30, columns=3)],
+        fresnel_powers.edge_of,
+        # Products of values up to 18
+        18 * 8 * ULP,
+    ),
+    "rise": Twin(
+        "fresnel_powers_lib.glsl",
+        "result_0 = rise(rises, in_0.x);",
+        lambda: [numbers(31)],
+        lambda amplitude: fresnel_powers.rise(amplitude[:, 0])[:, 1:],
+        # Weights of 8 bits: a 512th of what neighbours differ by, half at most
+        1e-3,
+        samplers=lambda: {"rises": samplers()["rises"]},
+    ),
+    "dielectric": Twin(
+        "fresnel_powers_lib.glsl",
+        f"Powers found = dielectric(rises, in_0.x); {written('found')}",
+        lambda: [numbers(32, 1.0, 4.0)],
+        lambda index: fresnel_powers.dielectric(index[:, 0])[..., None] * np.ones(3),
+        1e-3,
+        results=5,
+        samplers=lambda: {"rises": samplers()["rises"]},
+    ),
+    "coloured": Twin(
+        "fresnel_powers_lib.glsl",
+        f"Powers found = coloured(in_0.rgb, schlick(in_1.rgb, in_2.rgb)); {written('found')}",
+        lambda: [numbers(33, columns=3), numbers(34, columns=3), numbers(35, columns=3)],
+        lambda color, f0, edge: color[:, None] * np.moveaxis(fresnel_powers.schlick(f0, edge), -1, -2),
+        2 * ULP,
+        results=5,
+    ),
+    "mirror_share": Twin(
+        "family_lib.glsl",
+        "result_0.x = mirror_share(ggx, in_0.x);",
+        lambda: [numbers(36, 0.0, 0.03)],
+        lambda alpha: families().share(alpha[:, 0]),
+        4 * ULP,
+        samplers=lambda: {"ggx": samplers()["ggx"]},
+    ),
+    "ggx_albedo": Twin(
+        "principled_lib.glsl",
+        "Albedo found = ggx_albedo(albedos, in_0.x, in_1.x);"
+        "result_0 = found.rising; result_1 = vec4(found.white, found.mean, 0.0, 0.0);",
+        albedo_arguments,
+        expected_albedo,
+        # As of the layers below
+        1e-3,
+        results=2,
+        samplers=lambda: {"albedos": samplers()["albedos"]},
+    ),
+    "dielectric_mean": Twin(
+        "principled_lib.glsl",
+        "result_0.x = dielectric_mean(in_0.x);",
+        lambda: [numbers(37, 1.0, 200.0)],
+        lambda index: principled.dielectric_mean(index[:, 0]),
+        4 * ULP,
+    ),
+    "bounced": Twin(
+        "principled_lib.glsl",
+        "vec3 reflected; Powers found = bounced(schlick(in_1.rgb, vec3(0.0)), in_0.rgb, "
+        f"Albedo(in_2.x, in_3, in_2.y), reflected); {written('found')} result_5.rgb = reflected;",
+        bounced_arguments,
+        expected_bounced,
+        # A gain up to 1 / .3 of sums and quotients
+        32 * ULP,
+        results=6,
+    ),
+    "left_of": Twin(
+        "principled_lib.glsl",
+        "result_0.x = left_of(in_0.rgb);",
+        lambda: [numbers(38, 0.0, 1.1, 3)],
+        principled._left,
+        ULP,
+    ),
+    "coat_of": layer_twin(
+        "Powers found = coat_of(surface, mu, albedos, rises, beside);"
+        f"{written('found')} result_5.rgb = beside;",
+        lambda surface, mu, albedos: coefficients(*principled._coat(surface, mu, albedos)),
+        6,
+    ),
+    "metal_of": layer_twin(
+        f"{ALBEDO} Powers found = metal_of(surface, albedo); {written('found')}", principled._metal, 5
+    ),
+    "plastic_of": layer_twin(
+        f"{ALBEDO} Powers found = plastic_of(surface, albedo, rises, beside);"
+        f"{written('found')} result_5.rgb = beside;",
+        lambda surface, mu, albedos: coefficients(*principled._plastic(surface, mu, albedos)),
+        6,
+    ),
+    "layers_of base": layer_twin(
+        f"Layers found = layers_of(surface, mu, albedos, rises); {written('found.base')}",
+        lambda surface, mu, albedos: layers_of(surface, mu, albedos).base,
+        5,
+    ),
+    "layers_of diffuse and emission": layer_twin(
+        "Layers found = layers_of(surface, mu, albedos, rises);"
+        "result_0.rgb = found.diffuse; result_1.rgb = found.emission;",
+        lambda surface, mu, albedos: beside_lobes(layers_of(surface, mu, albedos)),
+        2,
+    ),
+    "layers_of coat": layer_twin(
+        f"Layers found = layers_of(surface, mu, albedos, rises); {written('found.coat')}",
+        lambda surface, mu, albedos: layers_of(surface, mu, albedos).coat,
+        5,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", TWINS)
+def test_twin(name: str) -> None:
+    check(TWINS[name])
+
+
+def test_family_place() -> None:
+    alpha, mu = numbers(40, 0.0, 1.0), numbers(41)
+    code = "result_0.xy = family_place(ggx, in_0.x, in_1.x);"
+    found = evaluate("family_lib.glsl", code, [alpha, mu], 1, {"ggx": samplers()["ggx"]})[:, 0]
+    ggx = families().ggx
+    column = np.interp(np.log(alpha[:, 0]), np.log(ggx.alpha), np.arange(len(ggx.alpha)))
+    row = np.interp(mu[:, 0], ggx.mu, np.arange(len(ggx.mu)))
+    # As textures are looked up that repeat their edges; logarithms of drivers are good to 1e-6
+    for place, expected, count in ((found[:, 0], column, len(ggx.alpha)), (found[:, 1], row, len(ggx.mu))):
+        np.testing.assert_allclose(np.clip(place * count - 0.5, 0.0, count - 1.0), expected, atol=1e-4)
+
+
+def test_kernel_count() -> None:
+    code = "result_0.x = float(kernel_count(places));"
+    found = evaluate("pyramid_lib.glsl", code, [np.zeros((1, 1))], 1, {"places": samplers()["places"]})
+    assert found[0, 0, 0] == KERNEL_COUNT
+
+
+def test_pyramid_radiance() -> None:
+    direction = unit_vectors(42)[:POINTS]
+    light = pyramid()
+    maps = {number: light.kernel(kappa, direction) for number, kappa in enumerate(KERNELS.concentrations)}
+    maps[KERNEL_COUNT] = lookup(light.mirror, direction, OCTAHEDRAL)
+    maps[KERNEL_COUNT + 1], maps[KERNEL_COUNT + 2] = shading.lookup_diffuse(light, direction)
+    textures = {name: samplers()[name] for name in ("atlas", "places")}
+    for number, expected in maps.items():
+        code = f"result_0.rgb = pyramid_radiance(atlas, places, {number}, octahedral_uv(in_0.xyz));"
+        found = evaluate("pyramid_lib.glsl", code, [direction], 1, textures)[:, 0, :3]
+        # Half floats are good to 2^-12 of a value; weights of 8 bits to 2 / 512 of what neighbours differ by
+        assert np.abs(found - expected).max() < 3e-3 * expected.max()
+
+
+def points(count: int = POINTS) -> tuple[np.ndarray, np.ndarray, list[np.ndarray]]:
+    """Normals, views and the inputs of materials."""
+    return (
+        unit_vectors(43)[-count:],
+        unit_vectors(44)[-count:],
+        [each[:count] for each in surface_arguments()],
+    )
+
+
+def assert_near(found: np.ndarray, expected: np.ndarray, peak: float) -> None:
+    """Assert what half floats leave.
+
+    A lobe is a sum of kernels, the sum of whose magnitudes is up to 8 times the lobe. Each map is good to
+    2^-12 of itself, and what several round adds up by chance, so that few points err as much.
+    """
+    error = np.abs(found - expected).max(axis=-1)
+    assert error.max() < 2e-3 * peak
+    assert np.quantile(error, 0.99) < 5e-4 * peak
+
+
+def shaded(light: Pyramid, normal: np.ndarray, view_dir: np.ndarray, inputs: list[np.ndarray]) -> np.ndarray:
+    code = SURFACE + (
+        "result_0.rgb = principled_radiance(atlas, places, ggx, leaning, albedos, rises, surface, in_6.xyz, "
+        "in_7.xyz);"
+    )
+    return evaluate(LIBRARY, code, [*inputs, normal, view_dir], 1, samplers_of(light))[:, 0, :3]
+
+
+def test_principled_radiance() -> None:
+    normal, view_dir, inputs = points()
+    expected = principled_radiance(pyramid(), families(), surface_of(*inputs), normal, view_dir)
+    assert expected.max() > 5.0
+    assert_near(shaded(pyramid(), normal, view_dir, inputs), expected, expected.max())
+
+
+@pytest.mark.parametrize("metallic", [0.0, 1.0])
+def test_white_surfaces_vanish_in_a_white_furnace(metallic: float) -> None:
+    normal, view_dir, inputs = points()
+    furnace = drain(bake_pyramid(np.ones((64, 128, 3))))
+    base, specular, coat, emission, boundary, coating = (each.copy() for each in inputs)
+    base[:, :3], base[:, 3], coat[:, :3], emission[:] = 1.0, metallic, 1.0, (0.0, 0.0, 0.0, 1.0)
+    specular[:] = 1.0, 1.0, 1.0, 0.5
+    boundary[:, 1:], coating[:, 1] = (1.5, 0.0), 1.5
+    found = shaded(furnace, normal, view_dir, [base, specular, coat, emission, boundary, coating])
+    # As the numpy twin: families err by half a percent of what they reflect, for each of two layers
+    np.testing.assert_allclose(found[dot(normal, view_dir) > 0.05], 1.0, atol=0.01)
+
+
+def directions() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Normals and mirror directions of views above the horizon, and their cosines."""
+    normal, view_dir, _ = points()
+    view_dir = np.where(dot(normal, view_dir)[:, None] < 0.0, -view_dir, view_dir)
+    return normal, single(reflect(view_dir, normal)), single(dot(normal, view_dir)[:, None])
+
+
+def test_lobes_radiance() -> None:
+    normal, mirror_dir, mu = directions()
+    color, edge, alpha = (each[:POINTS] for each in (numbers(45, columns=3), numbers(46), numbers(47)))
+    code = (
+        "Powers of_metal = schlick(in_0.rgb, in_1.xxx);"
+        "result_0.rgb = lobes_radiance(atlas, places, ggx, 5, in_2.x, in_3.x, of_metal, in_4.xyz, in_5.xyz);"
+        "result_1.rgb = lobes_radiance(atlas, places, leaning, 1, 1.0, in_3.x,"
+        "                              Powers(vec3(1.0), mat4x3(0.0)), in_4.xyz, in_5.xyz);"
+    )
+    textures = {name: samplers()[name] for name in ("atlas", "places", "ggx", "leaning")}
+    found = evaluate(LIBRARY, code, [color, edge, alpha, mu, normal, mirror_dir], 2, textures)[..., :3]
+    metal = np.moveaxis(fresnel_powers.schlick(color, edge), -1, -2)
+    for shown, family, width, powers, scale in (
+        (found[:, 0], families().ggx, alpha[:, 0], metal, 1.0),
+        # Its lobes take more from each other: magnitudes sum to 66
+        (found[:, 1], families().leaning, np.ones(POINTS), np.ones((POINTS, 1, 3)), 8.0),
+    ):
+        expected = shading._lobes(pyramid(), family, width, mu[:, 0], powers, normal, mirror_dir)
+        assert_near(shown, expected, scale * np.abs(expected).max())
+
+
+def test_ggx_radiance() -> None:
+    """Among them lobes that are narrower than the family's first."""
+    normal, mirror_dir, mu = directions()
+    view_dir = reflect(mirror_dir, normal)
+    color, alpha = numbers(48, columns=3)[:POINTS], 2.0 ** numbers(49, -8.0, 0.0)[:POINTS]
+    alpha[:10] = 0.0
+    code = (
+        "result_0.rgb = ggx_radiance(atlas, places, ggx, in_1.x, in_2.x, schlick(in_0.rgb, vec3(0.0)),"
+        "                            in_3.xyz, in_4.xyz);"
+    )
+    textures = {name: samplers()[name] for name in ("atlas", "places", "ggx")}
+    found = evaluate(LIBRARY, code, [color, alpha, mu, normal, mirror_dir], 1, textures)[:, 0, :3]
+    metal = np.moveaxis(fresnel_powers.schlick(color), -1, -2)
+    expected = shading._glossy(pyramid(), families(), alpha[:, 0], metal, normal, view_dir)
+    assert_near(found, expected, expected.max())
+
+
+def test_diffuse_radiance() -> None:
+    normal, mirror_dir, mu = directions()
+    color, roughness = numbers(50, columns=3)[:POINTS], often_zero(51)[:POINTS]
+    code = (
+        "result_0.rgb = diffuse_radiance(atlas, places, leaning, in_0.rgb, in_1.x, in_2.x, in_3.xyz,"
+        "                                in_4.xyz);"
+    )
+    textures = {name: samplers()[name] for name in ("atlas", "places", "leaning")}
+    found = evaluate(LIBRARY, code, [color, roughness, mu, normal, mirror_dir], 1, textures)[:, 0, :3]
+    surface = Surface(base_color=color, diffuse_roughness=roughness[:, 0])
+    all_of_it = Layers(*[np.zeros((POINTS, 5, 3))] * 2, np.ones((POINTS, 3)), np.zeros((POINTS, 3)))
+    expected = shading._diffuse(
+        pyramid(), families().leaning, surface, all_of_it, normal, reflect(mirror_dir, normal), mu[:, 0]
+    )
+    assert_near(found, expected, expected.max())
+
+
+def test_maps_lie_in_the_atlas_with_what_continues_them() -> None:
+    light = pyramid()
+    atlas, places = atlas_texels(light)
+    corners = places[0, :, :3].astype(int)
+    resolved = len(light.bank)
+    assert resolved < KERNEL_COUNT
+    np.testing.assert_array_equal(
+        corners[resolved:KERNEL_COUNT], corners[[KERNEL_COUNT] * (KERNEL_COUNT - resolved)]
+    )
+    shown = [*corners[:resolved], *corners[KERNEL_COUNT:]]
+    taken = np.zeros(atlas.shape[:2], dtype=int)
+    for (left, bottom, size), sheet in zip(
+        shown, [sheets[0] for sheets in (*light.maps, light.mirror)] + [*light.diffuse], strict=True
+    ):
+        np.testing.assert_array_equal(atlas[bottom : bottom + size, left : left + size, :3], sheet)
+        # Each edge is folded about its middle
+        np.testing.assert_array_equal(atlas[bottom - 1, left : left + size, :3], sheet[0, ::-1])
+        np.testing.assert_array_equal(atlas[bottom : bottom + size, left + size, :3], sheet[::-1, -1])
+        taken[bottom - 1 : bottom + size + 1, left - 1 : left + size + 1] += 1
+    assert taken.max() == 1
+
+
+def test_an_atlas_fits_into_graphics_memory() -> None:
+    maps = tuple(
+        np.zeros((1, width_of(kappa), width_of(kappa), 3), np.float32) for kappa in KERNELS.concentrations
+    )
+    atlas, _ = atlas_texels(Pyramid(KERNELS, np.zeros((1, 1024, 1024, 3)), maps, np.zeros((2, 32, 32, 3))))
+    # Of half floats; what is asked of a bank in graphics memory
+    assert 2 * atlas.size < 40e6
+
+
+def test_a_family_of_another_kind_is_refused() -> None:
+    ggx = families().ggx
+    for other in (
+        replace(ggx, bank=KernelBank((*KERNELS.concentrations[:-1], 2e4))),
+        replace(ggx, mu=ggx.mu**2),
+        replace(ggx, alpha=ggx.alpha**2),
+        replace(ggx, tilts=np.repeat(ggx.tilts, 2, 2), weights=np.repeat(ggx.weights, 2, 2)),
+    ):
+        with pytest.raises(ShapeError, match=r"11 kernels and up to 4 lobes, .* fit it anew"):
+            family_texels(other)

@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from typing import Protocol
 
 from ..rsibr_addon.core.errors import RsibrError
-from ..rsibr_addon.core.recorded_warnings import recorded_warnings
+from ..rsibr_addon.core.warned import recorded_warnings
 
 
 class Reporter(Protocol):

@@ -1,11 +1,11 @@
 """The command `rsibr bake`, of which each kind of map set has its own."""
 
 import argparse
-import warnings
 from dataclasses import dataclass
 from typing import Any
 
-from ..core.errors import RsibrWarning, SceneError
+from ..core.errors import SceneError
+from ..core.warned import warn
 from ..files.kinds.registry import STORED
 from ..job import BakeJob
 from ..settings.light import Light
@@ -99,7 +99,7 @@ def _check_world() -> None:
     from ..host.blend_files import is_file_open
 
     if not is_file_open():
-        warnings.warn(NO_LIGHT, RsibrWarning, stacklevel=3)
+        warn(NO_LIGHT)
 
 
 KINDS = {kind.replace("_", "-"): BakeCommand(kind) for kind in STORED}

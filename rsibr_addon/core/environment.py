@@ -1,13 +1,13 @@
 """The environment: incoming radiance from every direction, as a latitude-longitude map."""
 
 import hashlib
-import warnings
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from .conventions import Array
-from .errors import InputFileError, RsibrWarning
+from .errors import InputFileError
+from .warned import warn
 
 NEGLIGIBLE = 1e-6
 """Sum of negative values, relative to that of the others, up to which they are nothing but a picture's
@@ -127,11 +127,7 @@ def usable_radiance(pixels: Array, name: str, clamp: float | None = None) -> Arr
             continue
         radiance[where] = instead
         if is_told or kind != "negative values":
-            warnings.warn(
-                f"{name} holds {count} {kind}; they are taken as {instead:g}.",
-                RsibrWarning,
-                stacklevel=2,
-            )
+            warn(f"{name} holds {count} {kind}; they are taken as {instead:g}.")
     return radiance
 
 

@@ -1,6 +1,5 @@
 """Text files with Cornell's measurements of surfaces: spectra at scattered pairs of directions."""
 
-import warnings
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +8,8 @@ from ..core.brdf.measured_cornell import scattered_brdf
 from ..core.brdf.spectrum import rec709_from_spectrum, told_wavelengths
 from ..core.brdf.tabulated import Tabulated
 from ..core.conventions import Array
-from ..core.errors import InputFileError, RangeError, RsibrWarning
+from ..core.errors import InputFileError, RangeError
+from ..core.warned import warn
 from .reading import opened
 
 LARGEST = 1 << 26
@@ -90,7 +90,7 @@ def _floored(values: Array, sentence: str) -> Array:
     """`values` with 0 for those that are negative or not finite, and a warning that counts them."""
     usable = np.isfinite(values) & (values >= 0.0)
     if count := int(np.count_nonzero(~usable)):
-        warnings.warn(sentence.format(count), RsibrWarning, stacklevel=3)
+        warn(sentence.format(count))
     return np.where(usable, values, 0.0)
 
 

@@ -1,13 +1,13 @@
 """A photograph's exposure as cameras note it: Exif, in any kind of file."""
 
 import math
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ..core.errors import InputFileError, RsibrWarning
+from ..core.errors import InputFileError
+from ..core.warned import warn
 from .photographs import read_notes
 
 LONGEST, LARGEST_F, LARGEST_ISO = 1e6, 1e3, 1e8
@@ -117,11 +117,7 @@ def _completed(paths: Sequence[Path], told: list[float | None], what: str) -> li
             f"exposure times of all photographs, corrected for it."
         )
     if lacking:
-        warnings.warn(
-            f"{lacking} tells no {what}: that of the other photographs, {known[0]:g}, is taken.",
-            RsibrWarning,
-            stacklevel=3,
-        )
+        warn(f"{lacking} tells no {what}: that of the other photographs, {known[0]:g}, is taken.")
     return [known[0] if number is None else number for number in told]
 
 

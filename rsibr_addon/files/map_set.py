@@ -3,7 +3,6 @@
 import contextlib
 import hashlib
 import json
-import warnings
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -15,13 +14,13 @@ from ..core.errors import (
     InputFileError,
     MapSetError,
     RangeError,
-    RsibrWarning,
     SchemaError,
     ShapeError,
 )
 from ..core.half_floats import half_holds
 from ..core.schema import loads
 from ..core.threads import in_order
+from ..core.warned import warn
 from . import radiance_hdr
 from .atomic import check_target, written_aside
 from .exr import MAGIC, OpenExr, Part
@@ -125,11 +124,9 @@ def write_map_set(
             parts.add(part["name"], stored)
         parts.finish(json.dumps(header, allow_nan=False))
     if half and whole:
-        warnings.warn(
+        warn(
             f"{whole} of the {len(listed)} maps of {path} are too bright or too dark for 16-bit floats, and "
-            f"are stored with 32 bits.",
-            RsibrWarning,
-            stacklevel=2,
+            f"are stored with 32 bits."
         )
 
 

@@ -1,7 +1,6 @@
 """Binary files of the MERL BRDF database."""
 
 import struct
-import warnings
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +8,8 @@ import numpy as np
 from ..core.brdf.measured_merl import SHAPE, below_horizon, merl_brdf
 from ..core.brdf.tabulated import Tabulated
 from ..core.conventions import Array
-from ..core.errors import InputFileError, RsibrWarning
+from ..core.errors import InputFileError
+from ..core.warned import warn
 from .reading import opened
 
 HEADER = struct.Struct("<3i")
@@ -49,11 +49,9 @@ def read_merl(path: str | Path) -> Tabulated:
     if missing.all():
         raise InputFileError(f"{path} holds no measurement at all: fetch it again.")
     if unexpected:
-        warnings.warn(
+        warn(
             f"{path} lacks {unexpected} measurements above the horizon (negative, NaN or infinite); "
-            f"each is taken from its neighbour in azimuth.",
-            RsibrWarning,
-            stacklevel=2,
+            f"each is taken from its neighbour in azimuth."
         )
     return merl_brdf(samples, f"merl:path={path}")
 

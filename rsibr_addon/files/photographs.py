@@ -2,7 +2,6 @@
 
 import contextlib
 import functools
-import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -11,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from ..core.conventions import Array
-from ..core.errors import InputFileError, RsibrWarning
+from ..core.errors import InputFileError
+from ..core.warned import warn
 from .chromaticities import rec709_from
 from .encoding import Encoding, named_encoding, profile_encoding
 from .memory import check_memory
@@ -272,7 +272,7 @@ def _tell_of_the_unused(path: str | Path, notes: dict[str, Any], head: bytes) ->
 
 
 def _warn(sentence: str) -> None:
-    warnings.warn(sentence, RsibrWarning, stacklevel=4)
+    warn(sentence)
 
 
 @functools.cache

@@ -1,14 +1,14 @@
 """Single pictures as OpenEXR."""
 
 import re
-import warnings
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..core.conventions import Array
-from ..core.errors import InputFileError, RsibrWarning, ShapeError
+from ..core.errors import InputFileError, ShapeError
+from ..core.warned import warn
 from .atomic import written_aside
 from .chromaticities import XYZ, rec709_from
 from .exr import OpenExr, Part, in_display_window, open_exr, read_attributes, window_size, write_parts
@@ -81,7 +81,7 @@ def picture_of(path: str | Path, file: OpenExr) -> Array:
     """The picture of an open file: see `read_exr`, whose `path` names it."""
     layer, meant, remarks = _chosen(path, file.headers)
     for remark in remarks:
-        warnings.warn(f"{path} {remark}", RsibrWarning, stacklevel=3)
+        warn(f"{path} {remark}")
     part = file.parts()[layer.part]
     wanted = {role: name for role, name in layer.channels.items() if part.channels[name].dtype.kind == "f"}
     if wanted.keys() | {"A"} != layer.channels.keys() | {"A"}:

@@ -4,13 +4,13 @@ The format is [Ward1991]'s: a text header, a line with the axes and the size, th
 """
 
 import os
-import warnings
 from pathlib import Path
 
 import numpy as np
 
 from ..core.conventions import Array, Indices
-from ..core.errors import InputFileError, RangeError, RsibrWarning, ShapeError
+from ..core.errors import InputFileError, RangeError, ShapeError
+from ..core.warned import warn
 from .atomic import written_aside
 from .memory import check_memory
 from .radiance_header import LONGEST, RadianceHeader, parse_header
@@ -71,7 +71,7 @@ def read_hdr(path: str | Path) -> Array:
         data = stream.read()
     header, start = _header(path, data)
     for remark in header.remarks:
-        warnings.warn(f"{path} {remark}", RsibrWarning, stacklevel=2)
+        warn(f"{path} {remark}")
     check_memory(header.line_count * header.line_length * BYTES_OF_TEXEL, str(path), header.size)
     rgbe = np.empty((header.line_count, header.line_length, 4), np.uint8)
     surely_whole = True

@@ -1,7 +1,6 @@
 """Tensor files of the RGL material database."""
 
 import struct
-import warnings
 from pathlib import Path
 from typing import BinaryIO
 
@@ -9,7 +8,8 @@ import numpy as np
 
 from ..core.brdf.measured_rgl import MeasuredRgl
 from ..core.conventions import Array
-from ..core.errors import InputFileError, RsibrWarning, ShapeError
+from ..core.errors import InputFileError, ShapeError
+from ..core.warned import warn
 from .reading import opened
 
 MAGIC = b"tensor_file\0"
@@ -61,11 +61,7 @@ def read_rgl(path: str | Path) -> MeasuredRgl:
     """
     fields = _checked_fields(path)
     if negative := int(np.count_nonzero(fields["rgb"] < 0.0)):
-        warnings.warn(
-            f"{path} has {negative} values of colours outside Rec. 709; they are taken as 0.",
-            RsibrWarning,
-            stacklevel=2,
-        )
+        warn(f"{path} has {negative} values of colours outside Rec. 709; they are taken as 0.")
     try:
         # All azimuths of an isotropic measurement are equal: the first is used
         return MeasuredRgl(

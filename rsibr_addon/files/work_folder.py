@@ -4,13 +4,13 @@ import contextlib
 import hashlib
 import json
 import os
-import warnings
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from ..core.errors import OutputFileError, RsibrWarning, SchemaError
+from ..core.errors import OutputFileError, SchemaError
 from ..core.schema import loads
+from ..core.warned import warn
 from .atomic import check_name, written_aside
 from .locks import LOCK, held
 from .staging import clear_strays
@@ -112,11 +112,7 @@ def _prepare(path: Path, work: dict[str, Any]) -> None:
     if _read_work(path / WORK) == work:
         return
     if _parts(path):
-        warnings.warn(
-            f"{path} held parts of another job (or of another version), so this one starts afresh.",
-            RsibrWarning,
-            stacklevel=2,
-        )
+        warn(f"{path} held parts of another job (or of another version), so this one starts afresh.")
     _empty(path)
     with written_aside(path / WORK) as aside:
         aside.write_text(json.dumps(work))

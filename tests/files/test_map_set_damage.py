@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import OpenEXR
 import pytest
-from rsibr.rsibr_addon.core.errors import MapSetError
+from rsibr.rsibr_addon.core.errors import MapSetError, RangeError
 from rsibr.rsibr_addon.files.map_set import read_map_set, read_map_set_header, write_map_set
 from rsibr.rsibr_addon.files.map_set_data import MapSet
 
@@ -83,10 +83,10 @@ def test_a_flipped_bit_is_found_or_does_no_harm(path: Path, make_views: Callable
     assert refused > 250
 
 
-def test_a_thread_that_finds_no_memory_is_want_of_memory(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_thread_that_cannot_start_is_told_with_the_remedy(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(thread: threading.Thread) -> None:
         raise RuntimeError("can't start new thread")
 
     monkeypatch.setattr(threading.Thread, "start", fail)
-    with pytest.raises(MemoryError):
+    with pytest.raises(RangeError, match="ask for fewer by --threads"):
         read_map_set(path)

@@ -1,13 +1,13 @@
 """Directional albedo: the share of light that a surface sends to one view, by quadrature."""
 
-import warnings
 from functools import cache
 
 import numpy as np
 
 from ..conventions import Array, ArrayLike
-from ..errors import RangeError, RsibrWarning
+from ..errors import RangeError
 from ..ties import TIE
+from ..warned import warn
 from .model import BrdfFunction
 
 RADIAL_NODES, ARC_NODES = 8, 32
@@ -121,11 +121,9 @@ def warn_of_gain(brdf: BrdfFunction, name: str) -> None:
     worst = int(np.argmax(albedo))
     angle = np.degrees(np.arccos(CHECKED_ELEVATIONS[worst]))
     if albedo[worst] > 1.0 + TOLERATED_GAIN:
-        warnings.warn(
+        warn(
             f"{name} reflects {albedo[worst]:.3g} times the light it receives at {angle:.0f} degrees from "
-            f"the normal; pictures of it will be too bright.",
-            RsibrWarning,
-            stacklevel=2,
+            f"the normal; pictures of it will be too bright."
         )
 
 

@@ -1,11 +1,10 @@
 """Linear Rec. 709 from spectra."""
 
-import warnings
-
 import numpy as np
 
 from ..conventions import Array, ArrayLike
-from ..errors import RangeError, RsibrWarning
+from ..errors import RangeError
+from ..warned import warn
 
 REC709_FROM_XYZ = np.array(
     [
@@ -118,7 +117,7 @@ def _span(wavelength: Array) -> str:
 
 
 def _warn(sentence: str) -> None:
-    warnings.warn(sentence, RsibrWarning, stacklevel=4)
+    warn(sentence)
 
 
 def rec709_from_spectrum(wavelength: ArrayLike, spectrum: ArrayLike) -> Array:

@@ -1,6 +1,5 @@
 """The photographs of a bracket: reading them, and merging them into a picture of radiance."""
 
-import warnings
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -9,10 +8,11 @@ import numpy as np
 
 from ...core.conventions import Array
 from ...core.environment import usable_radiance
-from ...core.errors import InputFileError, RangeError, RsibrWarning
+from ...core.errors import InputFileError, RangeError
 from ...core.light.exposure.merge import Merged, merge_bracket
 from ...core.light.exposure.response import Response, linear_response, srgb_response
 from ...core.progress import Progress, Steps
+from ...core.warned import warn
 from ...files.encoding import Encoding, named_encoding
 from ...files.exif import read_exposure, relative_exposures
 from ...files.exposure_times import read_times
@@ -215,11 +215,9 @@ def merged(
         (result.black, "black", "longer"),
     ):
         if share > 0.0:
-            warnings.warn(
+            warn(
                 f"{100.0 * share:.2g} % of the picture are {colour} in every photograph: take a {other} "
-                f"exposure as well.",
-                RsibrWarning,
-                stacklevel=2,
+                f"exposure as well."
             )
     radiance = np.maximum(result.radiance @ encoding.to_rec709.T.astype(np.float32), np.float32(0.0))
     return replace(result, radiance=radiance)

@@ -1,6 +1,5 @@
 """The light around a point of a scene: [Miller1984] section 5.2."""
 
-import warnings
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -9,12 +8,12 @@ import numpy as np
 
 from ...core.conventions import Array
 from ...core.environment import usable_radiance
-from ...core.errors import RsibrWarning
 from ...core.light.lamps import LampLight, add_lamps
 from ...core.maps import equirect
 from ...core.maps.representation import representation
 from ...core.progress import Progress, Steps
 from ...core.resample import resample
+from ...core.warned import warn
 from ...files.memory import check_memory
 from ...files.radiance_pictures import check_radiance_target, write_radiance
 from ...host.cycles import BYTES_BESIDES, bytes_needed
@@ -89,7 +88,7 @@ def illuminate_from_scene(light: SceneLight, output: Path, force: bool = False) 
             mean[name] = mean.get(name, 0.0) + share * texels.astype(np.float64)
     radiance = add_lamps(_assembled(light, seen), lamps)
     if not np.any(radiance):
-        warnings.warn(f"No light arrives there, so {output} is black.", RsibrWarning, stacklevel=2)
+        warn(f"No light arrives there, so {output} is black.")
     write_radiance(output, usable_radiance(radiance, output.name), force)
     return output
 

@@ -1,6 +1,5 @@
 """Reflectance models that are chosen in the preview, and shaded from a kernel bank without a bake."""
 
-import warnings
 from collections.abc import Generator, Iterator
 from dataclasses import dataclass
 from typing import TypeVar
@@ -9,7 +8,6 @@ import numpy as np
 
 from ...core.brdf.model import Brdf
 from ...core.brdf.spec import brdf_from_spec
-from ...core.errors import RsibrWarning
 from ...core.kinds.kernel_bank.filtered_bank import FilteredBank, stack_from_bank
 from ...core.kinds.kernel_bank.shading import BankLook
 from ...core.kinds.lobe_stack.shading import StackLook
@@ -17,7 +15,7 @@ from ...core.lobes.fit import Fit
 from ...core.lobes.layers import layered_fit
 from ...core.lobes.target import elevation_slices, target_slices
 from ...core.progress import Steps
-from ...core.recorded_warnings import recorded_warnings
+from ...core.warned import recorded_warnings, warn
 from ...device.drawing import Draw, GpuMesh
 from ...device.kinds.lobe_stack import GpuLobeStack
 from ...files.brdfs import read_measured
@@ -197,7 +195,7 @@ class LiveMaterials:
         for _ in steps:
             pass
         if warning := self.warning(look):
-            warnings.warn(warning, RsibrWarning, stacklevel=2)
+            warn(warning)
 
     def _taken(self, look: BankLook) -> _Shown | None:
         """Take what has been made, if it has."""

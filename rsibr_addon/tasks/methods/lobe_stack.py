@@ -1,6 +1,5 @@
 """An environment and a reflectance model, or its fit, to a lobe stack, in a map set."""
 
-import warnings
 from itertools import count
 from math import ceil, log2
 from pathlib import Path
@@ -9,12 +8,12 @@ from ...core.brdf.gallery import gallery_name
 from ...core.brdf.lambert import Lambert
 from ...core.brdf.spec import MEASURED, brdf_from_spec
 from ...core.environment import Environment
-from ...core.errors import RsibrWarning
 from ...core.filtering.prefilter import BYTES_BESIDES, bytes_needed
 from ...core.lobes.accuracy import fit_errors
 from ...core.lobes.bake import SIZES, bake_stack, sharpest_resolved
 from ...core.lobes.fit import Fit
 from ...core.progress import Progress, Steps
+from ...core.warned import warn
 from ...files.fits import read_fit
 from ...files.kinds.lobe_stack import in_turn
 from ...files.map_set_header import Origin
@@ -99,11 +98,9 @@ def bake(job: BakeJob[LobeStackSettings]) -> Steps[Baked]:
     baked = yield from bake_stack(light.radiance, fit, settings.layout, settings.size, afford)
     size, interpolation = baked.filtered.size, baked.interpolation
     if interpolation > TOLD_INTERPOLATION:
-        warnings.warn(
+        warn(
             f"Lookups in maps of {size} texels cost about {100.0 * interpolation:.2g} %: choose "
-            f"a larger size.",
-            RsibrWarning,
-            stacklevel=2,
+            f"a larger size."
         )
     stated = {"layout": settings.layout, "size": size, "half": settings.half}
     origin = Origin(light, stated, method.software_of(job, is_material(settings.brdf or "")))
@@ -134,12 +131,10 @@ def _resolved_fit(spec: str, settings: LobeStackSettings, light: Environment) ->
     yield Progress(0, 1, "measuring the fits")
     without, with_sharper = (fit_errors(each, brdf).error for each in (coarser, fit))
     enough = next(2**n for n in count(1) if sharpest_resolved(height * 2**n) >= sharpest)
-    warnings.warn(
+    warn(
         f"{light.name} is too coarse, at {width}x{height}, for the sharpest kernels of these lobes: without "
         f"them E is {without:.3g}, with them {with_sharper:.3g}; one of {enough * width}x{enough * height} "
-        f"takes them.",
-        RsibrWarning,
-        stacklevel=2,
+        f"takes them."
     )
     return coarser
 

@@ -1,7 +1,6 @@
 """Radiance views of a material, rendered by Cycles into a map set."""
 
 import json
-import warnings
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -10,12 +9,13 @@ import numpy as np
 
 from ...core.conventions import Array
 from ...core.environment import Environment
-from ...core.errors import InputFileError, MapSetError, RsibrWarning, SceneError
+from ...core.errors import InputFileError, MapSetError, SceneError
 from ...core.geometry.camera import Camera
 from ...core.geometry.geodesic import geodesic_sphere
 from ...core.maps.sphere_map import fill_rim
 from ...core.options import to_plain
 from ...core.progress import Progress, Steps
+from ...core.warned import warn
 from ...files.atomic import written_aside
 from ...files.exr import Part, read_attributes, read_parts, write_parts
 from ...files.map_set import check_map_set_target, read_map_set_header, write_map_set
@@ -119,11 +119,9 @@ class _Captured:
             self.fingerprint = fingerprint(material)
             reasons = shape_dependence(material)
         if reasons:
-            warnings.warn(
+            warn(
                 f"No radiance map can hold {settings.material}, so it is captured as it looks on a sphere: "
-                f"{'; '.join(reasons)}.",
-                RsibrWarning,
-                stacklevel=3,
+                f"{'; '.join(reasons)}."
             )
         self.view_dirs = geodesic_sphere(settings.views).vertices
 

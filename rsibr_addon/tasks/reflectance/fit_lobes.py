@@ -1,14 +1,13 @@
 """A reflectance model to lobes, in a file."""
 
 import time
-import warnings
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ...core.brdf.model import Brdf
 from ...core.brdf.spec import spec_from_brdf
-from ...core.errors import OutputFileError, RsibrWarning
+from ...core.errors import OutputFileError
 from ...core.lobes.accuracy import FitErrors, fit_errors
 from ...core.lobes.bank import SHARPEST
 from ...core.lobes.fit import Fit
@@ -17,6 +16,7 @@ from ...core.lobes.layers import layered_fit
 from ...core.lobes.seeking import SEEKING
 from ...core.lobes.target import elevation_slices
 from ...core.progress import Progress, Steps
+from ...core.warned import warn
 from ...files.atomic import check_target
 from ...files.fits import write_fit
 from ...files.outputs import together
@@ -96,11 +96,9 @@ def fit_lobes(
     yield Progress(1, 2, "measuring the fit")
     result = FitResult(fit, fit_errors(fit, brdf), seconds)
     if settings.error is not None and result.errors.error > settings.error:
-        warnings.warn(
+        warn(
             f"{settings.lobes} lobes for each layer leave an error of {result.errors.error:.3g}, not "
-            f"{settings.error:g}: allow more lobes.",
-            RsibrWarning,
-            stacklevel=2,
+            f"{settings.error:g}: allow more lobes."
         )
     with together():
         if plots is not None:

@@ -1,14 +1,13 @@
 """Materials of Blender files as reflectance models, measured whatever their nodes."""
 
-import warnings
-
 import numpy as np
 
 from ...core.brdf.albedo import directional_albedo as table_albedo
 from ...core.brdf.albedo import warn_of_gain
 from ...core.brdf.measured_material import MeasuredMaterial, measured_material, measured_pairs
-from ...core.errors import RsibrWarning, SceneError
+from ...core.errors import SceneError
 from ...core.progress import Progress, Steps
+from ...core.warned import warn
 from ...host.furnace import COSINES, directional_albedo
 from ...host.goniophotometer import LEAST_COSINE, measure
 from ...host.materials import lasting_spec, load_material
@@ -57,11 +56,9 @@ def measure_material(material: str) -> Steps[MeasuredMaterial]:
     with temporary_scene():
         reasons = shape_dependence(load_material(material))
     if reasons:
-        warnings.warn(
+        warn(
             f"No BRDF can hold {material}, so it is measured as it looks on a small flat tile: "
-            f"{'; '.join(reasons)}.",
-            RsibrWarning,
-            stacklevel=2,
+            f"{'; '.join(reasons)}."
         )
     light_dir, view_dir, wanted = measured_pairs(LEAST_COSINE)
     diffuse, glossy = (np.full(light_dir.shape, np.nan) for _ in range(2))
@@ -89,10 +86,8 @@ def _compare_with_furnace(brdf: MeasuredMaterial, material: str) -> None:
             f"holds: give it a roughness of 0.1 or more."
         )
     if abs(held - sent) > TOLERATED_DIFFERENCE * sent:
-        warnings.warn(
+        warn(
             f"The measured reflectance of {material} sends back {abs(held / sent - 1.0):.0%} "
             f"{'more' if held > sent else 'less'} light than the material: it does not hold highlights "
-            f"sharper than roughness 0.1, light that passes through, nor light of its own.",
-            RsibrWarning,
-            stacklevel=3,
+            f"sharper than roughness 0.1, light that passes through, nor light of its own."
         )

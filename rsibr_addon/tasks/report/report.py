@@ -1,7 +1,6 @@
 """A map set as one HTML file that needs nothing beside it."""
 
 import base64
-import warnings
 from collections.abc import Mapping
 from html import escape
 from pathlib import Path
@@ -11,10 +10,11 @@ import numpy as np
 
 from ...core.brdf.model import Brdf
 from ...core.conventions import Array
-from ...core.errors import DeviceError, RsibrError, RsibrWarning
+from ...core.errors import DeviceError, RsibrError
 from ...core.geometry.camera import Camera
 from ...core.pictures.thumbnail import thumbnail
 from ...core.progress import Progress, Steps
+from ...core.warned import warn
 from ...device.preview import PreviewRenderer
 from ...files.atomic import check_target, written_aside
 from ...files.kinds.registry import STORED, look_types
@@ -98,7 +98,7 @@ def _drawn_meshes(map_set: Path) -> dict[str, Array]:
     try:
         renderer, look = PreviewRenderer(opened.drawable()), look_types()[opened.kind]()
     except DeviceError as error:
-        warnings.warn(f"The report shows no mesh: {error}", RsibrWarning, stacklevel=2)
+        warn(f"The report shows no mesh: {error}")
         return {}
     pictures = {}
     for name, camera in MESHES.items():

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ...core.recorded_warnings import recorded_warnings
+from ...core.warned import recorded_warnings
 from ...host.live_light import is_live_name
 from ...host.map_sets import written_path
 from ...host.visible_surfaces import Surface

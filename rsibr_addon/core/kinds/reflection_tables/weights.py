@@ -1,7 +1,5 @@
 """Weights of the tables at each angle: Wd and Ws of [Miller1984] section 7, and those of other tables."""
 
-import warnings
-
 import numpy as np
 
 from ...brdf.albedo import TOLERATED_GAIN, directional_albedo
@@ -11,7 +9,8 @@ from ...brdf.layered import Beneath
 from ...brdf.model import Brdf
 from ...brdf.retroreflective import Retroreflective
 from ...conventions import Array
-from ...errors import RangeError, RsibrWarning
+from ...errors import RangeError
+from ...warned import warn
 from .material import TableMaterial
 from .models import AlbedoReflectance, CoatModel, ConstantReflectance
 from .tables import Role
@@ -86,11 +85,9 @@ def warn_of_table_gain(material: TableMaterial) -> None:
     worst = int(np.argmax(total))
     if total[worst] > 1.0 + TOLERATED_GAIN:
         angle = np.degrees(np.arccos(weight_cosines()[worst]))
-        warnings.warn(
+        warn(
             f"The material reflects {total[worst]:.3g} times the light it receives at {angle:.0f} degrees "
-            f"from the normal; pictures of it will be too bright.",
-            RsibrWarning,
-            stacklevel=2,
+            f"from the normal; pictures of it will be too bright."
         )
 
 

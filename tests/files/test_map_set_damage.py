@@ -83,7 +83,7 @@ def test_a_flipped_bit_is_found_or_does_no_harm(path: Path, make_views: Callable
     assert refused > 250
 
 
-def test_a_thread_that_cannot_start_is_told_with_the_remedy(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_thread_that_cannot_start_is_told(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(thread: threading.Thread) -> None:
         raise RuntimeError("can't start new thread")
 

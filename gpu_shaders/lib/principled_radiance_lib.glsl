@@ -1,5 +1,5 @@
 // Twin of rsibr_addon/core/kinds/kernel_bank/principled.py. Layer 0 of a family's texture (see
-// device/kinds/principled.py) holds the tilts of up to four lobes, then come for each kernel a layer of each
+// device/kinds/principled.py) holds the tilts of its lobes, then come for each kernel a layer of each
 // function, with the weights of these lobes.
 #include "lib/directions_lib.glsl"
 #include "lib/lobe_axes_lib.glsl"
@@ -7,12 +7,14 @@
 #include "lib/principled_lib.glsl"
 #include "lib/pyramid_lib.glsl"
 
-const int LOBES = 4;
+const int GGX_LOBES = 4;
+const int LEANING_LOBES = 2;
 
-// The sum of a family's lobes, whose functions are the first of the powers.
+// The sum of a family's lobes, GGX_LOBES at most, whose functions are the first of the powers.
 vec3 lobes_radiance(sampler2D atlas,
                     sampler2D places,
                     sampler2DArray family,
+                    int lobes,
                     int functions,
                     float alpha,
                     float mu,
@@ -22,8 +24,8 @@ vec3 lobes_radiance(sampler2D atlas,
 {
   vec2 place = family_place(family, alpha, mu);
   vec4 tilts = textureLod(family, vec3(place, 0.0), 0.0);
-  vec2 uv[LOBES];
-  for (int lobe = 0; lobe < LOBES; lobe++) {
+  vec2 uv[GGX_LOBES];
+  for (int lobe = 0; lobe < lobes; lobe++) {
     uv[lobe] = octahedral_uv(lobe_axis(normal, mirror_dir, vec2(tilts[lobe], 0.0)));
   }
   vec3 radiance = vec3(0.0);
@@ -35,9 +37,9 @@ vec3 lobes_radiance(sampler2D atlas,
       weights += outerProduct(coefficients.rising[power - 1],
                               textureLod(family, vec3(place, layer + float(power)), 0.0));
     }
-    for (int lobe = 0; lobe < LOBES; lobe++) {
-      // Broad lobes have no sharp kernels: what has no weight is not looked up
-      if (weights[lobe] != vec3(0.0)) {
+    // Broad lobes have no sharp kernels: what has no weight is not looked up
+    if (weights != mat4x3(0.0)) {
+      for (int lobe = 0; lobe < lobes; lobe++) {
         radiance += weights[lobe] * pyramid_radiance(atlas, places, kernel, uv[lobe]);
       }
     }
@@ -59,7 +61,7 @@ vec3 ggx_radiance(sampler2D atlas,
   vec3 radiance = vec3(0.0);
   if (share < 1.0) {
     Powers rough = coloured(vec3(1.0 - share), coefficients);
-    radiance = lobes_radiance(atlas, places, ggx, 5, alpha, mu, rough, normal, mirror_dir);
+    radiance = lobes_radiance(atlas, places, ggx, GGX_LOBES, 5, alpha, mu, rough, normal, mirror_dir);
   }
   if (share > 0.0) {
     vec3 factor = coefficients.zeroth + coefficients.rising * powers_of(mu);
@@ -87,8 +89,9 @@ vec3 diffuse_radiance(sampler2D atlas,
   vec3 radiance = ab.x * white;
   if (ab.y > 0.0) {
     vec3 lost = LOST_BY_LEANING * white - pyramid_radiance(atlas, places, number + 1, uv);
+    Powers white_facets = Powers(vec3(1.0), mat4x3(0.0));
     vec3 leant = lobes_radiance(
-        atlas, places, leaning, 1, 1.0, mu, Powers(vec3(1.0), mat4x3(0.0)), normal, mirror_dir);
+        atlas, places, leaning, LEANING_LOBES, 1, 1.0, mu, white_facets, normal, mirror_dir);
     radiance += ab.y * (bounces(color, roughness, mu) * lost + leant);
   }
   return color * max(radiance, 0.0);

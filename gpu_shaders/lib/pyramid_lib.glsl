@@ -1,7 +1,7 @@
 // Twin of rsibr_addon/core/kinds/kernel_bank/pyramid.py `Pyramid`. The texture `atlas` (see
 // device/kinds/principled.py) holds octahedral maps, each within a border of one texel: what continues it
-// across its edges. A texel of `places` tells where the first texel of a map lies, and how many it has along
-// a side: the maps of kernels, then what a mirror shows, then both diffuse ones.
+// across its edges. A texel of `places` tells where in the atlas u = v = 0 of a map lies, and how far
+// u and v reach from there to 1: the maps of kernels, then what a mirror shows, then both diffuse ones.
 #include "lib/octahedral_lib.glsl"
 
 int kernel_count(sampler2D places)
@@ -12,6 +12,6 @@ int kernel_count(sampler2D places)
 // A map, at its own u and v.
 vec3 pyramid_radiance(sampler2D atlas, sampler2D places, int number, vec2 uv)
 {
-  vec3 place = texelFetch(places, ivec2(number, 0), 0).xyz;
-  return textureLod(atlas, (place.xy + uv * place.z) / vec2(textureSize(atlas, 0)), 0.0).rgb;
+  vec4 place = texelFetch(places, ivec2(number, 0), 0);
+  return textureLod(atlas, place.xy + uv * place.zw, 0.0).rgb;
 }

@@ -18,8 +18,8 @@ from ..drawing import Draw, GpuMesh
 from ..shaders import mesh_program
 from ..textures import GpuTexture
 
-_LOBES = 4
-"""Lobes of a family at most: a texel has as many numbers."""
+GGX_LOBES, LEANING_LOBES = 4, 2
+"""Lobes of families, as gpu_shaders/lib/principled_radiance_lib.glsl has them; a texel has four numbers."""
 
 _WIDTHS_AN_OCTAVE = 4
 """As gpu_shaders/lib/family_lib.glsl has it."""
@@ -54,7 +54,7 @@ class GpuPyramid:
     Raises
     ------
     ShapeError
-        A family has more than four lobes, or is not sampled as ours are.
+        A family has other lobes than ours, or is not sampled as they are.
     """
 
     def __init__(self, pyramid: Pyramid, families: Families) -> None:
@@ -63,8 +63,8 @@ class GpuPyramid:
         self.textures = (
             GpuTexture("kernel bank", atlas, "RGBA16F" if half else "RGBA32F"),
             GpuTexture("kernel bank's places", places),
-            GpuTexture("family of GGX", family_texels(families.ggx)),
-            GpuTexture("family of leaning facets", family_texels(families.leaning)),
+            GpuTexture("family of GGX", family_texels(families.ggx, GGX_LOBES)),
+            GpuTexture("family of leaning facets", family_texels(families.leaning, LEANING_LOBES)),
             GpuTexture("albedos of GGX", albedo_texels(families)),
             GpuTexture("Fresnel terms", rise_table()[None, :, 1:]),
         )
@@ -100,8 +100,8 @@ def atlas_texels(pyramid: Pyramid) -> tuple[Array, Array]:
     atlas : ndarray, shape (height, width, 4), float32
         Alpha is 1; the width is that of the widest map within its border.
     places : ndarray, shape (1, K + 3, 4), float32
-        Column and row of a map's first texel, and its width: of each of `KERNELS`, the mirror, and both
-        diffuse ones. What the environment does not resolve is where the mirror is.
+        Left and lower edge of a map, its width and its height, as shares of the atlas: of each of `KERNELS`,
+        the mirror, and both diffuse ones. What the environment does not resolve is where the mirror is.
     """
     sheets = [sheet for sheets in pyramid.all_maps for sheet in sheets]
     corners, height = _shelves([len(sheet) + 2 for sheet in sheets])
@@ -110,11 +110,13 @@ def atlas_texels(pyramid: Pyramid) -> tuple[Array, Array]:
         size = len(sheet) + 2
         atlas[bottom : bottom + size, left : left + size, :3] = _bordered(sheet)
     mirror, *kernels, cosine, leaning = (
-        (left + 1, bottom + 1, len(sheet), 0) for sheet, (left, bottom) in zip(sheets, corners, strict=True)
+        (left + 1, bottom + 1, len(sheet), len(sheet))
+        for sheet, (left, bottom) in zip(sheets, corners, strict=True)
     )
     resolved = dict(zip(pyramid.bank.concentrations, kernels[::-1], strict=True))
     of_kernels = [resolved.get(kappa, mirror) for kappa in KERNELS.concentrations]
-    return atlas, np.array([[*of_kernels, mirror, cosine, leaning]], dtype=np.float32)
+    places = np.array([[*of_kernels, mirror, cosine, leaning]]) / (2 * atlas.shape[1::-1])
+    return atlas, places.astype(np.float32)
 
 
 def _shelves(widths: list[int]) -> tuple[list[tuple[int, int]], int]:
@@ -137,29 +139,35 @@ def _bordered(sheet: Array) -> Array:
     return bordered
 
 
-def family_texels(family: Family) -> Array:
+def family_texels(family: Family, lobes: int) -> Array:
     """A family as gpu_shaders/lib/principled_radiance_lib.glsl reads it.
+
+    Parameters
+    ----------
+    family : Family
+    lobes : int
+        How many it has, up to 4.
 
     Returns
     -------
     ndarray, shape (1 + K * C, S, A, 4), float32
-        The tilts of up to four lobes; for each kernel and function, their weights.
+        The tilts of the lobes; for each kernel and function, their weights.
 
     Raises
     ------
     ShapeError
-        It has more lobes, or is not sampled as the shader takes it to be.
+        It has other lobes, or is not sampled as the shader takes it to be.
     """
     count, rows = len(family.alpha), len(family.mu)
     widths = 2.0 ** ((np.arange(count) - count + 1) / _WIDTHS_AN_OCTAVE)
     regular = np.allclose(family.alpha, widths) and np.allclose(family.mu, (np.arange(rows) + 0.5) / rows)
-    lobes, functions = family.weights.shape[2], family.weights.shape[4]
-    if lobes > _LOBES or not regular or family.bank != KERNELS:
+    functions = family.weights.shape[4]
+    if family.tilts.shape[2] != lobes or not regular or family.bank != KERNELS:
         raise ShapeError(
-            f"Graphics cards take families of {len(KERNELS)} kernels and up to {_LOBES} lobes, at "
+            f"Graphics cards take families of {len(KERNELS)} kernels and {lobes} lobes, at "
             f"{_WIDTHS_AN_OCTAVE} widths an octave and regular elevations: fit it anew."
         )
-    texels = np.zeros((1 + len(KERNELS) * functions, rows, count, _LOBES), dtype=np.float32)
+    texels = np.zeros((1 + len(KERNELS) * functions, rows, count, 4), dtype=np.float32)
     texels[0, ..., :lobes] = family.tilts.swapaxes(0, 1)
     texels[1:, ..., :lobes] = family.weights.transpose(3, 4, 1, 0, 2).reshape(-1, rows, count, lobes)
     return texels

@@ -143,7 +143,7 @@ def scenario(told):
     yield from push("bpy.ops.rsibr.bake(")
     first = session().bakes.bakes[0]
     yield from scroll()
-    cross = yield from find("bpy.ops.rsibr.cancel_bake(", share=0.92)
+    cross = yield from find("bpy.ops.rsibr.cancel_bake(", share=0.96)
     yield from done(lambda: finished_views(first) == 2)
     picture("guide-baking", SIDEBAR)
     yield from click(*cross)

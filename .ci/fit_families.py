@@ -25,7 +25,7 @@ MATERIALS: dict[str, tuple[Fresnel, Array]] = {
 }
 """Name -> its Fresnel term, and that as a sum of powers."""
 
-SAMPLES = (0, 4, 8, 11, 13, 16, 19, 21, 24)
+SAMPLES = (0, 8, 12, 16, 19, 21, 24, 27, 29, 32)
 
 
 def measured(family: Family, alpha: float, material: str) -> FitErrors:

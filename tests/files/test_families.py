@@ -30,7 +30,7 @@ def error(family: Family, alpha: float, fresnel: Fresnel, coefficients: np.ndarr
     return fit_errors(fit, Ggx(alpha=alpha, fresnel=fresnel)).error
 
 
-@pytest.mark.parametrize("row", [8, 16])
+@pytest.mark.parametrize("row", [16, 24])
 def test_its_errors_are_those_of_the_page(row: int) -> None:
     family = shipped_family("ggx")
     alpha = float(family.alpha[row])
@@ -42,7 +42,7 @@ def test_its_errors_are_those_of_the_page(row: int) -> None:
 
 def test_a_few_widths_fitted_anew_are_as_good() -> None:
     family = shipped_family("ggx")
-    widths = WIDTHS[16:18]
+    widths = WIDTHS[24:26]
     made = drain(fit_ggx(widths))
     for alpha in widths:
         for term in (TERMS["white metal"], TERMS["water, 1.33"]):
@@ -52,7 +52,7 @@ def test_a_few_widths_fitted_anew_are_as_good() -> None:
 
 def test_albedos_are_sums_of_weights() -> None:
     family = shipped_family("ggx")
-    for row in (8, 16, 24):
+    for row in (16, 24, 32):
         for fresnel, coefficients in (TERMS["white metal"], TERMS["F0 = .04"]):
             exact = directional_albedo(Ggx(alpha=family.alpha[row], fresnel=fresnel), family.mu)[:, 0]
             # The quadrature of `directional_albedo` errs by 5e-4

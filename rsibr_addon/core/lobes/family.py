@@ -14,7 +14,7 @@ from ..errors import RangeError, ShapeError
 from .bank import KernelBank
 from .fit import Fit
 
-KERNELS = KernelBank((0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 64.0, 256.0, 1024.0, 4096.0, 16384.0))
+KERNELS = KernelBank((0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 64.0, 256.0, 1024.0, 4096.0, 16384.0, 65536.0))
 """Kernels of families: broad ones are cheap, and steps of 4 beyond them raise E by a few percent only."""
 
 

@@ -22,7 +22,7 @@ from .projection import Lookups, Projector
 from .smoothing import lines
 from .target import TargetSlice, elevation_slices, target_slices
 
-WIDTHS = 2.0 ** np.linspace(-6.0, 0.0, 25)
+WIDTHS = 2.0 ** np.linspace(-8.0, 0.0, 33)
 """alpha of the rows of the GGX family, four an octave."""
 
 ELEVATIONS, LOBES, LEANING_LOBES = 16, 4, 2
@@ -33,7 +33,7 @@ GUIDES = np.stack([schlick(1.0), dielectric(1.5)], axis=1)
 SMOOTHNESS = 0.1
 """Price of tilts' squared distance from the line between their neighbours'."""
 
-_SHARPNESS = 25.0
+_SHARPNESS = 16.0
 _FIRST_WIDTH, _FIRST_ELEVATION = 0.25, 0.25
 _STIFFER, _STIFFEST = 1.4, 1e4
 

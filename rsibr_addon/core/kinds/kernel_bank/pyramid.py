@@ -27,6 +27,9 @@ TEXELS_BY_SHARPNESS = 16.0
 SMALLEST, LARGEST = 32, 1024
 """Widths of maps in texels. Broad kernels have larger maps than they need: diffuse light is theirs alone."""
 
+MOST_MISSING = 2.0
+"""Width that a map needs over `LARGEST`; beyond it the environment itself is nearer to a kernel's map."""
+
 TOLERANCE = 1e-5
 """Relative root-mean-square error of filtering; less than that of half floats."""
 
@@ -81,7 +84,7 @@ class Pyramid:
         Parameters
         ----------
         concentration : float
-            One of the bank's, or a larger one: the environment resolves none of these, and is shown itself.
+            One of the bank's; of larger ones none is resolved, and the environment itself is shown.
         direction : array_like, shape (..., 3)
             Axes of the kernel.
 
@@ -112,12 +115,16 @@ def bake_pyramid(radiance: Array) -> Steps[Pyramid]:
     Returns
     -------
     Pyramid
-        With those of `family.KERNELS` that the environment resolves, and its own width up to `LARGEST`.
+        With those of `family.KERNELS` that environment and maps resolve, and its own width up to `LARGEST`.
     """
     yield Progress(0, len(KERNELS) + 1, "analysing the environment")
     least = (1.0 - TIE) * resolved_width(len(radiance))
     expanded = [expand(kernel, TOLERANCE) for kernel in KERNELS.lobes()]
-    series = [lobe for lobe in expanded if lobe.width >= least]
+    series = [
+        lobe
+        for kappa, lobe in zip(KERNELS.concentrations, expanded, strict=True)
+        if lobe.width >= least and TEXELS_BY_SHARPNESS * np.sqrt(kappa) <= MOST_MISSING * LARGEST
+    ]
     diffuse = [expand(lobe, _TOLERANCE_AT_HORIZON) for lobe in (cosine_lobe(), leaning_lobe())]
     harmonics = analyse_environment(radiance, analysis_degree([*series, *diffuse]))
 

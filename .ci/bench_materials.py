@@ -216,10 +216,11 @@ def main() -> None:
             ours = error(principled_radiance(pyramid, families, surface, turned, view_dir), truth)
             shading = time.process_time() - start
             theirs = error(split.shaded(surface, turned, view_dir), truth)
-            ratio = f"{theirs / ours:.1f}x" if ours > 0.0 else "within the noise"
+            ratio = f" ({theirs / ours:.1f}x)" if ours > 0.0 else ""
+            own, other = (f"{each:.1%}" if each > 0.0 else "below the noise" for each in (ours, theirs))
             asked = ASKED.get(name, ("", ""))[min(place, 1)]
             lines.append(
-                f"| {name} | {environment.name} | {ours:.1%} | {theirs:.1%} ({ratio}) "
+                f"| {name} | {environment.name} | {own} | {other}{ratio} "
                 f"| {asked} | {baking:.1f}, {shading:.2f} s |"
             )
             print(lines[-1], flush=True)

@@ -1,5 +1,7 @@
 """Principled materials from a pyramid and families: against sums over all texels of their BRDF."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.brdf.principled import Principled, Surface
@@ -96,10 +98,13 @@ def test_points_have_their_own_materials(pyramid: Pyramid, families: Families) -
 def test_white_surfaces_vanish_in_a_white_furnace(
     roughness: float, metallic: float, families: Families
 ) -> None:
-    furnace = drain(bake_pyramid(np.ones((HEIGHT, 2 * HEIGHT, 3))))
+    baked = drain(bake_pyramid(np.ones((HEIGHT, 2 * HEIGHT, 3))))
+    # Sums over texels are not quite even near the poles
+    furnace = replace(baked, maps=tuple(np.ones_like(sheets) for sheets in baked.maps))
     surface = Surface(base_color=(1.0, 1.0, 1.0), metallic=metallic, roughness=roughness, coat_weight=0.5)
     shown = principled_radiance(furnace, families, surface, NORMAL, VIEW)
-    np.testing.assert_allclose(shown, 1.0, atol=0.01)
+    # The family's numbers, and half of what is asked
+    np.testing.assert_allclose(shown, 1.0, atol=0.005)
 
 
 def test_a_mirror_shows_the_environment_itself(pyramid: Pyramid, families: Families) -> None:

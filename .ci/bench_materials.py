@@ -1,19 +1,20 @@
-"""Measure Principled materials from a pyramid of kernels against Cycles, beside the split sum of the same.
+"""Measure Principled materials from a pyramid of kernels, beside the split sum of the same.
 
-A picture of a sphere in tiles, each flat, with the sphere's normal at its middle and inputs of its own: what
-a textured sphere shows, without what the filters of textures and pixels add. All errors are relative
+Materials that are the same all over are compared with the sum over all texels. Against Cycles there is a
+picture of a sphere in tiles, each flat, with the sphere's normal at its middle and inputs of its own: what a
+textured sphere shows, without what the filters of textures and pixels add. All errors are relative
 root-mean-square errors over the picture.
 """
 
 import argparse
-import time
 import warnings
 from collections.abc import Iterator
+from typing import Any
 
 import bpy
 import numpy as np
 from docs_table import write_table
-from rsibr.rsibr_addon.core.brdf.principled import Surface, layers_of
+from rsibr.rsibr_addon.core.brdf.principled import Principled, Surface, layers_of
 from rsibr.rsibr_addon.core.conventions import Array
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import RsibrWarning
@@ -24,6 +25,7 @@ from rsibr.rsibr_addon.core.filtering.radial_lobes import ggx_n_dot_l_lobe
 from rsibr.rsibr_addon.core.filtering.zonal import ZonalSeries, expand
 from rsibr.rsibr_addon.core.geometry.camera import Camera
 from rsibr.rsibr_addon.core.geometry.directions import dot, normalize, reflect
+from rsibr.rsibr_addon.core.geometry.lit_sphere import environment_about, ring_radiance
 from rsibr.rsibr_addon.core.kinds.kernel_bank.principled import Families, principled_radiance
 from rsibr.rsibr_addon.core.kinds.kernel_bank.pyramid import bake_pyramid
 from rsibr.rsibr_addon.core.progress import drain
@@ -38,6 +40,9 @@ TILES, PIXELS, EDGE = 32, 5, 1
 """Along a side of the picture; pixels along a tile; and those at its edges that Cycles' filter mixes."""
 
 LEAST_COSINE, LEAST_ALPHA = 0.05, 0.008
+RINGS, EVERY = 24, 16
+"""Rings of points of a sphere, and columns of the environment from one of its points to the next."""
+
 STEPS = 12
 """Roughnesses of a textured sphere, so that the split sum has as many maps."""
 
@@ -54,7 +59,7 @@ INPUTS = {
     "coat_tint": "Coat Tint",
 }
 RED, GOLD = (0.5, 0.05, 0.03), (1.0, 0.75, 0.3)
-MATERIALS: dict[str, dict[str, object]] = {
+MATERIALS: dict[str, dict[str, Any]] = {
     "metal, roughness .09": {"base_color": GOLD, "metallic": 1.0, "roughness": 0.09},
     "metal, roughness .2": {"base_color": GOLD, "metallic": 1.0, "roughness": 0.2},
     "metal, roughness .3": {"base_color": GOLD, "metallic": 1.0, "roughness": 0.3},
@@ -73,7 +78,6 @@ MATERIALS: dict[str, dict[str, object]] = {
     },
     "clay": {"base_color": (0.55, 0.4, 0.3), "specular_level": 0.0, "diffuse_roughness": 1.0},
 }
-ASKED = {"textured": ("3 %, 5x", "5 %, 5x"), "coated plastic": ("4 %, 5x", "6 %, 5x")}
 
 
 def tiles() -> tuple[Array, Array, Array]:
@@ -86,24 +90,37 @@ def tiles() -> tuple[Array, Array, Array]:
     return column, row, np.stack([x, y, np.sqrt(1.0 - x**2 - y**2)], axis=-1)
 
 
-def surfaces(normal: Array) -> Iterator[tuple[str, Surface, Array]]:
-    """Names of materials, what they are at each tile, and shading normals in the camera's axes."""
-    for name, inputs in MATERIALS.items():
-        every = {
-            key: np.broadcast_to(np.asarray(value, np.float64), (len(normal), *np.shape(value)))
-            for key, value in inputs.items()
-        }
-        yield name, Surface(**every), normal
+def textured(normal: Array) -> tuple[Surface, Array]:
+    """A material of another colour, roughness and metallic at each tile, and normals off the sphere's."""
     rng = np.random.default_rng(15)
     checker = (np.floor(4.0 * normal[:, 0]) + np.floor(4.0 * normal[:, 1])) % 2.0
     roughness = np.rint(STEPS * (0.25 + 0.6 * rng.random(len(normal)))) / STEPS
     bumped = normalize(normal + 0.15 * rng.normal(size=normal.shape))
     bumped = np.where((bumped[:, 2] > LEAST_COSINE)[:, None], bumped, normal)
-    yield (
-        "textured",
-        Surface(base_color=rng.random(normal.shape), metallic=checker, roughness=roughness),
-        bumped,
+    return Surface(base_color=rng.random(normal.shape), metallic=checker, roughness=roughness), bumped
+
+
+def uniform(inputs: dict[str, Any], count: int) -> Surface:
+    """A material, the same at each of some points."""
+    return Surface(
+        **{
+            name: np.broadcast_to(np.asarray(value, np.float64), (count, *np.shape(value)))
+            for name, value in inputs.items()
+        }
     )
+
+
+def summed(material: Principled, radiance: Array) -> tuple[Array, Array]:
+    """Normals of a sphere's points in the camera's axes, and the sum over all texels of light times BRDF."""
+    frame = Camera((0.0, 0.0, 1.0)).frame
+    cosine = np.sqrt((np.arange(RINGS) + 0.5) / RINGS)
+    width = radiance.shape[1]
+    column = np.arange(0, width, EVERY)
+    azimuth = np.pi * (1.0 - 2.0 * (column + 0.5) / width)[None, :]
+    radius = np.sqrt(1.0 - cosine**2)[:, None]
+    across = np.broadcast_arrays(radius * np.cos(azimuth), radius * np.sin(azimuth), cosine[:, None])
+    exact = ring_radiance(material, environment_about(radiance, frame), cosine)[:, column]
+    return np.stack(across, axis=-1).reshape(-1, 3), exact.reshape(-1, 3)
 
 
 def by_cycles(environment: Environment, surface: Surface, bumped: Array, samples: int) -> list[Array]:
@@ -189,41 +206,49 @@ def error(shown: Array, truth: list[Array]) -> float:
     return float(np.sqrt(max(square, 0.0)))
 
 
+class Place:
+    """An environment, and all that shades in it."""
+
+    def __init__(self, environment: Environment, families: Families) -> None:
+        self._environment, self._families = environment, families
+        self._pyramid = drain(bake_pyramid(environment.radiance))
+        self._split = SplitSum(environment.radiance, families)
+
+    def rows(self, samples: int) -> Iterator[str]:
+        """Lines of the table."""
+        for name, inputs in MATERIALS.items():
+            normal, exact = summed(Principled(**inputs), self._environment.radiance)
+            yield self._row(name, "all texels", uniform(inputs, len(normal)), normal, [exact, exact])
+        *_, normal = tiles()
+        coated = uniform(MATERIALS["coated plastic"], len(normal)), normal
+        for name, (surface, bumped) in {"textured": textured(normal), "coated plastic": coated}.items():
+            truth = by_cycles(self._environment, surface, bumped, samples)
+            yield self._row(name, "Cycles", surface, bumped, truth)
+
+    def _row(self, name: str, against: str, surface: Surface, normal: Array, truth: list[Array]) -> str:
+        frame = Camera((0.0, 0.0, 1.0)).frame
+        view_dir = np.broadcast_to(frame[:, 2], normal.shape)
+        points = normal @ frame.T, view_dir
+        ours = error(principled_radiance(self._pyramid, self._families, surface, *points), truth)
+        theirs = error(self._split.shaded(surface, *points), truth)
+        ratio = f" ({theirs / ours:.1f}x)" if ours > 0.0 else ""
+        own, other = (f"{each:.1%}" if each > 0.0 else "below the noise" for each in (ours, theirs))
+        return f"| {name} | {self._environment.name} | {against} | {own} | {other}{ratio} |"
+
+
 def main() -> None:
     """Print the table, and write it into docs/materials.md."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--environments", nargs="*", default=["forest", "city"])
-    parser.add_argument("--samples", type=int, default=256)
+    parser.add_argument("--samples", type=int, default=512)
     chosen = parser.parse_args()
     warnings.simplefilter("ignore", RsibrWarning)
     families = Families(shipped_family("ggx"), shipped_family("leaning"))
-    _, _, normal = tiles()
-    frame = Camera((0.0, 0.0, 1.0)).frame
-    view_dir = np.broadcast_to(frame[:, 2], normal.shape)
-    lines = [
-        f"| material | environment | ours | split sum | asked | CPU: pyramid, {len(normal)} points |",
-        "|---|---|---:|---:|---|---:|",
-    ]
-    for place, environment in enumerate(map(load_environment, chosen.environments)):
-        start = time.process_time()
-        pyramid = drain(bake_pyramid(environment.radiance))
-        baking = time.process_time() - start
-        split = SplitSum(environment.radiance, families)
-        for name, surface, bumped in surfaces(normal):
-            truth = by_cycles(environment, surface, bumped, chosen.samples)
-            turned = bumped @ frame.T
-            start = time.process_time()
-            ours = error(principled_radiance(pyramid, families, surface, turned, view_dir), truth)
-            shading = time.process_time() - start
-            theirs = error(split.shaded(surface, turned, view_dir), truth)
-            ratio = f" ({theirs / ours:.1f}x)" if ours > 0.0 else ""
-            own, other = (f"{each:.1%}" if each > 0.0 else "below the noise" for each in (ours, theirs))
-            asked = ASKED.get(name, ("", ""))[min(place, 1)]
-            lines.append(
-                f"| {name} | {environment.name} | {own} | {other}{ratio} "
-                f"| {asked} | {baking:.1f}, {shading:.2f} s |"
-            )
-            print(lines[-1], flush=True)
+    lines = ["| material | environment | against | ours | split sum |", "|---|---|---|---:|---:|"]
+    for environment in map(load_environment, chosen.environments):
+        for line in Place(environment, families).rows(chosen.samples):
+            lines.append(line)
+            print(line, flush=True)
     write_table("materials.md", "spheres", "\n".join(lines))
 
 

@@ -1,6 +1,5 @@
 """Materials chosen while one looks: drawn from a kernel bank, they are what a bake would have made."""
 
-import warnings
 from collections.abc import Iterator
 
 import numpy as np
@@ -16,6 +15,7 @@ from rsibr.rsibr_addon.core.lobes.bake import bake_bank, bake_stack
 from rsibr.rsibr_addon.core.lobes.layers import layered_fit
 from rsibr.rsibr_addon.core.lobes.target import elevation_slices
 from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.core.warned import warn
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.kinds.lobe_stack import GpuLobeStack
 from rsibr.rsibr_addon.device.preview import PreviewRenderer
@@ -148,7 +148,7 @@ def test_warnings_come_out_of_the_worker(
     filtered: FilteredBank, worker: LatestRequestWorker, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def read(name: str, path: str) -> Brdf:
-        warnings.warn("The file is odd.", RsibrWarning, stacklevel=2)
+        warn("The file is odd.")
         return brdf_from_spec(LOOK.spec, lambda *_: pytest.fail("nothing is measured"))
 
     monkeypatch.setattr(live_materials, "read_measured", read)

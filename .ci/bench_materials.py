@@ -7,6 +7,7 @@ root-mean-square errors over the picture.
 """
 
 import argparse
+import dataclasses
 import warnings
 from collections.abc import Iterator
 from typing import Any
@@ -32,6 +33,7 @@ from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.families import shipped_family
 from rsibr.rsibr_addon.host.cameras import add_camera
 from rsibr.rsibr_addon.host.cycles import RenderSettings, render_view
+from rsibr.rsibr_addon.host.principled import INPUTS
 from rsibr.rsibr_addon.host.scenes import temporary_scene
 from rsibr.rsibr_addon.host.worlds import light_with
 from rsibr.rsibr_addon.tasks.light.environments import load_environment
@@ -45,19 +47,6 @@ RINGS, EVERY = 24, 16
 
 STEPS = 12
 """Roughnesses of a textured sphere, so that the split sum has as many maps."""
-
-INPUTS = {
-    "base_color": "Base Color",
-    "metallic": "Metallic",
-    "roughness": "Roughness",
-    "ior": "IOR",
-    "diffuse_roughness": "Diffuse Roughness",
-    "specular_level": "Specular IOR Level",
-    "specular_tint": "Specular Tint",
-    "coat_weight": "Coat Weight",
-    "coat_roughness": "Coat Roughness",
-    "coat_tint": "Coat Tint",
-}
 RED, GOLD = (0.5, 0.05, 0.03), (1.0, 0.75, 0.3)
 MATERIALS: dict[str, dict[str, Any]] = {
     "metal, roughness .09": {"base_color": GOLD, "metallic": 1.0, "roughness": 0.09},
@@ -127,7 +116,8 @@ def by_cycles(environment: Environment, surface: Surface, bumped: Array, samples
     """Radiance of each tile, twice, of as many samples each."""
     column, row, normal = tiles()
     camera = Camera((0.0, 0.0, 1.0))
-    inputs = {INPUTS[name]: np.asarray(getattr(surface, name)) for name in INPUTS}
+    names = [field.name for field in dataclasses.fields(Principled)]
+    inputs = {INPUTS[name]: np.asarray(getattr(surface, name)) for name in names}
     varied = {name: each for name, each in inputs.items() if len(each.shape) and len(each) == len(normal)}
     varied["Normal"] = bumped @ camera.frame.T
     seen = []

@@ -3,7 +3,7 @@
 import bpy
 
 from ..core.errors import SceneError
-from ..core.materials.principled import Baked, Bump, Normal, NormalMap, Principled, Shading
+from ..core.materials.principled import Baked, Bump, Normal, NormalMap, PrincipledInputs, Shading
 from .input_nodes import Groups, NotFollowedError, constant, read, source
 from .materials import surface_output
 
@@ -12,7 +12,7 @@ INPUTS = {
     "metallic": "Metallic",
     "roughness": "Roughness",
     "ior": "IOR",
-    "specular_ior_level": "Specular IOR Level",
+    "specular_level": "Specular IOR Level",
     "specular_tint": "Specular Tint",
     "diffuse_roughness": "Diffuse Roughness",
     "coat_weight": "Coat Weight",
@@ -26,7 +26,7 @@ INPUTS = {
     "emission_strength": "Emission Strength",
     "alpha": "Alpha",
 }
-"""Field of `Principled` -> input of Blender's node."""
+"""Field of `PrincipledInputs`, and of `core.brdf.principled.Principled` -> input of Blender's node."""
 
 MISSING = {
     "Transmission Weight": "transmission",
@@ -37,7 +37,7 @@ MISSING = {
 """Input -> what is not shown, where it is not 0."""
 
 
-def principled(material: bpy.types.Material) -> Principled:
+def principled(material: bpy.types.Material) -> PrincipledInputs:
     """Describe a material; nothing changes.
 
     Parameters
@@ -46,7 +46,7 @@ def principled(material: bpy.types.Material) -> Principled:
 
     Returns
     -------
-    Principled
+    PrincipledInputs
 
     Raises
     ------
@@ -67,7 +67,7 @@ def principled(material: bpy.types.Material) -> Principled:
     shading: dict[str, Shading] = {
         field: _shading(node.inputs[name], groups) for field, name in INPUTS.items()
     }
-    return Principled(
+    return PrincipledInputs(
         **shading,
         normal=_normal(node.inputs["Normal"], groups),
         coat_normal=_normal(node.inputs["Coat Normal"], groups),

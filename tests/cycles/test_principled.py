@@ -1,29 +1,17 @@
 """Our Principled BSDF against Cycles' own, in a white furnace."""
 
+import dataclasses
+
 import bpy
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.brdf.albedo import directional_albedo as integrated
 from rsibr.rsibr_addon.core.brdf.principled import Principled
 from rsibr.rsibr_addon.host.furnace import COSINES, directional_albedo
+from rsibr.rsibr_addon.host.principled import INPUTS
 from rsibr.rsibr_addon.host.scenes import temporary_scene
 
 pytestmark = pytest.mark.needs("cycles")
-
-INPUTS = {
-    "base_color": "Base Color",
-    "metallic": "Metallic",
-    "roughness": "Roughness",
-    "ior": "IOR",
-    "diffuse_roughness": "Diffuse Roughness",
-    "specular_level": "Specular IOR Level",
-    "specular_tint": "Specular Tint",
-    "coat_weight": "Coat Weight",
-    "coat_roughness": "Coat Roughness",
-    "coat_ior": "Coat IOR",
-    "coat_tint": "Coat Tint",
-}
-"""Field -> the node's input."""
 
 SHOWN = [3, 15, 31, 63]
 """Rows of the furnace: 87 to 7 degrees from the normal."""
@@ -53,9 +41,11 @@ def test_it_sends_back_what_cycles_does(material: Principled) -> None:
         made = bpy.data.materials.new("material")
         nodes = made.node_tree.nodes
         (node,) = (each for each in nodes if each.bl_idname == "ShaderNodeBsdfPrincipled")
-        for field, name in INPUTS.items():
-            value = getattr(material, field)
-            node.inputs[name].default_value = (*value, 1.0) if isinstance(value, tuple) else value
+        for field in dataclasses.fields(material):
+            value = getattr(material, field.name)
+            node.inputs[INPUTS[field.name]].default_value = (
+                (*value, 1.0) if isinstance(value, tuple) else value
+            )
         shown = directional_albedo(scene, made, seed=1).sum(axis=0)[SHOWN]
     # Cycles' tables have 16 to 32 steps along each axis, ours 33; its samples leave some tenths of a percent
     np.testing.assert_allclose(integrated(material, cosine), shown, rtol=0.015)

@@ -122,7 +122,7 @@ Normal = NormalMap | Bump | Baked | None
 
 
 @dataclass(frozen=True)
-class Principled:
+class PrincipledInputs:
     """All inputs of a Principled BSDF that reflection and emission need.
 
     Attributes
@@ -139,7 +139,7 @@ class Principled:
     metallic: Shading
     roughness: Shading
     ior: Shading
-    specular_ior_level: Shading
+    specular_level: Shading
     specular_tint: Shading
     diffuse_roughness: Shading
     coat_weight: Shading

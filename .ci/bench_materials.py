@@ -27,8 +27,8 @@ from rsibr.rsibr_addon.core.filtering.zonal import ZonalSeries, expand
 from rsibr.rsibr_addon.core.geometry.camera import Camera
 from rsibr.rsibr_addon.core.geometry.directions import dot, normalize, reflect
 from rsibr.rsibr_addon.core.geometry.lit_sphere import environment_about, ring_radiance
-from rsibr.rsibr_addon.core.kinds.kernel_bank.principled import Families, principled_radiance
-from rsibr.rsibr_addon.core.kinds.kernel_bank.pyramid import bake_pyramid
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import bake_pyramid
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import Families, principled_radiance
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.families import shipped_family
 from rsibr.rsibr_addon.host.cameras import add_camera

@@ -1,4 +1,4 @@
-// Twin of core/kinds/kernel_bank/principled.py `principled_radiance`, of one material.
+// Twin of core/kinds/kernel_pyramid/shading.py `principled_radiance`, of one material.
 #include "lib/draw_lib.glsl"
 #include "lib/principled_radiance_lib.glsl"
 

@@ -1,4 +1,4 @@
-// Twin of rsibr_addon/core/lobes/family.py. A texture of a family (see device/kinds/principled.py) has a
+// Twin of rsibr_addon/core/lobes/family.py. A texture of a family (see device/kinds/kernel_pyramid.py) has a
 // column for each width, four an octave up to 1, and a row for each elevation, in the middles of equal steps
 // of mu. So hardware interpolates in log alpha and in mu, with one place for all layers: weights rounded to
 // 8 bits are another roughness, by .03 %, and another mu, by 1e-4, not other lobes.

@@ -1,4 +1,4 @@
-// Twin of rsibr_addon/core/brdf/principled.py. The texture `albedos` (see device/kinds/principled.py) has a
+// Twin of rsibr_addon/core/brdf/principled.py. The texture `albedos` (see device/kinds/kernel_pyramid.py) has a
 // column for each width and a row for each elevation. Layer 0 holds the directional albedos of GGX times the
 // powers from 2 onwards; layer 1 that of GGX itself, and twice its integral over mu.
 #include "lib/family_lib.glsl"
@@ -34,7 +34,7 @@ struct Albedo {
   float mean;
 };
 
-// Twin of core/kinds/kernel_bank/principled.py `Families`, as are its members.
+// Twin of core/kinds/kernel_pyramid/shading.py `Families`, as are its members.
 Albedo ggx_albedo(sampler2DArray albedos, float alpha, float mu)
 {
   vec2 place = family_place(albedos, alpha, mu);

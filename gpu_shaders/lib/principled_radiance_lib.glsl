@@ -1,5 +1,5 @@
-// Twin of rsibr_addon/core/kinds/kernel_bank/principled.py. Layer 0 of a family's texture (see
-// device/kinds/principled.py) holds the tilts of its lobes, then come for each kernel a layer of each
+// Twin of rsibr_addon/core/kinds/kernel_pyramid/shading.py. Layer 0 of a family's texture (see
+// device/kinds/kernel_pyramid.py) holds the tilts of its lobes, then come for each kernel a layer of each
 // function, with the weights of these lobes.
 #include "lib/directions_lib.glsl"
 #include "lib/lobe_axes_lib.glsl"

@@ -1,5 +1,5 @@
-// Twin of rsibr_addon/core/kinds/kernel_bank/pyramid.py `Pyramid`. The texture `atlas` (see
-// device/kinds/principled.py) holds octahedral maps, each within a border of one texel: what continues it
+// Twin of rsibr_addon/core/kinds/kernel_pyramid/pyramid.py `Pyramid`. The texture `atlas` (see
+// device/kinds/kernel_pyramid.py) holds octahedral maps, each within a border of one texel: what continues it
 // across its edges. A texel of `places` tells where in the atlas u = v = 0 of a map lies, and how far
 // u and v reach from there to 1: the maps of kernels, then what a mirror shows, then both diffuse ones.
 #include "lib/octahedral_lib.glsl"

@@ -10,8 +10,8 @@ from rsibr.rsibr_addon.core.errors import ShapeError
 from rsibr.rsibr_addon.core.filtering.prefilter import prefilter_exact
 from rsibr.rsibr_addon.core.filtering.radial_lobes import von_mises_fisher_lobe
 from rsibr.rsibr_addon.core.geometry.directions import camera_frame, reflect
-from rsibr.rsibr_addon.core.kinds.kernel_bank.principled import Families, principled_radiance
-from rsibr.rsibr_addon.core.kinds.kernel_bank.pyramid import OCTAHEDRAL, Pyramid, bake_pyramid, width_of
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid, bake_pyramid, width_of
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import Families, principled_radiance
 from rsibr.rsibr_addon.core.lobes.family import KERNELS
 from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.core.progress import drain

@@ -10,15 +10,15 @@ from rsibr.rsibr_addon.core.brdf.principled import Layers, Surface, layers_of
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.errors import ShapeError
 from rsibr.rsibr_addon.core.geometry.directions import dot, reflect
-from rsibr.rsibr_addon.core.kinds.kernel_bank import principled as shading
-from rsibr.rsibr_addon.core.kinds.kernel_bank.principled import Families, principled_radiance
-from rsibr.rsibr_addon.core.kinds.kernel_bank.pyramid import OCTAHEDRAL, Pyramid, bake_pyramid, width_of
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid import shading
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid, bake_pyramid, width_of
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import Families, principled_radiance
 from rsibr.rsibr_addon.core.lobes.bank import KernelBank
 from rsibr.rsibr_addon.core.lobes.family import KERNELS
 from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.core.resample import lookup
-from rsibr.rsibr_addon.device.kinds.principled import (
+from rsibr.rsibr_addon.device.kinds.kernel_pyramid import (
     GGX_LOBES,
     SAMPLERS,
     GpuPyramid,

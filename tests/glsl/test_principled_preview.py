@@ -1,12 +1,12 @@
-"""Pictures of Principled materials against core/kinds/kernel_bank/principled.py at every sample."""
+"""Pictures of Principled materials against core/kinds/kernel_pyramid/shading.py at every sample."""
 
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.brdf.principled import Surface
 from rsibr.rsibr_addon.core.geometry.camera import Camera
-from rsibr.rsibr_addon.core.kinds.kernel_bank.principled import principled_radiance
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import principled_radiance
 from rsibr.rsibr_addon.device.context import ensure_context
-from rsibr.rsibr_addon.device.kinds.principled import GpuPyramid
+from rsibr.rsibr_addon.device.kinds.kernel_pyramid import GpuPyramid
 from rsibr.rsibr_addon.device.preview import PreviewRenderer
 from rsibr.tests.glsl.test_library_principled import families, pyramid
 from rsibr.tests.glsl.test_preview_renderer import BY_CAMERA, SIZE, SPHERE, reference_pixels

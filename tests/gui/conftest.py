@@ -62,7 +62,7 @@ def told(blender: Blender, job: Path) -> Callable[[str], dict]:
         )
         process = blender("--window", "--enable-event-simulate", "--python-expr", script)
         lines = [line for line in process.stdout.splitlines() if line.startswith("TOLD ")]
-        assert lines, process.stdout + process.stderr
+        assert lines, f"Blender ended with {process.returncode}: {process.stdout}{process.stderr}"
         answer = json.loads(lines[0].removeprefix("TOLD "))
         assert "error" not in answer, answer["error"] + process.stdout + process.stderr
         assert "Traceback" not in process.stdout + process.stderr

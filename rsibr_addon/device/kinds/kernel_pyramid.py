@@ -10,8 +10,8 @@ from ...core.brdf.principled import Surface
 from ...core.conventions import Array
 from ...core.errors import ShapeError
 from ...core.half_floats import half_holds
-from ...core.kinds.kernel_bank.principled import Families
-from ...core.kinds.kernel_bank.pyramid import OCTAHEDRAL, Pyramid
+from ...core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid
+from ...core.kinds.kernel_pyramid.shading import Families
 from ...core.lobes.family import KERNELS, Family
 from .. import buffers
 from ..drawing import Draw, GpuMesh
@@ -71,7 +71,7 @@ class GpuPyramid:
         self._block = buffers.KeptBlock()
 
     def draw(self, mesh: GpuMesh, draw: Draw, look: Surface) -> None:
-        """See `GpuMapSet.draw`. Reference: core/kinds/kernel_bank/principled.py."""
+        """See `GpuMapSet.draw`. Reference: core/kinds/kernel_pyramid/shading.py."""
         shader = principled_shader()
         shader.bind()
         shader.uniform_block("look", self._block.filled(*look_fields(look)))

@@ -1,0 +1,1 @@
+"""Light alone, filtered with kernels of all widths: shades any Principled material."""

@@ -30,7 +30,7 @@ from rsibr.rsibr_addon.core.geometry.lit_sphere import environment_about, ring_r
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import bake_pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import Families, principled_radiance
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.files.families import shipped_family
+from rsibr.rsibr_addon.files.kinds.kernel_pyramid import shipped_families
 from rsibr.rsibr_addon.host.cameras import add_camera
 from rsibr.rsibr_addon.host.cycles import RenderSettings, render_view
 from rsibr.rsibr_addon.host.principled import INPUTS
@@ -201,7 +201,7 @@ class Place:
 
     def __init__(self, environment: Environment, families: Families) -> None:
         self._environment, self._families = environment, families
-        self._pyramid = drain(bake_pyramid(environment.radiance))
+        self._pyramid = drain(bake_pyramid(environment.radiance)).pyramid
         self._split = SplitSum(environment.radiance, families)
 
     def rows(self, samples: int) -> Iterator[str]:
@@ -233,7 +233,7 @@ def main() -> None:
     parser.add_argument("--samples", type=int, default=512)
     chosen = parser.parse_args()
     warnings.simplefilter("ignore", RsibrWarning)
-    families = Families(shipped_family("ggx"), shipped_family("leaning"))
+    families = shipped_families()
     lines = ["| material | environment | against | ours | split sum |", "|---|---|---|---:|---:|"]
     for environment in map(load_environment, chosen.environments):
         for line in Place(environment, families).rows(chosen.samples):

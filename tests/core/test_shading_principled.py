@@ -16,7 +16,7 @@ from rsibr.rsibr_addon.core.lobes.family import KERNELS
 from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.core.resample import lookup
-from rsibr.rsibr_addon.files.families import shipped_family
+from rsibr.rsibr_addon.files.kinds.kernel_pyramid import shipped_families
 
 HEIGHT = 128
 TEXELS = equirect.direction_from_uv(texel_centres(2 * HEIGHT, HEIGHT))
@@ -28,7 +28,7 @@ VIEW = np.broadcast_to([0.0, 0.0, 1.0], NORMAL.shape)
 
 @pytest.fixture(scope="module")
 def families() -> Families:
-    return Families(shipped_family("ggx"), shipped_family("leaning"))
+    return shipped_families()
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +41,7 @@ def radiance() -> Array:
 
 @pytest.fixture(scope="module")
 def pyramid(radiance: Array) -> Pyramid:
-    return drain(bake_pyramid(radiance))
+    return drain(bake_pyramid(radiance)).pyramid
 
 
 def summed(material: Principled, radiance: Array, normal: Array, view_dir: Array) -> Array:
@@ -98,7 +98,7 @@ def test_points_have_their_own_materials(pyramid: Pyramid, families: Families) -
 def test_white_surfaces_vanish_in_a_white_furnace(
     roughness: float, metallic: float, families: Families
 ) -> None:
-    baked = drain(bake_pyramid(np.ones((HEIGHT, 2 * HEIGHT, 3))))
+    baked = drain(bake_pyramid(np.ones((HEIGHT, 2 * HEIGHT, 3)))).pyramid
     # Sums over texels are not quite even near the poles
     furnace = replace(baked, maps=tuple(np.ones_like(sheets) for sheets in baked.maps))
     surface = Surface(base_color=(1.0, 1.0, 1.0), metallic=metallic, roughness=roughness, coat_weight=0.5)

@@ -3,12 +3,19 @@
 import numpy as np
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.kinds.kernel_bank.filtered_bank import FilteredBank
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import BakedPyramid, FilterErrors, Pyramid
 from rsibr.rsibr_addon.core.kinds.lobe_stack.stack import LobeStack, stack_representation
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
 from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTables, Role
 from rsibr.rsibr_addon.core.lobes.bake import BakedBank
 from rsibr.rsibr_addon.core.lobes.bank import KernelBank
-from rsibr.rsibr_addon.files.kinds import kernel_bank, lobe_stack, mip_chain, reflection_tables
+from rsibr.rsibr_addon.files.kinds import (
+    kernel_bank,
+    kernel_pyramid,
+    lobe_stack,
+    mip_chain,
+    reflection_tables,
+)
 from rsibr.rsibr_addon.files.map_set_data import MapSet
 from rsibr.rsibr_addon.files.map_set_header import Origin
 from rsibr.tests.lobe_stacks import random_fit, random_stack
@@ -21,7 +28,23 @@ BRDF = "layered:coat=(ggx:alpha=0.1,eta=1.5),base=(lambert:kd=0.3/0.05/0.02)"
 
 def map_sets() -> list[MapSet]:
     """One of each kind, with all that a kind can say."""
-    return [mirror_map_set(size=4), _lobe_stack(), _kernel_bank(), _reflection_tables(), _mip_chain()]
+    return [
+        _kernel_pyramid(),
+        mirror_map_set(size=4),
+        _lobe_stack(),
+        _kernel_bank(),
+        _reflection_tables(),
+        _mip_chain(),
+    ]
+
+
+def _kernel_pyramid() -> MapSet:
+    maps = tuple(RNG.random((1, n, n, 3), dtype=np.float32) for n in (2, 4, 6))
+    diffuse = RNG.random((2, 2, 2, 3), dtype=np.float32)
+    errors = [FilterErrors(RNG.random(3), 1e-3 * number) for number in range(4)]
+    pyramid = Pyramid(KernelBank((0.5, 1.0)), maps[2], maps[:2], diffuse)
+    baked = BakedPyramid(pyramid, tuple(errors[:2]), tuple(errors[2:]))
+    return kernel_pyramid.to_map_set(baked, Origin(LIGHT, {}, "test"))
 
 
 def _lobe_stack() -> MapSet:

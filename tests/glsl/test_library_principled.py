@@ -25,7 +25,7 @@ from rsibr.rsibr_addon.device.kinds.kernel_pyramid import (
     atlas_texels,
     family_texels,
 )
-from rsibr.rsibr_addon.files.families import shipped_family
+from rsibr.rsibr_addon.files.kinds.kernel_pyramid import shipped_families
 from rsibr.tests.glsl.evaluation import Samplers, evaluate
 from rsibr.tests.glsl.twins import COUNT, ULP, Twin, check, single, unit_vectors
 
@@ -38,7 +38,7 @@ KERNEL_COUNT = len(KERNELS)
 
 @cache
 def families() -> Families:
-    return Families(shipped_family("ggx"), shipped_family("leaning"))
+    return shipped_families()
 
 
 @cache
@@ -47,7 +47,7 @@ def pyramid() -> Pyramid:
     texels = equirect.direction_from_uv(texel_centres(128, 64))
     light = np.where(texels[..., 2:] > 0.0, [0.3, 0.4, 0.6], [0.3, 0.1, 0.05])
     window = np.exp(40.0 * (texels @ [0.6, 0.48, 0.64] - 1.0))
-    return drain(bake_pyramid(light + 20.0 * window[..., None] * [1.0, 0.9, 0.7]))
+    return drain(bake_pyramid(light + 20.0 * window[..., None] * [1.0, 0.9, 0.7])).pyramid
 
 
 def samplers_of(light: Pyramid) -> Samplers:
@@ -410,7 +410,7 @@ def test_principled_radiance() -> None:
 @pytest.mark.parametrize("metallic", [0.0, 1.0])
 def test_white_surfaces_vanish_in_a_white_furnace(metallic: float) -> None:
     normal, view_dir, inputs = points()
-    baked = drain(bake_pyramid(np.ones((64, 128, 3))))
+    baked = drain(bake_pyramid(np.ones((64, 128, 3)))).pyramid
     # Sums over texels are not quite even near the poles
     furnace = replace(baked, maps=tuple(np.ones_like(sheets) for sheets in baked.maps))
     base, specular, coat, emission, boundary, coating = (each.copy() for each in inputs)

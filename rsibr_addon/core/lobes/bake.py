@@ -9,6 +9,13 @@ from ..conventions import Array
 from ..errors import RangeError
 from ..filtering.harmonics.analysis import analyse_environment
 from ..filtering.harmonics.coefficients import EnvironmentHarmonics
+from ..filtering.lookup_error import (
+    curvature,
+    interpolation_error,
+    laplacian,
+    power_by_degree,
+    root_of_share,
+)
 from ..filtering.prefilter import analysis_degree, bytes_needed, prefilter, resolved_width
 from ..filtering.zonal import TOLERANCE, ZonalSeries, expand
 from ..kinds.kernel_bank.filtered_bank import FilteredBank, bound_from_bank, stack_from_bank
@@ -132,12 +139,12 @@ def bake_bank(radiance: Array, layout: str, size: int, afford: Afford = _at_any_
     RangeError
         There is no such layout, the size is out of range, or no kernel is resolved.
     """
-    stack_representation(layout, size)
+    sheets = stack_representation(layout, size)
     yield Progress(0, 2, "analysing the environment")
     bank = octaves(min(_SHARPEST_BY_TEXELS * size**2, sharpest_resolved(len(radiance))))
     series = _expanded(bank)
     harmonics = analyse_environment(radiance, analysis_degree(series))
-    costs = [_interpolation(_curvature_of_kernel(lobe, harmonics), layout, size) for lobe in series]
+    costs = [interpolation_error(curvature(lobe, harmonics), sheets, size) for lobe in series]
     count = max(sum(cost <= ALLOWED_OF_A_KERNEL for cost in costs), 1)
     afford(_bytes(count, layout, size), size)
     yield Progress(1, 2, f"filtering {count} maps of {size} texels")
@@ -166,22 +173,24 @@ def bake_stack(
     """
     if size is not None:
         stack_representation(layout, size)
+
+    def lookups(width: int) -> float:
+        return interpolation_error(bent, stack_representation(layout, width), width)
+
     yield Progress(0, 2, "analysing the environment")
     bank = KernelBank(tuple(fit.bank.concentrations[kernel] for kernel in fit.used))
     series = _expanded(bank)
     harmonics = analyse_environment(radiance, analysis_degree(series))
-    curvature = _curvature(fit, fit.weights[:, :, fit.used], series, harmonics)
+    bent = _curvature(fit, fit.weights[:, :, fit.used], series, harmonics)
     if size is None:
-        size = next(
-            (n for n in SIZES if _interpolation(curvature, layout, n) <= ALLOWED_INTERPOLATION), SIZES[-1]
-        )
+        size = next((n for n in SIZES if lookups(n) <= ALLOWED_INTERPOLATION), SIZES[-1])
     afford(_bytes(len(bank), layout, size), size)
     yield Progress(1, 2, f"filtering {fit.weights.shape[0] * fit.weights.shape[1]} maps of {size} texels")
     try:
         filtered = _filtered(harmonics, bank, series, layout, size)
     except RangeError as error:
         raise RangeError(f"This environment is too coarse for some lobes of the fit. {error}") from error
-    return BakedStack(filtered, fit, _interpolation(curvature, layout, size))
+    return BakedStack(filtered, fit, lookups(size))
 
 
 def _bytes(kernels: int, layout: str, size: int) -> float:
@@ -201,24 +210,6 @@ def _filtered(
     return FilteredBank(layout, bank, filtered.radiance, filtered.bound)
 
 
-def _light(harmonics: EnvironmentHarmonics, degree: int) -> Array:
-    """Power of every degree of an environment, shape (degree + 1, 3)."""
-    power: Array = harmonics.ceilings()[: degree + 1] ** 2 / (2 * np.arange(degree + 1)[:, None] + 1)
-    return power
-
-
-def _laplacian(degree: int) -> Array:
-    """Factors l (l + 1) by which the Laplacian multiplies the degrees of a map, shape (degree + 1, 1)."""
-    l = np.arange(degree + 1.0)[:, None]
-    return l * (l + 1.0)
-
-
-def _curvature_of_kernel(kernel: ZonalSeries, harmonics: EnvironmentHarmonics) -> float:
-    """Root mean square of the Laplacian of a kernel's map over that of the map itself."""
-    power = kernel.coefficients[:, None] ** 2 * _light(harmonics, kernel.degree)
-    return _root_of_share(np.sum(power * _laplacian(kernel.degree) ** 2), np.sum(power))
-
-
 def _curvature(fit: Fit, weights: Array, series: list[ZonalSeries], harmonics: EnvironmentHarmonics) -> float:
     """Root mean square of the maps' Laplacians over that of the radiance, on a sphere seen from afar.
 
@@ -229,27 +220,10 @@ def _curvature(fit: Fit, weights: Array, series: list[ZonalSeries], harmonics: E
     gains = np.zeros((len(series), degree + 1))
     for row, lobe in zip(gains, series, strict=True):
         row[: lobe.degree + 1] = lobe.coefficients
-    light = _light(harmonics, degree)
+    light = power_by_degree(harmonics, degree)
     # Power of every lobe and elevation, degree by degree
     amplitude = fit.scale[:, :, None] * np.einsum("lpkc,kd->lpdc", weights, gains)
     lookups = np.sum(fit.taps**2, axis=2)
-    bent = np.einsum("s,ls,lsdc,dc->", fit.mu, lookups, amplitude**2, light * _laplacian(degree) ** 2)
+    bent = np.einsum("s,ls,lsdc,dc->", fit.mu, lookups, amplitude**2, light * laplacian(degree) ** 2)
     together = np.einsum("ls,lsdc->sdc", fit.taps.sum(axis=2), amplitude)
-    return _root_of_share(bent, np.einsum("s,sdc,dc->", fit.mu, together**2, light))
-
-
-def _root_of_share(power: np.floating, whole: np.floating) -> float:
-    """Root of a power over the whole; 0 in the dark, where nothing can err."""
-    return float(np.sqrt(power / whole)) if whole > 0.0 else 0.0
-
-
-def _interpolation(curvature: float, layout: str, size: int) -> float:
-    """Relative root-mean-square error of bilinear lookups.
-
-    Between texels h apart, at a fraction t, a linear lookup errs by h^2 t (1 - t) / 2 times the second
-    derivative. Means over t along both axes, for maps that favour no direction, make h^4 times
-    (1/40 + 1/144) / 4 of the Laplacian's mean square; and h^2 is a texel's solid angle.
-    """
-    solid_angle = stack_representation(layout, size).texel_solid_angle(size)
-    texel4 = np.sum(solid_angle**3) / np.sum(solid_angle)
-    return float(curvature * np.sqrt((1.0 / 40.0 + 1.0 / 144.0) / 4.0 * texel4))
+    return root_of_share(bent, np.einsum("s,sdc,dc->", fit.mu, together**2, light))

@@ -10,6 +10,7 @@ from ...core.brdf.principled import Surface
 from ...core.conventions import Array
 from ...core.errors import ShapeError
 from ...core.half_floats import half_holds
+from ...core.kinds.kernel_pyramid.look import PrincipledLook
 from ...core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid
 from ...core.kinds.kernel_pyramid.shading import Families
 from ...core.lobes.family import KERNELS, Family
@@ -70,11 +71,12 @@ class GpuPyramid:
         )
         self._block = buffers.KeptBlock()
 
-    def draw(self, mesh: GpuMesh, draw: Draw, look: Surface) -> None:
+    def draw(self, mesh: GpuMesh, draw: Draw, look: PrincipledLook | Surface) -> None:
         """See `GpuMapSet.draw`. Reference: core/kinds/kernel_pyramid/shading.py."""
+        surface = look.surface if isinstance(look, PrincipledLook) else look
         shader = principled_shader()
         shader.bind()
-        shader.uniform_block("look", self._block.filled(*look_fields(look)))
+        shader.uniform_block("look", self._block.filled(*look_fields(surface)))
         for name, texture in zip(SAMPLERS, self.textures, strict=True):
             shader.uniform_sampler(name, texture.whole())
         mesh.draw(shader, draw)

@@ -8,7 +8,7 @@ from ..map_set_header import StoredKind
 STORED = LazyTable[StoredKind](
     __package__,
     "STORED",
-    ("radiance_views", "lobe_stack", "reflection_tables", "mip_chain", "kernel_bank"),
+    ("kernel_pyramid", "radiance_views", "lobe_stack", "reflection_tables", "mip_chain", "kernel_bank"),
 )
 """Kind, as descriptions name it -> its options, and the fields and words of its descriptions. In the order of
 menus."""

@@ -6,20 +6,36 @@ from typing import Any
 
 from ...core.environment import Environment
 from ...core.errors import RangeError
+from ...core.kinds.kernel_pyramid.pyramid import Pyramid
 from ...device.drawing import GpuMapSet
 from ...device.kinds.environment import GpuEnvironment
+from ...device.kinds.kernel_pyramid import GpuPyramid
 from ...device.kinds.lobe_stack import GpuLobeStack
 from ...device.kinds.mip_chain import GpuMipChain
 from ...device.kinds.radiance_views import GpuRadianceViews
 from ...device.kinds.reflection_tables import GpuReflectionTables
-from ...files.kinds import environment, kernel_bank, lobe_stack, mip_chain, radiance_views, reflection_tables
+from ...files.kinds import (
+    environment,
+    kernel_bank,
+    kernel_pyramid,
+    lobe_stack,
+    mip_chain,
+    radiance_views,
+    reflection_tables,
+)
 from ...files.map_set import read_map_set, read_map_set_header
 from ..compare import lobe_stack as lobe_stack_truth
 from ..compare import radiance_views as radiance_views_truth
 from .kind import Kind
 from .live_materials import LiveFits, LiveMaterials
 
+
+def _pyramid(pyramid: Pyramid) -> GpuPyramid:
+    return GpuPyramid(pyramid, kernel_pyramid.shipped_families())
+
+
 KINDS: dict[str, Kind] = {
+    "kernel_pyramid": Kind(kernel_pyramid.from_map_set, _pyramid),
     "radiance_views": Kind(radiance_views.from_map_set, GpuRadianceViews, radiance_views_truth.TRUTH),
     "lobe_stack": Kind(lobe_stack.from_map_set, GpuLobeStack, lobe_stack_truth.TRUTH),
     "reflection_tables": Kind(reflection_tables.from_map_set, GpuReflectionTables),

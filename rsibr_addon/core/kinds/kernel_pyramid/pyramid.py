@@ -1,14 +1,15 @@
 """An environment filtered with the kernels of families of lobes, each map as large as its kernel needs."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...brdf.oren_nayar import leaning_albedo
 from ...conventions import Array, ArrayLike
-from ...errors import ShapeError
+from ...errors import RangeError, ShapeError
 from ...filtering.harmonics.analysis import analyse_environment
+from ...filtering.harmonics.coefficients import EnvironmentHarmonics
+from ...filtering.lookup_error import curvature, interpolation_error
 from ...filtering.prefilter import analysis_degree, prefilter, resolved_width
 from ...filtering.radial_lobes import cosine_lobe
 from ...filtering.zonal import ZonalLobe, ZonalSeries, expand
@@ -56,6 +57,8 @@ class Pyramid:
     ------
     ShapeError
         There are not as many maps as kernels, or a map is no square.
+    RangeError
+        The kernels are not the first ones of `family.KERNELS`.
     """
 
     bank: KernelBank
@@ -67,6 +70,8 @@ class Pyramid:
         square = all(sheets.shape[1:] == (sheets.shape[1], sheets.shape[1], 3) for sheets in self.all_maps)
         if len(self.maps) != len(self.bank) or not square:
             raise ShapeError("A pyramid has a square map for each of its kernels: bake it again.")
+        if self.bank.concentrations != KERNELS.concentrations[: len(self.bank)]:
+            raise RangeError("Its kernels are not those that materials are made of: bake it again.")
 
     @property
     def all_maps(self) -> tuple[Array, ...]:
@@ -98,13 +103,48 @@ class Pyramid:
         return lookup(self.maps[number], direction, OCTAHEDRAL)
 
 
+@dataclass(frozen=True)
+class FilterErrors:
+    """How far one map is from what it stands for.
+
+    Attributes
+    ----------
+    bound : ndarray, shape (3,)
+        No texel is further than this from the sum over all texels of the environment, and rounding to
+        float32.
+    interpolation : float
+        Relative root-mean-square error that bilinear lookups are expected to cost.
+    """
+
+    bound: Array
+    interpolation: float
+
+
+@dataclass(frozen=True)
+class BakedPyramid:
+    """A pyramid, and the errors of its maps.
+
+    Attributes
+    ----------
+    pyramid : Pyramid
+    kernels : tuple of FilterErrors
+        Of each kernel's map.
+    diffuse : tuple of FilterErrors
+        Of both diffuse maps.
+    """
+
+    pyramid: Pyramid
+    kernels: tuple[FilterErrors, ...]
+    diffuse: tuple[FilterErrors, ...]
+
+
 def width_of(concentration: float) -> int:
     """Texels along the map of a kernel: a power of 2."""
     needed = max(TEXELS_BY_SHARPNESS * np.sqrt(concentration), SMALLEST)
     return min(int(2.0 ** np.ceil(np.log2(needed) - TIE)), LARGEST)
 
 
-def bake_pyramid(radiance: Array) -> Steps[Pyramid]:
+def bake_pyramid(radiance: Array) -> Steps[BakedPyramid]:
     """Filter an environment.
 
     Parameters
@@ -114,33 +154,54 @@ def bake_pyramid(radiance: Array) -> Steps[Pyramid]:
 
     Returns
     -------
-    Pyramid
+    BakedPyramid
         With those of `family.KERNELS` that environment and maps resolve, and its own width up to `LARGEST`.
+
+    Raises
+    ------
+    RangeError
+        The environment resolves no kernel.
     """
     yield Progress(0, len(KERNELS) + 1, "analysing the environment")
-    least = (1.0 - TIE) * resolved_width(len(radiance))
+    series = _resolved(len(radiance))
+    cosine, leaning = (expand(lobe, _TOLERANCE_AT_HORIZON) for lobe in (cosine_lobe(), leaning_lobe()))
+    harmonics = analyse_environment(radiance, analysis_degree([*series, cosine, leaning]))
+    white, white_errors = _filtered(harmonics, cosine, SMALLEST)
+    white, white_bound = white / np.float32(np.pi), white_errors.bound / np.pi
+    leant, leant_errors = _filtered(harmonics, leaning, SMALLEST)
+    maps: list[Array] = []
+    errors: list[FilterErrors] = []
+    bank = KernelBank(KERNELS.concentrations[: len(series)])
+    for lobe, kappa in zip(series, bank.concentrations, strict=True):
+        yield Progress(1 + len(maps), len(KERNELS) + 1, f"filtering {width_of(kappa)} texels")
+        found, error = _filtered(harmonics, lobe, width_of(kappa))
+        maps.append(found)
+        errors.append(error)
+    size = min(LARGEST, 2 * len(radiance))
+    mirror = resample(radiance[None], EQUIRECT, OCTAHEDRAL, size, np.float32)
+    pyramid = Pyramid(bank, mirror, tuple(maps), np.concatenate([white, leant]))
+    return BakedPyramid(pyramid, tuple(errors), (replace(white_errors, bound=white_bound), leant_errors))
+
+
+def _resolved(height: int) -> list[ZonalSeries]:
+    """The kernels that an environment of so many rows resolves, and maps of `LARGEST` texels."""
+    least = (1.0 - TIE) * resolved_width(height)
     expanded = [expand(kernel, TOLERANCE) for kernel in KERNELS.lobes()]
-    series = [
+    resolved = [
         lobe
         for kappa, lobe in zip(KERNELS.concentrations, expanded, strict=True)
         if lobe.width >= least and TEXELS_BY_SHARPNESS * np.sqrt(kappa) <= MOST_MISSING * LARGEST
     ]
-    diffuse = [expand(lobe, _TOLERANCE_AT_HORIZON) for lobe in (cosine_lobe(), leaning_lobe())]
-    harmonics = analyse_environment(radiance, analysis_degree([*series, *diffuse]))
+    if not resolved:
+        raise RangeError(f"An environment of {height} rows resolves no kernel: use a larger one.")
+    return resolved
 
-    def filtered(lobes: Sequence[ZonalSeries], size: int) -> Array:
-        found = prefilter(harmonics, lobes, OCTAHEDRAL.texel_directions(size)).radiance
-        return found[:, 0].astype(np.float32)
 
-    cosine, leaning = filtered(diffuse, SMALLEST)
-    maps: list[Array] = []
-    bank = KernelBank(KERNELS.concentrations[: len(series)])
-    for lobe, kappa in zip(series, bank.concentrations, strict=True):
-        yield Progress(1 + len(maps), len(KERNELS) + 1, f"filtering {width_of(kappa)} texels")
-        maps.append(filtered([lobe], width_of(kappa)))
-    size = min(LARGEST, 2 * len(radiance))
-    mirror = resample(radiance[None], EQUIRECT, OCTAHEDRAL, size, np.float32)
-    return Pyramid(bank, mirror, tuple(maps), np.stack([cosine / np.float32(np.pi), leaning]))
+def _filtered(harmonics: EnvironmentHarmonics, lobe: ZonalSeries, size: int) -> tuple[Array, FilterErrors]:
+    """A map, shape (1, size, size, 3), and its errors."""
+    found = prefilter(harmonics, [lobe], OCTAHEDRAL.texel_directions(size))
+    interpolation = interpolation_error(curvature(lobe, harmonics), OCTAHEDRAL, size)
+    return found.radiance[0].astype(np.float32), FilterErrors(found.bound[0], interpolation)
 
 
 def leaning_lobe() -> ZonalLobe:

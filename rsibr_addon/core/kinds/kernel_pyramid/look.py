@@ -1,0 +1,83 @@
+"""Which material a kernel pyramid is shaded as."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ...brdf.principled import Surface
+from ...options import Options, declared_options, option
+
+
+def _share(default: float, label: str, help: str) -> Any:
+    return option(default, label=label, help=help, least=0.0, most=1.0, metavar="F")
+
+
+def _colour(default: float, label: str, help: str) -> Any:
+    return option(
+        (default,) * 3, label=label, help=help, least=0.0, most=1.0, subtype="COLOR", metavar="F|R,G,B"
+    )
+
+
+@dataclass(frozen=True)
+class PrincipledMaterial(Options):
+    """A Principled material that is the same all over; its defaults are Blender's."""
+
+    base_color: tuple[float, float, float] = _colour(
+        0.8, "Base Color", "Color of a metal, or of what is below gloss"
+    )
+    metallic: float = _share(0.0, "Metallic", "From a dielectric to a metal")
+    roughness: float = _share(0.5, "Roughness", "How far highlights spread; 0 is a mirror")
+    ior: float = option(
+        1.5,
+        label="IOR",
+        help="Index of refraction of a dielectric",
+        least=1.0,
+        most=100.0,
+        soft_most=2.5,
+        metavar="N",
+    )
+    diffuse_roughness: float = _share(0.0, "Diffuse Roughness", "Roughness of the diffuse part, as of clay")
+    specular_level: float = option(
+        0.5,
+        label="Specular Level",
+        help="Gloss of a dielectric; 0.5 is what its index of refraction says",
+        least=0.0,
+        most=10.0,
+        soft_most=1.0,
+        metavar="F",
+    )
+    specular_tint: tuple[float, float, float] = _colour(
+        1.0, "Specular Tint", "Color of a dielectric's gloss, and of a metal's edges"
+    )
+    coat_weight: float = _share(0.0, "Coat Weight", "How much of the surface a clear coat covers")
+    coat_roughness: float = _share(0.03, "Coat Roughness", "Roughness of the coat")
+    coat_ior: float = option(
+        1.5, label="Coat IOR", help="Index of refraction of the coat", least=1.0, most=4.0, metavar="N"
+    )
+    coat_tint: tuple[float, float, float] = _colour(
+        1.0, "Coat Tint", "Color of what is seen through the coat"
+    )
+
+    @property
+    def surface(self) -> Surface:
+        """The material as arrays."""
+        names = Surface.__dataclass_fields__
+        return Surface(
+            **{
+                each.name: np.array(getattr(self, each.name))
+                for each in declared_options(type(self))
+                if each.name in names
+            }
+        )
+
+
+@dataclass(frozen=True)
+class PrincipledLook(PrincipledMaterial):
+    """How a kernel pyramid is shaded."""
+
+    own: bool = option(
+        True,
+        label="Own Materials",
+        help="Shade an object with the materials of its slots; what has none is shaded with the one below",
+    )

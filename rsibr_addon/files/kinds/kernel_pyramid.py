@@ -1,0 +1,123 @@
+"""Map sets of kind `kernel_pyramid`."""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, TypedDict
+
+import numpy as np
+
+from ...core.errors import MapSetError, RangeError, ShapeError
+from ...core.kinds.kernel_pyramid.look import PrincipledLook
+from ...core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, BakedPyramid, FilterErrors, Pyramid
+from ...core.kinds.kernel_pyramid.shading import Families
+from ...core.lobes.bank import KernelBank
+from ...settings.kernel_pyramid import KernelPyramidSettings
+from ..families import shipped_family
+from ..map_set_data import ENVIRONMENT, MapSet
+from ..map_set_header import Colour, Origin, StoredKind, make_header, role_in_words
+
+KIND = "kernel_pyramid"
+
+MIRROR, KERNEL, LAMBERT, LEANING = "mirror", "prefiltered", "diffuse", "leaning"
+"""Roles of parts: the environment itself, filtered with a kernel, and both maps of `Pyramid.diffuse`."""
+
+
+class _Filtered(TypedDict):
+    bound: Colour
+    interpolation: float
+
+
+class _Kernel(_Filtered):
+    concentration: float
+
+
+def to_map_set(baked: BakedPyramid, origin: Origin) -> MapSet:
+    """A pyramid as a map set holds it; the bounds are the pyramid's own, not those of `origin`."""
+    pyramid = baked.pyramid
+    maps = {ENVIRONMENT: origin.environment.radiance, MIRROR: pyramid.mirror[0]}
+    parts: list[dict[str, Any]] = [{"name": name, "role": name} for name in maps]
+    for number, (sheets, errors) in enumerate(zip(pyramid.maps, baked.kernels, strict=True)):
+        name = f"kernel{number:02d}"
+        maps[name] = sheets[0]
+        concentration = pyramid.bank.concentrations[number]
+        parts.append({"name": name, "role": KERNEL, "concentration": concentration, **_told(errors)})
+    for role, sheet, errors in zip((LAMBERT, LEANING), pyramid.diffuse, baked.diffuse, strict=True):
+        maps[role] = sheet
+        parts.append({"name": role, "role": role, **_told(errors)})
+    every = (*baked.kernels, *baked.diffuse)
+    bound = {
+        "filter": np.max([errors.bound for errors in every], axis=0).tolist(),
+        "interpolation": max(errors.interpolation for errors in every),
+    }
+    size = pyramid.mirror.shape[1]
+    header = make_header(OCTAHEDRAL.name, (size, size), parts, replace(origin, error_bound=bound))
+    return MapSet(KIND, maps, header)
+
+
+def from_map_set(path: Path, map_set: MapSet) -> Pyramid:
+    """A pyramid as a map set holds it.
+
+    Raises
+    ------
+    MapSetError
+        Its layout is not octahedral; a map is missing, there twice or no square; or two kernels are equal.
+    """
+    layout = map_set.header["layout"]
+    if layout != OCTAHEDRAL.name:
+        raise MapSetError(f"{path} holds maps laid out as {layout}, not as {OCTAHEDRAL.name}: make it again.")
+    parts = map_set.header["parts"]
+    single = {}
+    for role in (MIRROR, LAMBERT, LEANING):
+        found = [map_set.maps[part["name"]] for part in parts if part["role"] == role]
+        if len(found) != 1:
+            raise MapSetError(f"{path} holds {len(found)} maps of the role {role}, not one: make it again.")
+        single[role] = found[0]
+    kernels = sorted(
+        (part for part in parts if part["role"] == KERNEL), key=lambda part: float(part["concentration"])
+    )
+    try:
+        if single[LAMBERT].shape != single[LEANING].shape:
+            raise ShapeError("Its diffuse maps differ in size: bake it again.")
+        return Pyramid(
+            KernelBank(tuple(part["concentration"] for part in kernels)),
+            single[MIRROR][None],
+            tuple(map_set.maps[part["name"]][None] for part in kernels),
+            np.stack([single[LAMBERT], single[LEANING]]),
+        )
+    except (RangeError, ShapeError) as error:
+        raise MapSetError(f"{path} holds no kernel pyramid. {error}") from error
+
+
+def shipped_families() -> Families:
+    """The families of lobes that come with us.
+
+    Raises
+    ------
+    InputFileError
+        See `files.families.shipped_family`.
+    """
+    return Families(shipped_family("ggx"), shipped_family("leaning"))
+
+
+def _told(errors: FilterErrors) -> dict[str, Any]:
+    return {"bound": errors.bound.tolist(), "interpolation": errors.interpolation}
+
+
+def _facts(header: dict[str, Any]) -> dict[str, str]:
+    kernels = [part["concentration"] for part in header["parts"] if part["role"] == KERNEL]
+    return {"Kernels": f"{len(kernels)}, the sharpest of concentration {max(kernels, default=0.0):g}"}
+
+
+def _part_title(part: dict[str, Any]) -> str:
+    if part["role"] != KERNEL:
+        return role_in_words(part)
+    return f"Kernel, Concentration {part['concentration']:.3g}"
+
+
+STORED = StoredKind(
+    settings=KernelPyramidSettings,
+    look=PrincipledLook,
+    roles={KERNEL: _Kernel, LAMBERT: _Filtered, LEANING: _Filtered},
+    facts=_facts,
+    part_title=_part_title,
+)

@@ -3,6 +3,7 @@
 Blender's `gpu` module cannot fill the mips of a texture, so the pyramid's maps lie in one picture.
 """
 
+import gpu
 import numpy as np
 
 from ...core.brdf.fresnel_powers import rise_table
@@ -16,7 +17,10 @@ from ...core.kinds.kernel_pyramid.shading import Families
 from ...core.lobes.family import KERNELS, Family
 from .. import buffers
 from ..drawing import Draw, GpuMesh
-from ..shaders import mesh_program
+from ..own_materials import OwnMaterials
+from ..shaders import kept_until_exit, mesh_program
+from ..textured_materials import MaterialBinding, textured_program
+from ..textured_mesh import GpuTexturedMesh
 from ..textures import GpuTexture
 
 GGX_LOBES, LEANING_LOBES = 4, 2
@@ -41,7 +45,13 @@ principled_shader = mesh_program(
     "vec4 base; vec4 specular; vec4 coat; vec4 emission; vec4 boundary; vec4 coating;",
     SAMPLERS,
 )
-"""Draws a mesh of one Principled material."""
+"""Draws a mesh of one Principled material, the same all over."""
+
+
+@kept_until_exit
+def textured_shader() -> gpu.types.GPUShader:
+    """Draws triangles of a material whose inputs are textures."""
+    return textured_program("principled_textured", SAMPLERS)
 
 
 class GpuPyramid:
@@ -70,16 +80,42 @@ class GpuPyramid:
             GpuTexture("Fresnel terms", rise_table()[None, :, 1:]),
         )
         self._block = buffers.KeptBlock()
+        self._materials = MaterialBinding()
 
-    def draw(self, mesh: GpuMesh, draw: Draw, look: PrincipledLook | Surface) -> None:
+    def draw(self, mesh: GpuMesh, draw: Draw, look: PrincipledLook | Surface | OwnMaterials) -> None:
         """See `GpuMapSet.draw`. Reference: core/kinds/kernel_pyramid/shading.py."""
+        if isinstance(look, OwnMaterials):
+            self._draw_slots(mesh, draw, look)
+            return
         surface = look.surface if isinstance(look, PrincipledLook) else look
         shader = principled_shader()
         shader.bind()
         shader.uniform_block("look", self._block.filled(*look_fields(surface)))
+        self._light(shader)
+        mesh.draw(shader, draw)
+
+    def _draw_slots(self, mesh: GpuMesh, draw: Draw, look: OwnMaterials) -> None:
+        """Draw each slot's triangles with its own material.
+
+        Raises
+        ------
+        ShapeError
+            The mesh has no slots, or a material too many textures.
+        """
+        if not isinstance(mesh, GpuTexturedMesh):
+            raise ShapeError(
+                "A mesh without material slots has no materials of its own: choose one material."
+            )
+        shader = textured_shader()
+        shader.bind()
+        self._light(shader)
+        for slot, material in enumerate(look.slots):
+            self._materials.bind(shader, material, mesh.uv_maps)
+            mesh.draw_slot(shader, draw, slot, last=slot == len(look.slots) - 1)
+
+    def _light(self, shader: gpu.types.GPUShader) -> None:
         for name, texture in zip(SAMPLERS, self.textures, strict=True):
             shader.uniform_sampler(name, texture.whole())
-        mesh.draw(shader, draw)
 
 
 def look_fields(look: Surface) -> tuple[Array, ...]:

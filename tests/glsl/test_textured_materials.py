@@ -1,0 +1,182 @@
+"""Pictures of textured materials against core/materials and core/kinds/kernel_pyramid at every sample."""
+
+from dataclasses import replace
+
+import gpu
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.core.brdf.principled import Surface
+from rsibr.rsibr_addon.core.conventions import texel_centres
+from rsibr.rsibr_addon.core.errors import ShapeError
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import principled_radiance
+from rsibr.rsibr_addon.core.materials.principled import Baked, Input, PrincipledInputs, Texture
+from rsibr.rsibr_addon.core.materials.surfaces import surface_at
+from rsibr.rsibr_addon.device import buffers
+from rsibr.rsibr_addon.device.context import ensure_context
+from rsibr.rsibr_addon.device.drawing import Draw, GpuMesh
+from rsibr.rsibr_addon.device.kinds.kernel_pyramid import GpuPyramid
+from rsibr.rsibr_addon.device.own_materials import MOST_TEXTURES, DrawnMaterial, OwnMaterials
+from rsibr.rsibr_addon.device.textured_mesh import GpuTexturedMesh
+from rsibr.tests.glsl.test_library_principled import families, pyramid
+
+SIZE = 64
+SQUARE = np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+UP = np.array([0.0, 0.0, 1.0])
+TRIANGLES = np.array([[0, 1, 2], [0, 2, 3]])
+UV = 0.5 + 0.5 * SQUARE[:, None, :2]
+FROM_ABOVE = Draw(
+    np.eye(4), np.eye(4), np.diag([1.0, 1.0, -0.5, 1.0]), np.append(np.array([0.0, 0.6, 0.8]), 0.0)
+)
+"""Seen obliquely, but drawn straight from above: what a pixel shows is known exactly."""
+
+
+def constants(*numbers: float) -> Input:
+    return Input(tuple((0.0, 0.0, 0.0, 0.0, number) for number in numbers))
+
+
+PLAIN = PrincipledInputs(
+    base_color=constants(0.8, 0.8, 0.8),
+    metallic=constants(0.0),
+    roughness=constants(0.5),
+    ior=constants(1.5),
+    specular_level=constants(0.5),
+    specular_tint=constants(1.0, 1.0, 1.0),
+    diffuse_roughness=constants(0.0),
+    coat_weight=constants(0.0),
+    coat_roughness=constants(0.03),
+    coat_ior=constants(1.5),
+    coat_tint=constants(1.0, 1.0, 1.0),
+    sheen_weight=constants(0.0),
+    sheen_roughness=constants(0.5),
+    sheen_tint=constants(1.0, 1.0, 1.0),
+    emission_color=constants(1.0, 1.0, 1.0),
+    emission_strength=constants(0.0),
+    alpha=constants(1.0),
+    normal=None,
+    coat_normal=None,
+)
+"""Blender's defaults."""
+
+
+def rows(*numbers: tuple[float, ...]) -> tuple[tuple[float, float, float, float, float], ...]:
+    return tuple((*number,) for number in numbers)  # type: ignore[misc]
+
+
+COLOR = rows((1, 0, 0, 0, 0), (0, 1, 0, 0, 0), (0, 0, 1, 0, 0))
+
+
+@pytest.fixture(scope="module")
+def content() -> GpuPyramid:
+    ensure_context()
+    return GpuPyramid(pyramid(), families())
+
+
+def texels(seed: int, height: int = 5, width: int = 7) -> np.ndarray:
+    values = np.random.default_rng(seed).uniform(0.2, 0.9, (height, width, 4))
+    return values.astype(np.float32).astype(np.float64)
+
+
+def drawn(content: GpuPyramid, mesh: GpuMesh, look: object, draw: Draw = FROM_ABOVE) -> np.ndarray:
+    """A picture, shape (SIZE, SIZE, 4)."""
+    colour = buffers.render_target(SIZE)
+    target = gpu.types.GPUFrameBuffer(color_slots=(colour,))
+    with target.bind():
+        target.clear(color=(0.0, 0.0, 0.0, 0.0))
+        content.draw(mesh, draw, look)
+        return buffers.pixels(target, SIZE)
+
+
+def square(uv: np.ndarray = UV, slots: tuple[int, int] = (0, 0), **more: object) -> GpuTexturedMesh:
+    return GpuTexturedMesh(SQUARE, np.tile(UP, (4, 1)), TRIANGLES, np.array(slots), uv, **more)
+
+
+def reference(surface: Surface) -> np.ndarray:
+    view_dir = np.broadcast_to(FROM_ABOVE.eye[:3], (SIZE * SIZE, 3))
+    normal = np.broadcast_to(UP, view_dir.shape)
+    return principled_radiance(pyramid(), families(), surface, normal, view_dir).reshape(SIZE, SIZE, 3)
+
+
+def assert_shows(picture: np.ndarray, surface: Surface) -> None:
+    """Tolerance: that of test_principled_preview.py, and weights of texels have 8 bits."""
+    expected = reference(surface)
+    assert np.abs(picture[..., :3] - expected).max() < 4e-3 * expected.max()
+
+
+PLACED = Texture("first", mapping=(1.7, -0.6, 0.3, 0.5, 2.1, -0.4))
+OTHER = Texture("second", uv_map="other")
+TEXTURED = replace(
+    PLAIN,
+    base_color=Input(rows((0.9, 0, 0, 0, 0), (0, 0, 0.7, 0, 0.1), (0, 0.5, 0, 0, 0)), PLACED),
+    metallic=Input(rows((0, 0, 0, 1, -0.1)), PLACED),
+    roughness=Input(rows((0, -0.8, 0, 0, 0.9)), OTHER),
+    coat_weight=Input(rows((0.5, 0, 0.3, 0, 0)), OTHER),
+    emission_color=Input(COLOR, OTHER),
+    emission_strength=constants(0.05),
+)
+
+
+@pytest.mark.parametrize("extension", ["REPEAT", "EXTEND", "CLIP", "MIRROR"])
+@pytest.mark.parametrize("closest", [False, True])
+def test_a_picture_is_what_the_reference_says(content: GpuPyramid, extension: str, closest: bool) -> None:
+    first, second = (replace(texture, extension=extension, closest=closest) for texture in (PLACED, OTHER))
+    inputs = replace(
+        TEXTURED,
+        **{
+            name: replace(value, texture=first if value.texture == PLACED else second)
+            for name in ("base_color", "metallic", "roughness", "coat_weight", "emission_color")
+            if (value := getattr(TEXTURED, name))
+        },
+    )
+    of_first, of_second = texels(1), texels(2, 4, 6)
+    textures = {first: buffers.texture(of_first), second: buffers.texture(of_second)}
+    other_uv = UV[:, :1] @ [[0.3, 1.9], [-1.4, 0.2]] + [0.1, 0.7]
+    mesh = square(np.concatenate([other_uv, UV], axis=1), uv_maps=("other", "UVMap"))
+    picture = drawn(content, mesh, OwnMaterials((DrawnMaterial(inputs, textures),), antialiased=False))
+    centres = texel_centres(SIZE, SIZE).reshape(-1, 2)
+    uv = {"": centres @ [[0.3, 1.9], [-1.4, 0.2]] + [0.1, 0.7]}
+    uv["other"] = uv[""]
+    surface = surface_at(inputs, {first: of_first, second: of_second}, uv)
+    expected = reference(surface)
+    wrong = np.abs(picture[..., :3] - expected).max(axis=-1) > 4e-3 * expected.max()
+    # What lies on an edge between texels may be on either side of it
+    assert np.count_nonzero(wrong) <= (0.02 * SIZE**2 if closest or extension == "CLIP" else 0)
+
+
+def test_each_slot_has_its_own_material(content: GpuPyramid) -> None:
+    metal = replace(PLAIN, metallic=constants(1.0))
+    clay = replace(PLAIN, specular_level=constants(0.0), base_color=constants(0.5, 0.2, 0.1))
+    both = drawn(content, square(slots=(1, 0)), OwnMaterials((DrawnMaterial(metal), DrawnMaterial(clay))))
+    one, other = (drawn(content, square(), OwnMaterials((DrawnMaterial(each),))) for each in (metal, clay))
+    column, row = np.meshgrid(np.arange(SIZE), np.arange(SIZE))
+    assert np.array_equal(both[row > column], one[row > column])
+    assert np.array_equal(both[row < column], other[row < column])
+    # Slots beyond the last material have that one
+    assert np.array_equal(drawn(content, square(slots=(3, 0)), OwnMaterials((DrawnMaterial(metal),))), one)
+    # Drawn whole, as any mesh
+    whole = drawn(content, square(slots=(1, 0)), Surface(metallic=1.0))
+    np.testing.assert_allclose(whole, one, atol=1e-5 * one.max())
+
+
+def test_a_uv_map_that_is_not_there_is_zero(content: GpuPyramid) -> None:
+    image = texels(3)
+    texture = Texture("first", uv_map="gone", extension="EXTEND")
+    inputs = replace(PLAIN, base_color=Input(COLOR, texture))
+    look = OwnMaterials((DrawnMaterial(inputs, {texture: buffers.texture(image)}),))
+    assert_shows(drawn(content, square(), look), Surface(base_color=image[0, 0, :3]))
+
+
+def test_what_cannot_be_drawn_is_told(content: GpuPyramid) -> None:
+    many = [Texture(str(number)) for number in range(MOST_TEXTURES + 1)]
+    fields = ("roughness", "metallic", "ior", "coat_weight", "coat_roughness", "coat_ior", "alpha")
+    fields += ("specular_level", "diffuse_roughness")
+    crowded = replace(
+        PLAIN, **{name: Input(COLOR[:1], texture) for name, texture in zip(fields, many, strict=True)}
+    )
+    with pytest.raises(ShapeError, match="9 textures, and previews take 8"):
+        drawn(content, square(), OwnMaterials((DrawnMaterial(crowded),)))
+    baked = replace(PLAIN, roughness=Baked("Noise Texture"))
+    with pytest.raises(ShapeError, match=r"still to be baked \(Noise Texture\)"):
+        drawn(content, square(), OwnMaterials((DrawnMaterial(baked),)))
+    mesh = GpuMesh(SQUARE, np.tile(UP, (4, 1)), TRIANGLES)
+    with pytest.raises(ShapeError, match="without material slots"):
+        drawn(content, mesh, OwnMaterials((DrawnMaterial(PLAIN),)))

@@ -9,18 +9,23 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, TypeVar
 
 import bmesh
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.conventions import Array, Indices
 from ..core.errors import InputFileError, SceneError
+from .mesh_arrays import (
+    bits,
+    corner_vertices,
+    drawn_normals,
+    read_property,
+    split_vertices,
+    triangle_corners,
+    vertex_positions,
+)
 from .scenes import temporary_scene
-
-T = TypeVar("T", bound=np.generic)
 
 MESH_NAMES = ("sphere", "monkey")
 """Meshes that `load_mesh` makes itself; any other name is a file."""
@@ -130,10 +135,10 @@ def evaluated_mesh(item: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> It
 def content_of(mesh: bpy.types.Mesh) -> bytes:
     """A hash of all data that `triangle_mesh` depends on, in a fraction of its time."""
     arrays = (
-        _positions(mesh),
-        _corner_vertices(mesh),
-        _normals(mesh),
-        _read(mesh.polygons, "loop_start", np.int32),
+        vertex_positions(mesh),
+        corner_vertices(mesh),
+        drawn_normals(mesh),
+        read_property(mesh.polygons, "loop_start", np.int32),
     )
     content = hashlib.sha1(mesh.normals_domain.encode(), usedforsecurity=False)
     for array in arrays:
@@ -214,7 +219,7 @@ def _read_obj(path: Path) -> TriangleMesh:
 
 def _repair(data: bpy.types.Mesh, path: Path) -> None:
     """Blender's own validation, without its hiding of faults, and normals for a file without any."""
-    unusable = int(np.count_nonzero(~np.isfinite(_read(data.vertices, "co", np.float32, 3))))
+    unusable = int(np.count_nonzero(~np.isfinite(read_property(data.vertices, "co", np.float32, 3))))
     if unusable:
         raise InputFileError(
             f"{path} holds {unusable} coordinates that are NaN or infinite: repair the mesh."
@@ -256,76 +261,9 @@ def _fitted(mesh: TriangleMesh) -> TriangleMesh:
 
 def triangle_mesh(mesh: bpy.types.Mesh, name: str) -> TriangleMesh:
     """A mesh's surface, its vertices split where corners' normals differ."""
-    positions, normals, corners = _positions(mesh), _normals(mesh), _triangle_corners(mesh)
-    vertices = _corner_vertices(mesh)[:, 0]
+    positions, normals, corners = vertex_positions(mesh), drawn_normals(mesh), triangle_corners(mesh)
+    vertices = corner_vertices(mesh)[:, 0]
     if mesh.normals_domain == "POINT":
         return TriangleMesh(name, positions, normals, vertices[corners])
-    kept, split = _split_vertices(len(positions), vertices, normals.view(np.int32))
+    kept, split = split_vertices(len(positions), vertices, bits(normals))
     return TriangleMesh(name, positions[vertices[kept]], normals[kept], split[corners])
-
-
-def _split_vertices(count: int, vertices: Indices, normals: Indices) -> tuple[Indices, Indices]:
-    """One vertex for all corners that share a vertex and a normal.
-
-    Parameters
-    ----------
-    count : int
-        Number of vertices before.
-    vertices : ndarray, shape (C,)
-        Vertex of each corner.
-    normals : ndarray of int32, shape (C, 3)
-        Bits of each corner's normal.
-
-    Returns
-    -------
-    kept : ndarray, shape (V,)
-        A corner for each new vertex.
-    split : ndarray of int32, shape (C,)
-        New vertex of each corner.
-    """
-    numbers = np.arange(len(vertices), dtype=np.int32)
-    first = np.zeros(count, np.int32)
-    first[vertices[::-1]] = numbers[::-1]  # of what is set more than once, the last value stays
-    chosen = first[vertices]
-    # Most corners have the normal of their vertex's first one, and need no sort
-    others = np.flatnonzero(np.any(normals != normals[chosen], axis=1))
-    keys = np.concatenate([vertices[others, None], normals[others]], axis=1)
-    # One sort of 16-byte keys instead of np.unique(axis=0)'s four columns.
-    _, kinds, kind_of_other = np.unique(
-        np.ascontiguousarray(keys).view("V16").ravel(), return_index=True, return_inverse=True
-    )
-    chosen[others] = others[kinds][kind_of_other]
-    is_kept = chosen == numbers
-    new_number = np.cumsum(is_kept, dtype=np.int32) - np.int32(1)
-    return np.flatnonzero(is_kept), new_number[chosen]
-
-
-def _triangle_corners(mesh: bpy.types.Mesh) -> Indices:
-    """Corners of each triangle, shape (T, 3)."""
-    if len(mesh.loops) == 3 * len(mesh.polygons):  # Blender would copy them one by one
-        return np.arange(len(mesh.loops), dtype=np.int32).reshape(-1, 3)
-    mesh.calc_loop_triangles()
-    return _read(mesh.loop_triangles, "loops", np.int32, 3)
-
-
-def _positions(mesh: bpy.types.Mesh) -> Array:
-    return _read(mesh.vertices, "co", np.float32, 3)
-
-
-def _corner_vertices(mesh: bpy.types.Mesh) -> Indices:
-    """Vertex of each corner, shape (corners, 1); Blender copies attributes faster than the property."""
-    attribute = mesh.attributes.get(".corner_vert")
-    return _read(attribute.data, "value", np.int32) if attribute else np.empty((0, 1), np.int32)
-
-
-def _normals(mesh: bpy.types.Mesh) -> Array:
-    """Normals of each vertex where corners agree, of each corner otherwise."""
-    of_vertices = mesh.normals_domain == "POINT"
-    return _read(mesh.vertex_normals if of_vertices else mesh.corner_normals, "vector", np.float32, 3)
-
-
-def _read(items: Any, field: str, kind: type[T], width: int = 1) -> NDArray[T]:
-    """A property of every item, shape (len(items), width), without a Python loop."""
-    values = np.empty(len(items) * width, dtype=kind)
-    items.foreach_get(field, values)
-    return values.reshape(-1, width)

@@ -8,7 +8,6 @@ import pytest
 from rsibr.rsibr_addon.core.errors import InputFileError, SceneError
 from rsibr.rsibr_addon.host.meshes import (
     TriangleMesh,
-    _split_vertices,
     add_mesh,
     content_of,
     evaluated_mesh,
@@ -212,16 +211,3 @@ def test_a_mesh_s_content_is_all_that_its_surface_depends_on() -> None:
     item.modifiers.new("Smooth", "SUBSURF")
     contents.append(content())
     assert len(set(contents)) == len(contents)
-
-
-@pytest.mark.parametrize("kinds", [1, 2, 50])
-def test_corners_share_a_vertex_where_position_and_normal_are_the_same(kinds: int) -> None:
-    rng = np.random.default_rng(5)
-    vertices = rng.integers(0, 40, 600, dtype=np.int32)
-    normals = rng.integers(0, kinds, (600, 3), dtype=np.int32)
-    kept, split = _split_vertices(45, vertices, normals)
-    np.testing.assert_array_equal(vertices[kept][split], vertices)
-    np.testing.assert_array_equal(normals[kept][split], normals)
-    pairs = np.concatenate([vertices[:, None], normals], axis=1)
-    assert len(kept) == len(np.unique(pairs, axis=0))
-    assert split.dtype == np.int32

@@ -27,7 +27,7 @@ from rsibr.rsibr_addon.core.filtering.zonal import ZonalSeries, expand
 from rsibr.rsibr_addon.core.geometry.camera import Camera
 from rsibr.rsibr_addon.core.geometry.directions import dot, normalize, reflect
 from rsibr.rsibr_addon.core.geometry.lit_sphere import environment_about, ring_radiance
-from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import bake_pyramid
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import bake_pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import Families, principled_radiance
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.kinds.kernel_pyramid import shipped_families
@@ -36,6 +36,7 @@ from rsibr.rsibr_addon.host.cycles import RenderSettings, render_view
 from rsibr.rsibr_addon.host.principled import INPUTS
 from rsibr.rsibr_addon.host.scenes import temporary_scene
 from rsibr.rsibr_addon.host.worlds import light_with
+from rsibr.rsibr_addon.settings.kernel_pyramid import KernelPyramidSettings
 from rsibr.rsibr_addon.tasks.light.environments import load_environment
 
 TILES, PIXELS, EDGE = 32, 5, 1
@@ -201,7 +202,7 @@ class Place:
 
     def __init__(self, environment: Environment, families: Families) -> None:
         self._environment, self._families = environment, families
-        self._pyramid = drain(bake_pyramid(environment.radiance)).pyramid
+        self._pyramid = drain(bake_pyramid(environment.radiance, KernelPyramidSettings().size)).pyramid
         self._split = SplitSum(environment.radiance, families)
 
     def rows(self, samples: int) -> Iterator[str]:

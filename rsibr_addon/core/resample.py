@@ -117,14 +117,13 @@ def resample(
     shape = target.shape(size)
     if image.ndim != 4 or image.shape[:3] != source.shape(image.shape[2]):
         raise ShapeError(f"A {source.name} map cannot have the shape {image.shape}: check its layout.")
-    before, after = source.texel_solid_angle(image.shape[2]), target.texel_solid_angle(size)
-    if np.count_nonzero(after) >= np.count_nonzero(before):
+    if _shown(target, size) >= _shown(source, image.shape[2]):
         made = np.empty((*shape, image.shape[-1]), dtype)
         _fill(made, None, image, source, target)
         return made
     splat = Splat(target, size, image.shape[-1])
     splat.lay_down(image, source)
-    got = splat.solid_angle > 0.0
+    got, after = splat.solid_angle > 0.0, target.texel_solid_angle(size)
     made = (splat.power / np.where(got, splat.solid_angle, 1.0)).T.reshape(*shape, -1)
     _fill(made, ~got.reshape(shape), image, source, target)
     if source.blind_angle == target.blind_angle == 0.0:
@@ -134,6 +133,13 @@ def resample(
     else:
         _repeat_rim(made, after == 0.0)
     return made.astype(dtype, copy=False)
+
+
+def _shown(layout: Representation, size: int) -> int:
+    """How many texels of a map show light."""
+    if np.isinf(layout.disk):
+        return int(np.prod(layout.shape(size)))
+    return int(np.count_nonzero(layout.texel_solid_angle(size)))
 
 
 def _restore_power(made: Array, solid_angle: Array, power: Array) -> None:

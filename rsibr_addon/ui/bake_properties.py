@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..files.kinds.registry import STORED
+from ..files.kinds.registry import AS_ADDED, STORED
 from ..host.bake_settings import chosen_picture, use_picture
 from ..host.installation import studio_environments
 from ..host.option_properties import group_of, properties_of
@@ -75,7 +75,11 @@ class RSIBR_PG_bake(bpy.types.PropertyGroup):
     kind = bpy.props.EnumProperty(
         name="Method",
         description="What is baked",
-        items=[(kind, stored.settings.LABEL, stored.settings.SUMMARY) for kind, stored in STORED.items()],
+        items=[
+            (kind, stored.settings.LABEL, stored.settings.SUMMARY, AS_ADDED.index(kind))
+            for kind, stored in STORED.items()
+        ],
+        default=next(iter(STORED)),
     )
 
 

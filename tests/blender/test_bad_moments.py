@@ -21,6 +21,7 @@ pytestmark = pytest.mark.usefixtures("registered")
 
 
 CHOSEN = "bpy.context.scene.rsibr_bake"
+RENDERED = f"{CHOSEN}.kind = 'radiance_views'"
 NEWER = "bl_system_properties_get(do_create=True)"
 
 
@@ -29,7 +30,7 @@ NEWER = "bl_system_properties_get(do_create=True)"
     [
         (f"{CHOSEN}.{NEWER}['kind'] = 77", "Method was chosen in another version, and is unknown here"),
         (f"{CHOSEN}.{NEWER}['light'] = 77", "Light was chosen in another version, and is unknown here"),
-        (f"{CHOSEN}.radiance_views.{NEWER}['views'] = 77", "Views was chosen in another version"),
+        (f"{RENDERED}; {CHOSEN}.radiance_views.{NEWER}['views'] = 77", "Views was chosen in another version"),
     ],
 )
 def test_choices_of_a_newer_version_are_named(spoil: str, sentence: str) -> None:

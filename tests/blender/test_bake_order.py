@@ -54,6 +54,7 @@ def output() -> Path:
 
 
 KINDS = sorted(STORED)
+RENDERED = "chosen.kind = 'radiance_views'"
 QUALITIES = ("DRAFT", "GOOD", "FINAL")
 
 
@@ -154,8 +155,14 @@ def test_the_file_is_as_large_as_was_said(tmp_path: Path) -> None:
     [
         ("bpy.context.view_layer.objects.active = None", "There is no object to bake for: select one."),
         ("bpy.context.view_layer.objects.active = bpy.data.objects['Light']", "Object Light has no surface"),
-        ("bpy.context.object.active_material = None", "Object Cube has no material: give it one"),
-        ("bpy.context.object.active_material.node_tree.nodes.clear()", "Material Material has no surface"),
+        (
+            f"{RENDERED}; bpy.context.object.active_material = None",
+            "Object Cube has no material: give it one",
+        ),
+        (
+            f"{RENDERED}; bpy.context.object.active_material.node_tree.nodes.clear()",
+            "Material Material has no surface",
+        ),
         ("bpy.context.scene.world = None", "Scene Scene has no world: add one"),
         ("chosen.light = 'PICTURE'", "No environment is chosen: give a latitude-longitude picture."),
         ("chosen.light, chosen.picture = 'PICTURE', '/no.exr'", "There is no file /no.exr: choose another."),
@@ -183,6 +190,7 @@ def test_a_picture_is_no_measured_material(tmp_path: Path) -> None:
 def test_equal_bakes_have_one_file_and_others_another(tmp_path: Path) -> None:
     chosen = bpy.context.scene.rsibr_bake
     cube = bpy.data.objects["Cube"]
+    chosen.kind = "radiance_views"
     first = output()
     assert output() == first
     assert first.name.startswith("material-in-the-world-")

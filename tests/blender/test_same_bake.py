@@ -44,7 +44,7 @@ SMALL: dict[str, dict[str, Any]] = {
     "reflection_tables": {"material": "plastic", "diffuse_rows": 4, "rows": 16},
     "mip_chain": {"size": 64},
     "kernel_bank": {"size": 64},
-    "kernel_pyramid": {},
+    "kernel_pyramid": {"size": 256},
 }
 """Kind -> settings that are baked fast, and that the panel offers too."""
 

@@ -10,15 +10,18 @@ from rsibr.rsibr_addon.core.errors import ShapeError
 from rsibr.rsibr_addon.core.filtering.prefilter import prefilter_exact
 from rsibr.rsibr_addon.core.filtering.radial_lobes import von_mises_fisher_lobe
 from rsibr.rsibr_addon.core.geometry.directions import camera_frame, reflect
-from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid, bake_pyramid, width_of
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import bake_pyramid, width_of
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import Families, principled_radiance
 from rsibr.rsibr_addon.core.lobes.family import KERNELS
 from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.core.resample import lookup
 from rsibr.rsibr_addon.files.kinds.kernel_pyramid import shipped_families
+from rsibr.rsibr_addon.settings.kernel_pyramid import KernelPyramidSettings
 
 HEIGHT = 128
+SIZE = KernelPyramidSettings().size
 TEXELS = equirect.direction_from_uv(texel_centres(2 * HEIGHT, HEIGHT))
 WINDOW = np.array([0.6, 0.48, 0.64])
 MIRRORS_IT = np.array([0.6, 0.48, 1.64]) / np.sqrt(3.28)
@@ -41,7 +44,7 @@ def radiance() -> Array:
 
 @pytest.fixture(scope="module")
 def pyramid(radiance: Array) -> Pyramid:
-    return drain(bake_pyramid(radiance)).pyramid
+    return drain(bake_pyramid(radiance, SIZE)).pyramid
 
 
 def summed(material: Principled, radiance: Array, normal: Array, view_dir: Array) -> Array:
@@ -98,7 +101,7 @@ def test_points_have_their_own_materials(pyramid: Pyramid, families: Families) -
 def test_white_surfaces_vanish_in_a_white_furnace(
     roughness: float, metallic: float, families: Families
 ) -> None:
-    baked = drain(bake_pyramid(np.ones((HEIGHT, 2 * HEIGHT, 3)))).pyramid
+    baked = drain(bake_pyramid(np.ones((HEIGHT, 2 * HEIGHT, 3)), SIZE)).pyramid
     # Sums over texels are not quite even near the poles
     furnace = replace(baked, maps=tuple(np.ones_like(sheets) for sheets in baked.maps))
     surface = Surface(base_color=(1.0, 1.0, 1.0), metallic=metallic, roughness=roughness, coat_weight=0.5)
@@ -124,7 +127,7 @@ def test_emission_is_added_and_all_is_covered_by_alpha(pyramid: Pyramid, familie
 def test_kernels_are_as_large_as_they_need_and_follow_the_sum(pyramid: Pyramid, radiance: Array) -> None:
     assert pyramid.bank.concentrations == KERNELS.concentrations[: len(pyramid.bank)]
     for kappa, sheets in zip(pyramid.bank.concentrations, pyramid.maps, strict=True):
-        assert sheets.shape == (1, width_of(kappa), width_of(kappa), 3)
+        assert sheets.shape == (1, width_of(kappa, SIZE), width_of(kappa, SIZE), 3)
         exact = prefilter_exact(radiance, [von_mises_fisher_lobe(kappa)], NORMAL)[0]
         error = np.linalg.norm(pyramid.kernel(kappa, NORMAL) - exact)
         # A kernel of concentration kappa has second derivatives of kappa times its peak, and texels are about
@@ -139,7 +142,7 @@ def test_a_kernel_that_is_not_resolved_is_the_environment(pyramid: Pyramid) -> N
 
 
 def test_a_pyramid_for_the_family_fits_into_graphics_memory() -> None:
-    texels = sum(width_of(kappa) ** 2 for kappa in KERNELS.concentrations[:-1]) + 1024**2 + 2 * 32**2
+    texels = sum(width_of(kappa, SIZE) ** 2 for kappa in KERNELS.concentrations[:-1]) + SIZE**2 + 2 * 32**2
     assert 8 * texels < 40e6
 
 

@@ -3,7 +3,8 @@
 import numpy as np
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.kinds.kernel_bank.filtered_bank import FilteredBank
-from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import BakedPyramid, FilterErrors, Pyramid
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import BakedPyramid, FilterErrors
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import Pyramid
 from rsibr.rsibr_addon.core.kinds.lobe_stack.stack import LobeStack, stack_representation
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
 from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTables, Role

@@ -11,7 +11,8 @@ from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.errors import ShapeError
 from rsibr.rsibr_addon.core.geometry.directions import dot, reflect
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid import shading
-from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid, bake_pyramid, width_of
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import bake_pyramid, width_of
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import Families, principled_radiance
 from rsibr.rsibr_addon.core.lobes.bank import KernelBank
 from rsibr.rsibr_addon.core.lobes.family import KERNELS
@@ -26,6 +27,7 @@ from rsibr.rsibr_addon.device.kinds.kernel_pyramid import (
     family_texels,
 )
 from rsibr.rsibr_addon.files.kinds.kernel_pyramid import shipped_families
+from rsibr.rsibr_addon.settings.kernel_pyramid import KernelPyramidSettings
 from rsibr.tests.glsl.evaluation import Samplers, evaluate
 from rsibr.tests.glsl.twins import COUNT, ULP, Twin, check, single, unit_vectors
 
@@ -34,6 +36,7 @@ POINTS = 10_000
 """Enough for random materials; the numpy twin takes a second."""
 
 KERNEL_COUNT = len(KERNELS)
+SIZE = KernelPyramidSettings().size
 
 
 @cache
@@ -47,7 +50,7 @@ def pyramid() -> Pyramid:
     texels = equirect.direction_from_uv(texel_centres(128, 64))
     light = np.where(texels[..., 2:] > 0.0, [0.3, 0.4, 0.6], [0.3, 0.1, 0.05])
     window = np.exp(40.0 * (texels @ [0.6, 0.48, 0.64] - 1.0))
-    return drain(bake_pyramid(light + 20.0 * window[..., None] * [1.0, 0.9, 0.7])).pyramid
+    return drain(bake_pyramid(light + 20.0 * window[..., None] * [1.0, 0.9, 0.7], SIZE)).pyramid
 
 
 def samplers_of(light: Pyramid) -> Samplers:
@@ -410,7 +413,7 @@ def test_principled_radiance() -> None:
 @pytest.mark.parametrize("metallic", [0.0, 1.0])
 def test_white_surfaces_vanish_in_a_white_furnace(metallic: float) -> None:
     normal, view_dir, inputs = points()
-    baked = drain(bake_pyramid(np.ones((64, 128, 3)))).pyramid
+    baked = drain(bake_pyramid(np.ones((64, 128, 3)), SIZE)).pyramid
     # Sums over texels are not quite even near the poles
     furnace = replace(baked, maps=tuple(np.ones_like(sheets) for sheets in baked.maps))
     base, specular, coat, emission, boundary, coating = (each.copy() for each in inputs)
@@ -508,10 +511,9 @@ def test_maps_lie_in_the_atlas_with_what_continues_them() -> None:
 
 
 def test_an_atlas_fits_into_graphics_memory() -> None:
-    maps = tuple(
-        np.zeros((1, width_of(kappa), width_of(kappa), 3), np.float32) for kappa in KERNELS.concentrations
-    )
-    atlas, _ = atlas_texels(Pyramid(KERNELS, np.zeros((1, 1024, 1024, 3)), maps, np.zeros((2, 32, 32, 3))))
+    widths = [width_of(kappa, SIZE) for kappa in KERNELS.concentrations]
+    maps = tuple(np.zeros((1, width, width, 3), np.float32) for width in widths)
+    atlas, _ = atlas_texels(Pyramid(KERNELS, np.zeros((1, SIZE, SIZE, 3)), maps, np.zeros((2, 32, 32, 3))))
     # Of half floats; what is asked of a bank in graphics memory
     assert 2 * atlas.size < 40e6
 

@@ -7,8 +7,9 @@ from typing import Any, TypedDict
 import numpy as np
 
 from ...core.errors import MapSetError, RangeError, ShapeError
+from ...core.kinds.kernel_pyramid.bake import BakedPyramid, FilterErrors
 from ...core.kinds.kernel_pyramid.look import PrincipledLook
-from ...core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, BakedPyramid, FilterErrors, Pyramid
+from ...core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid
 from ...core.kinds.kernel_pyramid.shading import Families
 from ...core.lobes.bank import KernelBank
 from ...settings.kernel_pyramid import KernelPyramidSettings

@@ -5,6 +5,9 @@ from ...core.options import Options
 from ..map_set_data import ENVIRONMENT
 from ..map_set_header import StoredKind
 
+AS_ADDED = ("radiance_views", "lobe_stack", "reflection_tables", "mip_chain", "kernel_bank", "kernel_pyramid")
+"""The kinds in the order in which they were added: files of Blender keep a choice as its place here."""
+
 STORED = LazyTable[StoredKind](
     __package__,
     "STORED",

@@ -1,7 +1,7 @@
 """An environment to a kernel pyramid, in a map set: materials are the objects' own."""
 
 from ...core.filtering.prefilter import BYTES_BESIDES, bytes_needed
-from ...core.kinds.kernel_pyramid.pyramid import LARGEST, bake_pyramid, width_of
+from ...core.kinds.kernel_pyramid.bake import bake_pyramid, width_of
 from ...core.lobes.family import KERNELS
 from ...core.options import to_plain
 from ...core.progress import Steps
@@ -14,10 +14,15 @@ from .method import RGB, STORED, Baked, Cost, Method, cost_in_blender
 
 
 def cost(settings: KernelPyramidSettings) -> Cost:
-    """See `Method`."""
-    maps = RGB * sum(width**2 for width in (LARGEST, *map(width_of, KERNELS.concentrations)))
-    memory = BYTES_BESIDES + bytes_needed(1, LARGEST**2) + maps
-    return cost_in_blender(5.0, memory, STORED * maps)
+    """See `Method`; the largest maps are the environment itself and the two sharpest kernels."""
+    size = settings.size
+    maps = RGB * (size**2 + sum(width_of(kappa, size) ** 2 for kappa in KERNELS.concentrations))
+    return cost_in_blender(0.5 + 7e-8 * maps, BYTES_BESIDES + _memory(size) + maps, STORED * maps)
+
+
+def _memory(size: int) -> float:
+    """Bytes for filtering the largest maps."""
+    return bytes_needed(2, size**2)
 
 
 def bake(job: BakeJob[KernelPyramidSettings]) -> Steps[Baked]:
@@ -28,10 +33,11 @@ def bake(job: BakeJob[KernelPyramidSettings]) -> Steps[Baked]:
     RangeError
         The environment resolves no kernel, or the maps are too large for this machine's memory.
     """
+    settings = job.settings
     light = yield from method.read_light(job)
-    method.afforded_by(job, BYTES_BESIDES)(cost(job.settings).memory - BYTES_BESIDES, LARGEST)
-    baked = yield from bake_pyramid(light.radiance)
-    origin = Origin(light, to_plain(job.settings), method.software_of(job))
+    method.afforded_by(job, BYTES_BESIDES)(_memory(settings.size), settings.size)
+    baked = yield from bake_pyramid(light.radiance, settings.size)
+    origin = Origin(light, to_plain(settings), method.software_of(job))
     path = yield from method.written(job, to_map_set(baked, origin))
     size, concentrations = baked.pyramid.mirror.shape[1], baked.pyramid.bank.concentrations
     return Baked(

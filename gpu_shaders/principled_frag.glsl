@@ -1,9 +1,10 @@
 // Twin of core/kinds/kernel_pyramid/shading.py `principled_radiance`, of one material.
-#include "lib/draw_lib.glsl"
 #include "lib/principled_radiance_lib.glsl"
+#include "lib/sides_lib.glsl"
 
 void main()
 {
+  Seen seen = seen_surface(draw.eye, draw.model, world_position, world_normal, gl_FrontFacing);
   Surface surface = Surface(look.base.rgb,
                             look.base.a,
                             look.boundary.x,
@@ -24,7 +25,8 @@ void main()
                                      albedos,
                                      rises,
                                      surface,
-                                     normalize(world_normal),
-                                     view_direction(draw.eye, world_position));
+                                     seen.normal,
+                                     seen.mirror_normal,
+                                     seen.view_dir);
   radiance.a = clamp(surface.alpha, 0.0, 1.0);
 }

@@ -1,11 +1,12 @@
 // Twin of core/kinds/kernel_pyramid/shading.py `principled_radiance`, of a material whose inputs are textures:
 // core/materials.
-#include "lib/draw_lib.glsl"
 #include "lib/principled_radiance_lib.glsl"
+#include "lib/sides_lib.glsl"
 #include "lib/textured_material_lib.glsl"
 
 void main()
 {
+  Seen seen = seen_surface(draw.eye, draw.model, world_position, world_normal, gl_FrontFacing);
   sample_textures();
   float alpha = clamp(number_of(ALPHA), 0.0, 1.0);
   Surface surface = Surface(color_of(BASE_COLOR),
@@ -28,7 +29,8 @@ void main()
                                      albedos,
                                      rises,
                                      surface,
-                                     normalize(world_normal),
-                                     view_direction(draw.eye, world_position));
+                                     seen.normal,
+                                     seen.mirror_normal,
+                                     seen.view_dir);
   radiance.a = alpha;
 }

@@ -1,15 +1,14 @@
 // Twin of core/kinds `destination_lookup`: shades from the sphere map of one view.
-#include "lib/draw_lib.glsl"
 #include "lib/footprint_lib.glsl"
 #include "lib/radiance_views_lib.glsl"
+#include "lib/sides_lib.glsl"
 
 void main()
 {
-  vec3 unit_normal = normalize(world_normal);
-  vec3 view_dir = view_direction(draw.eye, world_position);
+  Seen seen = seen_surface(draw.eye, draw.model, world_position, world_normal, gl_FrontFacing);
   mat3 frame = camera_frame(destination.view_dir.xyz);
-  vec2 normal_uv = uv_from_normal(unit_normal * frame);
-  vec3 mirror_dir = reflect_dir(view_dir, unit_normal);
+  vec2 normal_uv = uv_from_normal(seen.normal * frame);
+  vec3 mirror_dir = reflect_dir(seen.view_dir, seen.mirror_normal);
   vec3 across, up;
   pixel_sides(mirror_dir, mode.antialiased, across, up);
   float texel_angle = sphere_map_texel_angle(float(textureSize(by_mirror, 0).x));
@@ -21,8 +20,10 @@ void main()
     glossy += textureLod(by_mirror, uv_from_direction(direction * frame), 0.0).rgb;
   }
   int warping = int(mode.warping);
-  float cosine = dot(unit_normal, view_dir);
-  radiance.rgb = textureLod(by_normal, normal_uv, 0.0).rgb * albedo_at(albedo, warping, WARP_NORMAL, cosine) +
-                 glossy / float(lookups) * albedo_at(albedo, warping, WARP_MIRROR, cosine);
+  float diffuse_cosine = dot(seen.normal, seen.view_dir);
+  float glossy_cosine = dot(seen.mirror_normal, seen.view_dir);
+  radiance.rgb = textureLod(by_normal, normal_uv, 0.0).rgb *
+                     albedo_at(albedo, warping, WARP_NORMAL, diffuse_cosine) +
+                 glossy / float(lookups) * albedo_at(albedo, warping, WARP_MIRROR, glossy_cosine);
   radiance.a = 1.0;
 }

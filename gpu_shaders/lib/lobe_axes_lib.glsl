@@ -1,13 +1,4 @@
-// Where the lobes of a surface point lie.
-
-// Twin of core/kinds/lobe_stack/shading.py: normals that point away from the eye, turned to the horizon.
-vec3 facing_normal(vec3 normal, vec3 view_dir)
-{
-  vec3 turned = normal - min(dot(normal, view_dir), 0.0) * view_dir;
-  return turned / max(length(turned), 1e-9);
-}
-
-// Twin of core/lobes/fit.py `lobe_axes`; offset is (tilt, turn).
+// Where the lobes of a surface point lie: twin of core/lobes/fit.py `lobe_axes`; offset is (tilt, turn).
 vec3 lobe_axis(vec3 normal, vec3 mirror_dir, vec2 offset)
 {
   vec3 up = normal - dot(normal, mirror_dir) * mirror_dir;

@@ -72,19 +72,18 @@ float stack_texel_angle(int layout_number, float size, vec3 direction)
   return 2.0 / (size - 1.0) * (1.0 + part.y);
 }
 
-// The mean over what a pixel reflects, whose sides are across and up.
+// The mean over what a pixel reflects, whose sides are across and up; normal: `Seen.mirror_normal`.
 vec3 stack_radiance(sampler3D maps,
                     sampler2D elevations,
                     int layout_number,
                     int lobes,
                     int taps,
                     int slices,
-                    vec3 shading_normal,
+                    vec3 normal,
                     vec3 view_dir,
                     vec3 across,
                     vec3 up)
 {
-  vec3 normal = facing_normal(shading_normal, view_dir);
   vec3 mirror_dir = reflect_dir(view_dir, normal);
   vec2 elevation = elevation_at(elevations, dot(normal, view_dir));
   float size = float(textureSize(maps, 0).x) - 2.0;

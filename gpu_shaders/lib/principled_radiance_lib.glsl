@@ -97,7 +97,7 @@ vec3 diffuse_radiance(sampler2D atlas,
   return color * max(radiance, 0.0);
 }
 
-// Covered by the surface's alpha.
+// Covered by the surface's alpha. The normals are those of `Seen`: for diffuse light, and for the rest.
 vec3 principled_radiance(sampler2D atlas,
                          sampler2D places,
                          sampler2DArray ggx,
@@ -105,12 +105,12 @@ vec3 principled_radiance(sampler2D atlas,
                          sampler2DArray albedos,
                          sampler2D rises,
                          Surface surface,
-                         vec3 shading_normal,
+                         vec3 normal,
+                         vec3 mirror_normal,
                          vec3 view_dir)
 {
-  vec3 normal = facing_normal(shading_normal, view_dir);
-  vec3 mirror_dir = reflect_dir(view_dir, normal);
-  float mu = clamp(dot(normal, view_dir), 1e-4, 1.0);
+  vec3 mirror_dir = reflect_dir(view_dir, mirror_normal);
+  float mu = clamp(dot(mirror_normal, view_dir), 1e-4, 1.0);
   Layers layers = layers_of(surface, mu, albedos, rises);
   vec3 radiance = layers.emission;
   if (layers.diffuse != vec3(0.0)) {
@@ -119,9 +119,9 @@ vec3 principled_radiance(sampler2D atlas,
                                                   leaning,
                                                   surface.base_color,
                                                   surface.diffuse_roughness,
-                                                  mu,
+                                                  clamp(dot(normal, view_dir), 1e-4, 1.0),
                                                   normal,
-                                                  mirror_dir);
+                                                  reflect_dir(view_dir, normal));
   }
   // One loop for both, so that the program has the lobes' code once
   for (int coat = 0; coat < 2; coat++) {
@@ -129,7 +129,7 @@ vec3 principled_radiance(sampler2D atlas,
     float roughness = (coat == 1) ? surface.coat_roughness : surface.roughness;
     if (coefficients.zeroth != vec3(0.0) || coefficients.rising != mat4x3(0.0)) {
       radiance += ggx_radiance(
-          atlas, places, ggx, roughness * roughness, mu, coefficients, normal, mirror_dir);
+          atlas, places, ggx, roughness * roughness, mu, coefficients, mirror_normal, mirror_dir);
     }
   }
   return radiance;

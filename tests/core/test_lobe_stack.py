@@ -7,7 +7,7 @@ from rsibr.rsibr_addon.core.conventions import Array, texel_centres
 from rsibr.rsibr_addon.core.errors import RangeError, ShapeError
 from rsibr.rsibr_addon.core.geometry.directions import dot, normalize, reflect
 from rsibr.rsibr_addon.core.geometry.lit_sphere import ring_radiance
-from rsibr.rsibr_addon.core.kinds.lobe_stack.shading import StackLook, facing_normal, stack_radiance
+from rsibr.rsibr_addon.core.kinds.lobe_stack.shading import StackLook, stack_radiance
 from rsibr.rsibr_addon.core.kinds.lobe_stack.stack import LAYOUTS, LobeStack, stack_representation
 from rsibr.rsibr_addon.core.lobes.bake import ALLOWED_INTERPOLATION, SIZES, BakedStack, bake_stack
 from rsibr.rsibr_addon.core.lobes.bank import KernelBank
@@ -185,21 +185,6 @@ def test_shading_is_continuous_where_the_view_is_along_the_normal(layout: str) -
     around = stack_radiance(stack, normal, normalize(normal + away), StackLook())
     # Texels differ by 1, sixteen of them over the map; three lobes of two taps turn by 1e-6 each.
     assert np.abs(around - stack_radiance(stack, normal, normal, StackLook())).max() < 6 * 3e-5
-
-
-def test_normals_that_point_away_are_turned_to_the_horizon() -> None:
-    stack = random_stack("octahedral")
-    view_dir = np.array([0.6, 0.0, 0.8])
-    away = normalize([(0.0, 1.0, -0.2), (-0.3, -0.5, -0.4), (-0.6, 0.0, -0.8)])
-    facing = facing_normal(away, view_dir)
-    np.testing.assert_allclose(facing[:2] @ view_dir, 0.0, atol=1e-15)
-    np.testing.assert_allclose(np.linalg.norm(facing[:2], axis=1), 1.0)
-    # Nearest: within the plane of the two
-    assert np.abs(np.linalg.det(np.stack([facing[1], away[1], view_dir]))) < 1e-15
-    found = stack_radiance(stack, away, view_dir, StackLook())
-    np.testing.assert_array_equal(found[:2], stack_radiance(stack, facing[:2], view_dir, StackLook()))
-    assert np.all(np.isfinite(found))
-    np.testing.assert_array_equal(facing_normal(view_dir, view_dir), view_dir)
 
 
 def test_too_narrow_lobes_are_refused_with_the_remedy() -> None:

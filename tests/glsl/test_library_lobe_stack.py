@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.geometry.directions import dot, normalize, reflect
-from rsibr.rsibr_addon.core.kinds.lobe_stack.shading import StackLook, facing_normal, stack_radiance
+from rsibr.rsibr_addon.core.geometry.sides import seen_surface
+from rsibr.rsibr_addon.core.kinds.lobe_stack.shading import StackLook, stack_radiance
 from rsibr.rsibr_addon.core.kinds.lobe_stack.stack import LAYOUTS, LobeStack, stack_representation
 from rsibr.rsibr_addon.core.lobes.fit import lobe_axes
 from rsibr.rsibr_addon.core.maps import octahedral
@@ -46,20 +47,6 @@ def offsets() -> np.ndarray:
     large[: COUNT // 4] *= 10.0 ** RNG.uniform(-7.0, 0.0, (COUNT // 4, 1))
     large[:10] = 0.0
     return single(large)
-
-
-def towards_and_away() -> list[np.ndarray]:
-    """Pairs of directions, none of them nearly opposite to each other."""
-    normal, view_dir = unit_vectors(40), unit_vectors(41)
-    opposite = np.linalg.norm(normal + view_dir, axis=-1) < 1e-3
-    normal[opposite] = view_dir[opposite]
-    return [normal, view_dir]
-
-
-def turned_length(normal: np.ndarray, view_dir: np.ndarray) -> np.ndarray:
-    """Of normals that point away what is left across the view, of others 1."""
-    across = np.linalg.norm(np.cross(normal, view_dir), axis=-1)
-    return np.where(dot(normal, view_dir) < 0.0, np.maximum(across, 1e-3), 1.0)
 
 
 def expected_place(direction: np.ndarray) -> np.ndarray:
@@ -106,14 +93,6 @@ TWINS = {
         # As above, times what neighbours differ by, at most 0.8; and the rounding of the values.
         (0.8 * (2 / 0.1 + 8) + 4) * ULP,
         samplers=elevations,
-    ),
-    "facing_normal": Twin(
-        "lobe_stack_lib.glsl",
-        "result_0.xyz = facing_normal(in_0.xyz, in_1.xyz);",
-        towards_and_away,
-        facing_normal,
-        # Roundings of the difference, of cosines, squares and a root, over its length.
-        lambda normal, view_dir: (8 * ULP / turned_length(normal, view_dir))[:, None, None],
     ),
     "lobe_axis": Twin(
         "lobe_stack_lib.glsl",
@@ -173,7 +152,7 @@ def test_stack_radiance(layout: str, shared: bool) -> None:
     normal, view_dir = unit_vectors(38), unit_vectors(39)
     # Where the hemispheres meet, rounding decides which sheet shows an axis; both show the same there, up to
     # interpolation, but not of texels without a pattern.
-    facing = facing_normal(normal, view_dir)
+    facing = seen_surface(normal, view_dir).mirror_normal
     mirror_dir = reflect(view_dir, facing)
     below, share = stack.elevation(dot(facing, view_dir))
     above = np.minimum(below + 1, 4)
@@ -185,7 +164,7 @@ def test_stack_radiance(layout: str, shared: bool) -> None:
         f"result_0.rgb = stack_radiance(maps, elevations, {LAYOUTS.index(layout)}, 3, 2, "
         f"{1 if shared else 5}, in_0.xyz, in_1.xyz, vec3(0.0), vec3(0.0));"
     )
-    found = evaluate("lobe_stack_lib.glsl", code, [normal, view_dir], 1, maps(stack) | elevations(stack))
+    found = evaluate("lobe_stack_lib.glsl", code, [facing, view_dir], 1, maps(stack) | elevations(stack))
     expected = stack_radiance(stack, normal, view_dir, StackLook())
     # As above, times scales and taps, which sum to 3.
     assert np.abs(found[:, 0, :3] - expected)[clear].max() < 3 * 8e-3

@@ -10,6 +10,7 @@ from rsibr.rsibr_addon.core.brdf.principled import Layers, Surface, layers_of
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.errors import ShapeError
 from rsibr.rsibr_addon.core.geometry.directions import dot, reflect
+from rsibr.rsibr_addon.core.geometry.sides import seen_surface
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid import shading
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import bake_pyramid, width_of
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid
@@ -398,9 +399,10 @@ def assert_near(found: np.ndarray, expected: np.ndarray, peak: float) -> None:
 def shaded(light: Pyramid, normal: np.ndarray, view_dir: np.ndarray, inputs: list[np.ndarray]) -> np.ndarray:
     code = SURFACE + (
         "result_0.rgb = principled_radiance(atlas, places, ggx, leaning, albedos, rises, surface, in_6.xyz, "
-        "in_7.xyz);"
+        "in_6.xyz, in_7.xyz);"
     )
-    return evaluate(LIBRARY, code, [*inputs, normal, view_dir], 1, samplers_of(light))[:, 0, :3]
+    facing = seen_surface(normal, view_dir).normal
+    return evaluate(LIBRARY, code, [*inputs, facing, view_dir], 1, samplers_of(light))[:, 0, :3]
 
 
 def test_principled_radiance() -> None:

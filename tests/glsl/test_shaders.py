@@ -13,10 +13,10 @@ from rsibr.rsibr_addon.device import shader_source as sources
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.kinds import (
     environment,
+    kernel_pyramid,
     live_environment_shaders,
     lobe_stack,
     mip_chain_shaders,
-    principled,
     reflection_tables,
 )
 from rsibr.rsibr_addon.device.shader_source import SHADER_FOLDER, shader_source
@@ -31,7 +31,7 @@ PROGRAMS = [
     reflection_tables.reflection_tables_shader,
     environment.environment_shader,
     lobe_stack.lobe_stack_shader,
-    principled.principled_shader,
+    kernel_pyramid.principled_shader,
     preview.sample_means_shader,
     textures.texels_shader,
     stage_shaders.composite_shader,

@@ -88,14 +88,14 @@ def mirror_normal(view_dir: ArrayLike, mirror_dir: ArrayLike) -> Array:
     return normal
 
 
-def refract(view_dir: ArrayLike, normal: ArrayLike, eta: float) -> Array:
+def refract(view_dir: ArrayLike, normal: ArrayLike, eta: ArrayLike) -> Array:
     """Direction in which an eye sees through a refracting surface.
 
     Parameters
     ----------
     view_dir, normal : array_like, shape (..., 3)
         Unit vectors, both pointing away from the surface.
-    eta : float
+    eta : array_like, shape (..., 1) or ()
         Index of refraction behind the surface over that in front of it, greater than 0.
 
     Returns

@@ -10,6 +10,7 @@ from ..brdf.fresnel import fresnel_schlick
 from ..conventions import Array, ArrayLike
 from ..environment import Environment
 from ..geometry.directions import dot, reflect
+from ..geometry.sides import seen_surface
 from ..maps import equirect
 from ..options import Options
 from ..resample import bilinear
@@ -32,6 +33,7 @@ def mirrored_environment(
     view_dir: ArrayLike,
     look: EnvironmentLook,
     mirror_footprint: ArrayLike | None = None,
+    facet: ArrayLike | None = None,
 ) -> Array:
     """Radiance of a mirror's points: the environment's by the mirror direction, times Schlick's F.
 
@@ -43,6 +45,7 @@ def mirrored_environment(
     [Miller1984] section 8.3. GLSL twin: gpu_shaders/environment_frag.glsl.
     """
     normal, view_dir = np.broadcast_arrays(np.asarray(normal, np.float64), np.asarray(view_dir, np.float64))
+    normal = seen_surface(normal, view_dir, facet).mirror_normal
     cosine = np.clip(dot(normal, view_dir), 0.0, 1.0)
     mirror_dir, radiance = reflect(view_dir, normal), environment.radiance
     if look.antialiased:

@@ -9,10 +9,10 @@ from ...brdf.oren_nayar import bounces, facets
 from ...brdf.principled import Layers, Surface, layers_of
 from ...conventions import Array, ArrayLike
 from ...geometry.directions import dot, reflect
+from ...geometry.sides import seen_surface
 from ...lobes.family import Family
 from ...lobes.fit import lobe_axes
 from ...resample import lookup
-from ..lobe_stack.shading import facing_normal
 from .pyramid import OCTAHEDRAL, Pyramid
 
 _GRAZING = 1e-4
@@ -58,7 +58,12 @@ class Families:
 
 
 def principled_radiance(
-    pyramid: Pyramid, families: Families, surface: Surface, normal: ArrayLike, view_dir: ArrayLike
+    pyramid: Pyramid,
+    families: Families,
+    surface: Surface,
+    normal: ArrayLike,
+    view_dir: ArrayLike,
+    facet: ArrayLike | None = None,
 ) -> Array:
     """Radiance of surface points of Principled materials.
 
@@ -70,6 +75,8 @@ def principled_radiance(
         Inputs of the material, the same for all points or each point's own.
     normal, view_dir : array_like, shape (N, 3)
         Unit vectors in world coordinates.
+    facet : array_like, shape (N, 3), optional
+        Unit normals of the facets: see `core.kinds`.
 
     Returns
     -------
@@ -82,10 +89,12 @@ def principled_radiance(
     brightest from half floats.
     """
     normal, view_dir = np.asarray(normal, np.float64), np.asarray(view_dir, np.float64)
-    normal = facing_normal(normal, view_dir)
-    mu = np.clip(dot(normal, view_dir), _GRAZING, 1.0)
+    seen = seen_surface(normal, view_dir, facet)
+    mu = np.clip(dot(seen.mirror_normal, view_dir), _GRAZING, 1.0)
     layers = layers_of(surface, mu, families)
-    radiance = layers.emission + _diffuse(pyramid, families.leaning, surface, layers, normal, view_dir, mu)
+    own_mu = np.clip(dot(seen.normal, view_dir), _GRAZING, 1.0)
+    diffuse = _diffuse(pyramid, families.leaning, surface, layers, seen.normal, view_dir, own_mu)
+    radiance = layers.emission + diffuse
     for roughness, coefficients in (
         (surface.roughness, layers.base),
         (surface.coat_roughness, layers.coat),
@@ -93,7 +102,7 @@ def principled_radiance(
         reflects = np.any(coefficients, axis=(-2, -1))
         alpha = np.broadcast_to(np.square(roughness), mu.shape)[reflects]
         radiance[reflects] += _glossy(
-            pyramid, families, alpha, coefficients[reflects], normal[reflects], view_dir[reflects]
+            pyramid, families, alpha, coefficients[reflects], seen.mirror_normal[reflects], view_dir[reflects]
         )
     return radiance
 

@@ -9,6 +9,7 @@ from ...antialiased.sampling import sample_counts, samples
 from ...conventions import Array, ArrayLike, Indices
 from ...errors import RangeError
 from ...geometry.directions import dot, reflect
+from ...geometry.sides import seen_surface
 from ...lobes.fit import lobe_axes
 from ...options import Choice, Options, option
 from ...resample import lookup
@@ -53,11 +54,11 @@ def stack_radiance(
     view_dir: ArrayLike,
     look: StackLook,
     mirror_footprint: ArrayLike | None = None,
+    facet: ArrayLike | None = None,
 ) -> Array:
     """Radiance of surface points: [Kautz2000] section 5.3; 0 where signed lobes sum to less.
 
-    Parameters and result are those of every kind's shading: see `core.kinds`. For normals that point away see
-    `facing_normal`.
+    Parameters and result are those of every kind's shading: see `core.kinds`.
 
     Raises
     ------
@@ -74,7 +75,7 @@ def stack_radiance(
     gpu_shaders/lobe_stack_frag.glsl; with half-float maps, within 2e-3 of the peak.
     """
     normal, view_dir = np.broadcast_arrays(np.asarray(normal, np.float64), np.asarray(view_dir, np.float64))
-    normal = facing_normal(normal, view_dir)
+    normal = seen_surface(normal, view_dir, facet).mirror_normal
     mirror_dir = reflect(view_dir, normal)
     below, share = stack.elevation(dot(normal, view_dir))
     across, up = footprint_sides(
@@ -103,33 +104,6 @@ def _mirrored(
             filtered = _map_lookup(stack, lobe, axes[..., tap, :], below, share)
             radiance += taps[..., tap, None] * scale * filtered
     return np.maximum(radiance, 0.0)
-
-
-def facing_normal(normal: ArrayLike, view_dir: ArrayLike) -> Array:
-    """Turn normals that point away from the eye to the horizon.
-
-    Parameters
-    ----------
-    normal, view_dir : array_like, shape (..., 3)
-        Unit vectors.
-
-    Returns
-    -------
-    ndarray, shape (..., 3)
-        Unit vectors with n.v of at least 0. Interpolated normals of a visible facet may point away, where a
-        mirror direction would lie inside the object.
-
-    Notes
-    -----
-    GLSL twin: gpu_shaders/lib/lobe_stack_lib.glsl `facing_normal`, 1e-6 except for normals within 1e-3 of
-    straight away, which have no nearest one.
-    """
-    normal, view_dir = np.asarray(normal), np.asarray(view_dir)
-    away = np.minimum(dot(normal, view_dir), 0.0)[..., None]
-    turned = normal - away * view_dir
-    length = np.linalg.norm(turned, axis=-1, keepdims=True)
-    facing: Array = turned / np.where(length > 0.0, length, 1.0)
-    return facing
 
 
 def _between(table: Array, below: Indices, above: Indices, share: Array) -> Array:

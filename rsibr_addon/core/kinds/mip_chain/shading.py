@@ -15,6 +15,7 @@ from ...conventions import Array, ArrayLike, Indices
 from ...errors import RangeError
 from ...filtering.irradiance import irradiance_matrix
 from ...geometry.directions import dot, reflect
+from ...geometry.sides import seen_surface
 from ...maps import cube_map
 from ...maps.representation import representation
 from ...options import Choice, Options, option
@@ -122,6 +123,7 @@ def mip_chain_radiance(
     view_dir: ArrayLike,
     look: MipLook,
     mirror_footprint: ArrayLike | None = None,
+    facet: ArrayLike | None = None,
 ) -> Array:
     """Radiance of surface points, not negative: [Kautz2004] Eq. 8.
 
@@ -137,10 +139,11 @@ def mip_chain_radiance(
     GLSL twin: gpu_shaders/mip_chain_frag.glsl.
     """
     normal, view_dir = np.broadcast_arrays(np.asarray(normal, np.float64), np.asarray(view_dir, np.float64))
-    cosine = np.clip(dot(normal, view_dir), 0.0, 1.0)
+    seen = seen_surface(normal, view_dir, facet)
+    cosine = np.clip(dot(seen.mirror_normal, view_dir), 0.0, 1.0)
     fresnel = fresnel_schlick(cosine[..., None], look.f0)
-    diffuse = diffuse_radiance(chain, normal, look.kd)
-    mirror_dir = reflect(view_dir, normal)
+    diffuse = diffuse_radiance(chain, seen.normal, look.kd)
+    mirror_dir = reflect(view_dir, seen.mirror_normal)
     corners = footprint_or_point(mirror_footprint if look.antialiased else None, mirror_dir)
     glossy = glossy_mean(chain, mirror_dir, corners, look.level(chain), look.borders)
     shaded: Array = (1.0 - fresnel) * diffuse + fresnel * glossy

@@ -19,6 +19,7 @@ from ...geometry.directions import camera_frame, dot, mirror_normal, reflect
 from ...geometry.disk_mesh import MARGIN, disk_mesh, interpolate
 from ...geometry.geodesic import barycentric_weights, find_triangle
 from ...geometry.reflection_warp import Warp, confidence, source_cosine, source_uv
+from ...geometry.sides import Seen, seen_surface
 from ...maps import sphere_map
 from ...options import Choice, Options, option
 from ...resample import bilinear
@@ -107,6 +108,7 @@ def views_fragment(
     view_dir: ArrayLike,
     warping: Warping,
     mirror_footprint: ArrayLike | None = None,
+    facet: ArrayLike | None = None,
 ) -> Array:
     """Radiance of surface points, each blended from the three views around its own view direction.
 
@@ -120,16 +122,17 @@ def views_fragment(
     lookups along each side, a texel apart. GLSL twin: gpu_shaders/views_fragment_frag.glsl.
     """
     normal, view_dir = np.broadcast_arrays(np.asarray(normal, np.float64), np.asarray(view_dir, np.float64))
-    by_normal, by_mirror = _warp_and_blend(views, normal, view_dir, warping)
+    seen = seen_surface(normal, view_dir, facet)
+    by_normal, _ = _warp_and_blend(views, seen.normal, view_dir, warping)
+    _, by_mirror = _warp_and_blend(views, seen.mirror_normal, view_dir, warping)
     if mirror_footprint is not None:
         by_mirror = np.zeros(normal.shape)
-        spread = _spread(mirror_footprint, reflect(view_dir, normal), views.size)
+        spread = _spread(mirror_footprint, reflect(view_dir, seen.mirror_normal), views.size)
         for chosen, direction, weight in spread:
             own_view = view_dir[chosen]
             shown = _warp_and_blend(views, mirror_normal(own_view, direction), own_view, warping)[1]
             by_mirror[chosen] += weight * shown
-    cosine, table = dot(normal, view_dir), _albedo(views, warping)
-    return by_normal * _at(table, Warp.NORMAL, cosine) + by_mirror * _at(table, Warp.MIRROR, cosine)
+    return _coloured(_albedo(views, warping), seen, view_dir, by_normal, by_mirror)
 
 
 def destination_by_texel(
@@ -193,6 +196,7 @@ def destination_lookup(
     normal: ArrayLike,
     view_dir: ArrayLike,
     mirror_footprint: ArrayLike | None = None,
+    facet: ArrayLike | None = None,
 ) -> Array:
     """Radiance of surface points, from the sphere map of one view; parameters as those of `views_fragment`.
 
@@ -204,15 +208,15 @@ def destination_lookup(
     ([Cabral1999] section 2); in an orthographic view that is the point of the normal itself.
     GLSL twin: gpu_shaders/views_destination_frag.glsl.
     """
-    normal_uv = sphere_map.uv_from_normal(np.asarray(normal) @ destination.frame)
-    mirror_dir, by_mirror = reflect(view_dir, normal), destination.by_mirror
+    seen = seen_surface(normal, view_dir, facet)
+    normal_uv = sphere_map.uv_from_normal(seen.normal @ destination.frame)
+    mirror_dir, by_mirror = reflect(view_dir, seen.mirror_normal), destination.by_mirror
     glossy = np.zeros(mirror_dir.shape)
     for chosen, direction, weight in _spread(mirror_footprint, mirror_dir, len(by_mirror)):
         mirror_uv = sphere_map.uv_from_direction(direction @ destination.frame)
         glossy[chosen] += weight * bilinear(by_mirror, mirror_uv, sphere_map.wrap)
-    cosine, table = dot(normal, view_dir), destination.albedo
     diffuse = bilinear(destination.by_normal, normal_uv, sphere_map.wrap)
-    return diffuse * _at(table, Warp.NORMAL, cosine) + glossy * _at(table, Warp.MIRROR, cosine)
+    return _coloured(destination.albedo, seen, np.asarray(view_dir), diffuse, glossy)
 
 
 def _spread(
@@ -263,6 +267,13 @@ def _blend(maps: Array, warp: Warp, table: Array, sources: Indices, seen: Array,
 def _albedo(views: RadianceViews, warping: Warping) -> Array:
     """The table to divide and multiply by; ones without albedo."""
     return views.albedo + LEAST_ALBEDO if warping is Warping.ALBEDO else np.ones((2, 1, 3))
+
+
+def _coloured(table: Array, seen: Seen, view_dir: Array, by_normal: Array, by_mirror: Array) -> Array:
+    """The sum of both parts, each times its albedo, shape (..., 3)."""
+    diffuse = by_normal * _at(table, Warp.NORMAL, dot(seen.normal, view_dir))
+    glossy: Array = by_mirror * _at(table, Warp.MIRROR, dot(seen.mirror_normal, view_dir))
+    return diffuse + glossy
 
 
 def _at(table: Array, warp: Warp, cosine: Array) -> Array:

@@ -10,6 +10,7 @@ from ...antialiased.summed_area import footprint_mean
 from ...conventions import Array, ArrayLike
 from ...errors import RangeError
 from ...geometry.directions import dot, reflect, refract
+from ...geometry.sides import Seen, seen_surface
 from ...maps import equirect, sphere_map
 from ...options import Choice, Options, option
 from ...resample import bilinear
@@ -79,16 +80,18 @@ class TablesLook(Options):
         return float(getattr(self, f"w_{role}")) if role in self.shown else 0.0
 
 
-def lookup_direction(role: Role, normal: ArrayLike, view_dir: ArrayLike, eta: float) -> Array:
+def lookup_direction(role: Role, seen: Seen, view_dir: ArrayLike, eta: float) -> Array:
     """The direction that a table is looked up by.
 
     Parameters
     ----------
     role : Role
-    normal, view_dir : array_like, shape (..., 3)
+    seen : Seen
+        The normals.
+    view_dir : array_like, shape (..., 3)
         Unit vectors in world coordinates.
     eta : float
-        See `ReflectionTables`; for REFRACTION.
+        See `ReflectionTables`; for REFRACTION. From the inside, light goes the other way.
 
     Returns
     -------
@@ -101,13 +104,13 @@ def lookup_direction(role: Role, normal: ArrayLike, view_dir: ArrayLike, eta: fl
     """
     match role:
         case Role.DIFFUSE:
-            return np.asarray(normal)
+            return seen.normal
         case Role.SPECULAR | Role.COAT:
-            return reflect(view_dir, normal)
+            return reflect(view_dir, seen.mirror_normal)
         case Role.RETRO:
             return np.asarray(view_dir)
         case Role.REFRACTION:
-            return refract(view_dir, normal, eta)
+            return refract(view_dir, seen.mirror_normal, np.where(seen.outside, eta, 1.0 / eta)[..., None])
 
 
 def reflect_tables(
@@ -116,6 +119,7 @@ def reflect_tables(
     view_dir: ArrayLike,
     look: TablesLook,
     mirror_footprint: ArrayLike | None = None,
+    facet: ArrayLike | None = None,
 ) -> Array:
     """Radiance of surface points: the sum over the tables of weight times table.
 
@@ -129,8 +133,9 @@ def reflect_tables(
     gpu_shaders/reflection_tables_frag.glsl.
     """
     normal, view_dir = np.broadcast_arrays(np.asarray(normal, np.float64), np.asarray(view_dir, np.float64))
-    corners = footprint_or_point(mirror_footprint, reflect(view_dir, normal))
-    cosine = dot(normal, view_dir)
+    seen = seen_surface(normal, view_dir, facet)
+    corners = footprint_or_point(mirror_footprint, reflect(view_dir, seen.mirror_normal))
+    cosine = dot(seen.mirror_normal, view_dir)
     radiance = np.zeros(normal.shape)
     for number, role in enumerate(Role):
         if role not in tables.maps or look.weight(role) == 0.0:
@@ -139,7 +144,7 @@ def reflect_tables(
         weight = look.weight(role) * bilinear(
             tables.weights, np.stack([cosine, row], axis=-1), sphere_map.wrap
         )
-        table, direction = tables.maps[role], lookup_direction(role, normal, view_dir, tables.eta)
+        table, direction = tables.maps[role], lookup_direction(role, seen, view_dir, tables.eta)
         if look.antialiased and role in MIRRORED:
             radiance += weight * footprint_mean(table, direction, corners)
         else:

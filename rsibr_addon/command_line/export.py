@@ -1,18 +1,42 @@
 """The command `rsibr export`."""
 
 import argparse
+from pathlib import Path
 from typing import Any
 
+from ..tasks.export.engines.engines import ENGINES
+from ..tasks.export.engines.settings import CubeSettings
 from ..tasks.export.formats import FORMATS
 from . import options
 from .console import Console
 
+OWNERS = {
+    **{name: each.settings for name, each in FORMATS.items()},
+    **dict.fromkeys(ENGINES, CubeSettings),
+}
+"""A format or an engine -> its options."""
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what `run` reads."""
-    options.add_map_set(parser)
-    options.add_options_of(parser, {name: each.settings for name, each in FORMATS.items()})
-    names = "|".join(f"OUT{each.suffix}" for each in FORMATS.values())
+    parser.add_argument(
+        "map_set",
+        metavar="NAME.rsibr.exr|PICTURE",
+        type=Path,
+        help="a map set; for an engine a mip chain, or a picture of an environment, OpenEXR or Radiance HDR",
+    )
+    uses = "; ".join(f"{name}, {each.use}" for name, each in ENGINES.items())
+    parser.add_argument(
+        "--for",
+        dest="engine",
+        metavar="ENGINE",
+        choices=list(ENGINES),
+        help=f"engine to write for, exactly what it loads, and what to do there: {uses} (default: none)",
+    )
+    options.add_options_of(parser, OWNERS)
+    suffixes = [each.suffix for each in FORMATS.values()]
+    endings = dict.fromkeys([*suffixes, *(name for each in ENGINES.values() for name in each.writers)])
+    names = "|".join(f"OUT{ending}" for ending in endings)
     options.add_output(parser, names, "the first file; its name tells the format")
 
 
@@ -27,13 +51,18 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     Raises
     ------
     RsibrError
-        See `tasks.export.export`.
+        See `tasks.export.export` and `tasks.export.engines.export`.
     """
+    from ..tasks.export.engines.export import export_for_engine
     from ..tasks.export.export import export, format_of
 
-    owners = {name: each.settings for name, each in FORMATS.items()}
-    settings = options.given_of(arguments, owners, format_of(arguments.output))
-    textures = console.steps(export(arguments.map_set, arguments.output, settings, arguments.force))
+    source, output, engine = arguments.map_set, arguments.output, arguments.engine
+    settings = options.given_of(arguments, OWNERS, engine or format_of(output))
+    if engine:
+        steps = export_for_engine(source, output, engine, settings, arguments.force)
+    else:
+        steps = export(source, output, settings, arguments.force)
+    textures = console.steps(steps)
     for texture in textures:
         console.say(f"{texture}")
     return {"textures": [str(texture) for texture in textures]}

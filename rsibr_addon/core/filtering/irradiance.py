@@ -92,6 +92,32 @@ def irradiance_from_harmonics(coefficients: ArrayLike, normal: ArrayLike) -> Arr
     return irradiance
 
 
+def diffuse_terms(coefficients: ArrayLike) -> Array:
+    """The nine coefficients of degree 2 as factors of products of the normal's components.
+
+    Parameters
+    ----------
+    coefficients : array_like, shape (9, channels)
+        Coefficients of `real_harmonics`.
+
+    Returns
+    -------
+    ndarray, shape (9, channels), float64
+        Factors of 1, y, z, x, xy, yz, 3 z^2 - 1, xz and x^2 - y^2, whose sum is the irradiance of
+        `irradiance_from_harmonics` over pi: what a white matte surface of normal (x, y, z) reflects.
+    """
+    # Each harmonic where its product is 1, or 2 for 3 z^2 - 1
+    s, t = np.sqrt(0.5), 1.0
+    where = np.array(
+        [[0, 0, t], [0, t, 0], [0, 0, t], [t, 0, 0], [s, s, 0], [0, s, s], [0, 0, t], [s, 0, s], [t, 0, 0]]
+    )
+    product = np.array([1.0, 1.0, 1.0, 1.0, 0.5, 0.5, 2.0, 0.5, 1.0])
+    basis = np.einsum("kk->k", real_harmonics(where, 2)) / product
+    a = np.repeat(zonal_coefficients(cosine_lobe(), 2), [1, 3, 5]) / np.pi
+    terms: Array = (a * basis)[:, None] * np.asarray(coefficients, dtype=np.float64)
+    return terms
+
+
 def irradiance_matrix(coefficients: ArrayLike) -> Array:
     """The nine coefficients of degree 2 as quadratic forms of the normal.
 

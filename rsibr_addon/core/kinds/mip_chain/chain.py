@@ -119,15 +119,22 @@ def check_size(size: int, count: int) -> None:
         )
 
 
-def check_roughness(roughness: tuple[float, ...]) -> None:
+def check_roughness(roughness: tuple[float, ...], repeated: bool = False) -> None:
     """Refuse roughnesses that no lookup can interpolate.
+
+    Parameters
+    ----------
+    roughness : tuple of float
+    repeated : bool
+        Whether several mips may have the same.
 
     Raises
     ------
     RangeError
         They are not ascending numbers in [0, 1].
     """
-    if not all(0.0 <= r <= 1.0 for r in roughness) or np.any(np.diff(roughness) <= 0.0):
+    steps = np.diff(roughness)
+    if not all(0.0 <= r <= 1.0 for r in roughness) or np.any(steps < 0.0 if repeated else steps <= 0.0):
         raise RangeError(
             f"Roughnesses {', '.join(f'{r:g}' for r in roughness)} do not ascend from 0 to 1: order them."
         )

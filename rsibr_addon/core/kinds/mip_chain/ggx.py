@@ -82,7 +82,8 @@ def ggx_mips(radiance: Array, size: int, roughness: Sequence[float]) -> Iterator
     size : int
         Width of the first mip's faces in texels, a power of 2.
     roughness : sequence of float
-        Roughness of each mip, ascending in [0, 1]. A mip of roughness 0 shows the environment itself.
+        Roughness of each mip, ascending or equal in [0, 1]. A mip of roughness 0 shows the environment
+        itself.
 
     Yields
     ------
@@ -101,7 +102,7 @@ def ggx_mips(radiance: Array, size: int, roughness: Sequence[float]) -> Iterator
     lobe is interpolated first, as a mip of roughness 0 shows it.
     """
     check_size(size, len(roughness))
-    check_roughness(tuple(roughness))
+    check_roughness(tuple(roughness), repeated=True)
     lobes = {}
     for mip, r in enumerate(roughness):
         if r > 0.0:

@@ -1,0 +1,33 @@
+"""Bevy: two KTX 2.0 cubes, of specular and of diffuse light."""
+
+from pathlib import Path
+
+from ....core.kinds.mip_chain.ggx import linear_roughness
+from ....files.ktx2 import write_ktx2
+from ....files.textures import Texture
+from .engine import MIRRORED_Z, Y_UP, Engine, EngineLight, mips_down_to
+
+LAST = 8
+"""Width of the last mip: four texels to a quarter turn hold the widest lobe."""
+
+
+def write(light: EngineLight, output: Path, force: bool) -> list[Path]:
+    """Write NAME-specular.ktx2 and NAME-diffuse.ktx2: see `Engine.writers`."""
+    assert light.diffuse is not None
+    written = []
+    for part, mips in (("specular", light.mips), ("diffuse", (light.diffuse,))):
+        path = output.with_stem(f"{output.stem}-{part}")
+        write_ktx2(path, Texture(mips, is_cube=True), {"KTXwriter": light.software}, force)
+        written.append(path)
+    return written
+
+
+ENGINE = Engine(
+    label="Bevy",
+    use="give NAME-specular.ktx2 and NAME-diffuse.ktx2 to EnvironmentMapLight, the first to Skybox too",
+    axes=MIRRORED_Z @ Y_UP,
+    roughness=lambda size: linear_roughness(mips_down_to(size, LAST)),
+    least=2 * LAST,
+    writers={".ktx2": write},
+    diffuse=32,
+)

@@ -1,0 +1,109 @@
+"""What an engine takes, and the light as it takes it."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from ....core.conventions import Array
+from ....core.warned import warn
+
+Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
+"""Directions of glTF and of engines with Y up, from Blender's."""
+
+MIRRORED_X = np.diag([-1.0, 1.0, 1.0])
+"""For engines that look cubes up by (-x, y, z)."""
+
+MIRRORED_Z = np.diag([1.0, 1.0, -1.0])
+"""For engines that look cubes up by (x, y, -z)."""
+
+
+@dataclass(frozen=True)
+class EngineLight:
+    """Light as an engine takes it.
+
+    Attributes
+    ----------
+    name : str
+        The environment's.
+    software : str
+        What made it, in words.
+    mips : tuple of ndarray, shape (6, n, n, 3), float32
+        Radiance on the faces of `core.maps.cube_map`, in the axes of the engine's texture.
+    diffuse : ndarray, shape (6, n, n, 3), float32, or None
+        Irradiance over pi, likewise; None where the engine takes none.
+    harmonics : ndarray, shape (9, 3), float64
+        Coefficients of radiance in the order of `core.filtering.irradiance.real_harmonics`, likewise.
+    """
+
+    name: str
+    software: str
+    mips: tuple[Array, ...]
+    diffuse: Array | None
+    harmonics: Array
+
+
+Write = Callable[[EngineLight, Path, bool], list[Path]]
+"""Light, the output, and whether existing files are replaced, to the files that were written."""
+
+
+@dataclass(frozen=True)
+class Engine:
+    """A preset.
+
+    Attributes
+    ----------
+    label : str
+        The engine's own name.
+    use : str
+        What to do with the file there, as a phrase in one line.
+    axes : ndarray, shape (3, 3)
+        Directions by which the engine's textures are looked up, from Blender's; may mirror.
+    roughness : callable
+        Width of the first mip to the roughness of each mip: see `core.kinds.mip_chain.ggx`.
+    least : int
+        Smallest width of the first mip.
+    writers : mapping of str to callable
+        Ending of a file's name, in small letters, -> what writes the file.
+    diffuse : int
+        Width of the cube of diffuse light that it takes; 0 for none.
+    """
+
+    label: str
+    use: str
+    axes: Array
+    roughness: Callable[[int], tuple[float, ...]]
+    least: int
+    writers: Mapping[str, Write] = field(default_factory=dict)
+    diffuse: int = 0
+
+
+def mips_down_to(size: int, last: int) -> int:
+    """Number of mips from faces of `size` texels to faces of `last`; both are powers of 2."""
+    return (size // last).bit_length()
+
+
+def within(mips: tuple[Array, ...], largest: float, name: str, encoding: str) -> tuple[Array, ...]:
+    """The mips, with what an encoding cannot hold cut to its largest value.
+
+    Parameters
+    ----------
+    mips : tuple of ndarray
+    largest : float
+    name, encoding : str
+        The light and the encoding in words.
+
+    Warns
+    -----
+    RsibrWarning
+        Something was cut.
+    """
+    brightest = max(float(faces.max()) for faces in mips)
+    if brightest <= largest:
+        return mips
+    warn(
+        f"{name} has radiance up to {brightest:g}, and {encoding} ends at {largest:g}: what is brighter is "
+        f"cut, so clamp the environment, or make its sun a lamp."
+    )
+    return tuple(np.minimum(faces, np.float32(largest)) for faces in mips)

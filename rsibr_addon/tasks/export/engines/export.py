@@ -1,0 +1,111 @@
+"""The light of a mip chain or of a picture, filtered by an engine's own rule and written for it."""
+
+from pathlib import Path
+
+import numpy as np
+
+from ....core.conventions import Array
+from ....core.errors import OutputFileError, RangeError
+from ....core.filtering.harmonics.analysis import analyse_environment
+from ....core.filtering.irradiance import turned_harmonics
+from ....core.kinds.mip_chain.ggx import ggx_mips
+from ....core.maps import cube_map
+from ....core.progress import Progress, Steps
+from ....files.kinds import environment, mip_chain
+from ....files.kinds.registry import STORED
+from ....files.map_set import read_map_set
+from ....files.map_set_data import MapSet
+from ....files.outputs import together
+from ....files.version import rsibr
+from .engine import Engine, EngineLight, Write
+from .engines import ENGINES
+from .settings import CubeSettings
+
+SIZE = 256
+"""Width of the first mip of a picture's cube."""
+
+ROUGHEST = (1.0,)
+"""The lobe of this roughness is the cosine over pi, so that its mip is the diffuse light."""
+
+
+def export_for_engine(
+    source: Path, output: Path, name: str, settings: CubeSettings | None = None, force: bool = False
+) -> Steps[list[Path]]:
+    """Write light for an engine, into one file or several; all files appear, or none.
+
+    Parameters
+    ----------
+    source : Path
+        A mip chain, whose environment is filtered again by the engine's rule; or a picture of an environment.
+    output : Path
+        Its suffix is one of the engine's.
+    name : str
+        The engine, one of `ENGINES`.
+
+    Raises
+    ------
+    MapSetError, InputFileError
+        The source cannot be read, or does not hold its environment.
+    RangeError
+        It is of another kind, or too small for the engine.
+    OutputFileError
+        The name is not one of the engine's, or a file exists.
+
+    Warns
+    -----
+    RsibrWarning
+        Something is brighter than the engine's texels can be.
+    """
+    engine = ENGINES[name]
+    write = _writer(engine, output)
+    yield Progress(0, 1, f"reading {source.name}")
+    held = _read(source, engine)
+    light = environment.from_map_set(source, held)
+    size = (settings or CubeSettings()).size or _size_of(source, held)
+    if size < engine.least:
+        raise RangeError(
+            f"{engine.label} takes cubes from {engine.least} texels on, not of {size}: enlarge it."
+        )
+    roughness = engine.roughness(size)
+    mips = []
+    filtering = ggx_mips(light.radiance, size, roughness)
+    for number in range(len(roughness)):
+        yield Progress(1 + number, len(roughness) + 2, f"filtering mip {number} for {engine.label}")
+        mips.append(_turned(next(filtering).faces, engine))
+    diffuse = None
+    if engine.diffuse:
+        diffuse = _turned(next(ggx_mips(light.radiance, engine.diffuse, ROUGHEST)).faces, engine)
+    harmonics = turned_harmonics(analyse_environment(light.radiance, 2).real(2), engine.axes)
+    yield Progress(len(roughness) + 1, len(roughness) + 2, f"writing {output.name}")
+    with together():
+        return write(EngineLight(light.name, rsibr(), tuple(mips), diffuse, harmonics), output, force)
+
+
+def _writer(engine: Engine, output: Path) -> Write:
+    if output.suffix.lower() not in engine.writers:
+        known = " or ".join(engine.writers)
+        raise OutputFileError(
+            f"{output} does not end in {known}, as {engine.label} wants: give a name that does."
+        )
+    return engine.writers[output.suffix.lower()]
+
+
+def _read(source: Path, engine: Engine) -> MapSet:
+    if environment.is_environment(source):
+        return environment.read_as_map_set(source)
+    held = read_map_set(source)
+    if held.kind != mip_chain.KIND:
+        of, wanted = (STORED[kind].settings.LABEL for kind in (held.kind, mip_chain.KIND))
+        raise RangeError(
+            f"{source} is of the kind {of}, which {engine.label} cannot take: give one of the kind {wanted}, "
+            f"or the picture of its environment."
+        )
+    return held
+
+
+def _size_of(source: Path, held: MapSet) -> int:
+    return SIZE if held.kind == environment.KIND else mip_chain.from_map_set(source, held).size
+
+
+def _turned(faces: Array, engine: Engine) -> Array:
+    return cube_map.turned(faces.astype(np.float32), engine.axes)

@@ -1,0 +1,35 @@
+"""Filament: KTX 1 as its tool cmgen writes it, with the irradiance as a text, and a sky beside."""
+
+from pathlib import Path
+
+from ....core.filtering.irradiance import diffuse_terms
+from ....core.kinds.mip_chain.ggx import quadratic_roughness
+from ....core.packed_floats import LARGEST
+from ....files.ktx1 import write_ktx1
+from .engine import Y_UP, Engine, EngineLight, mips_down_to, within
+
+LAST = 16
+"""Width of the last mip, which cmgen ends at."""
+
+
+def write(light: EngineLight, output: Path, force: bool) -> list[Path]:
+    """Write NAME_ibl.ktx and NAME_skybox.ktx: see `Engine.writers`."""
+    mips = within(light.mips, LARGEST, light.name, "R11F_G11F_B10F")
+    # Rows of the text are terms, its columns colours
+    terms = "".join(
+        " ".join(f"{value:.6g}" for value in row) + "\n" for row in diffuse_terms(light.harmonics)
+    )
+    lit, sky = (output.with_stem(f"{output.stem}_{part}") for part in ("ibl", "skybox"))
+    write_ktx1(lit, mips, {"sh": terms}, force)
+    write_ktx1(sky, mips[:1], {}, force)
+    return [lit, sky]
+
+
+ENGINE = Engine(
+    label="Filament",
+    use="load NAME_ibl.ktx and NAME_skybox.ktx with ktxreader::Ktx1Reader, or KTX1Loader on Android",
+    axes=Y_UP,
+    roughness=lambda size: quadratic_roughness(mips_down_to(size, LAST)),
+    least=2 * LAST,
+    writers={".ktx": write},
+)

@@ -124,8 +124,8 @@ OF_KINDS = (
     "tasks/compare/*",
     "tasks/export/engines/*",
 )
-"""Modules below rsibr_addon that may know a kind of map sets: each kind's own, the registries, and what is for
-engines, which take mip chains alone."""
+"""Modules below rsibr_addon that may know a kind of map sets: each kind's own, the registries, and engines,
+which take mip chains alone."""
 
 EXCEPTIONS = {
     "operators/bake_kinds": "has the operators' names of version 0.1",

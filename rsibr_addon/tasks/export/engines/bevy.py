@@ -12,19 +12,17 @@ LAST = 8
 
 
 def write(light: EngineLight, output: Path, force: bool) -> list[Path]:
-    """Write NAME-specular.ktx2 and NAME-diffuse.ktx2: see `Engine.writers`."""
+    """Write NAME.ktx2 and NAME-diffuse.ktx2: see `Engine.writers`."""
     assert light.diffuse is not None
-    written = []
-    for part, mips in (("specular", light.mips), ("diffuse", (light.diffuse,))):
-        path = output.with_stem(f"{output.stem}-{part}")
+    diffuse = output.with_stem(f"{output.stem}-diffuse")
+    for path, mips in ((output, light.mips), (diffuse, (light.diffuse,))):
         write_ktx2(path, Texture(mips, is_cube=True), {"KTXwriter": light.software}, force)
-        written.append(path)
-    return written
+    return [output, diffuse]
 
 
 ENGINE = Engine(
     label="Bevy",
-    use="give NAME-specular.ktx2 and NAME-diffuse.ktx2 to EnvironmentMapLight, the first to Skybox too",
+    use="give NAME.ktx2 to EnvironmentMapLight as specular_map and to Skybox, NAME-diffuse.ktx2 as diffuse_map",
     axes=MIRRORED_Z @ Y_UP,
     roughness=lambda size: linear_roughness(mips_down_to(size, LAST)),
     least=2 * LAST,

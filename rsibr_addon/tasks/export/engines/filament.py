@@ -13,21 +13,21 @@ LAST = 16
 
 
 def write(light: EngineLight, output: Path, force: bool) -> list[Path]:
-    """Write NAME_ibl.ktx and NAME_skybox.ktx: see `Engine.writers`."""
+    """Write NAME.ktx and NAME-skybox.ktx: see `Engine.writers`."""
     mips = within(light.mips, LARGEST, light.name, "R11F_G11F_B10F")
     # Rows of the text are terms, its columns colours
     terms = "".join(
         " ".join(f"{value:.6g}" for value in row) + "\n" for row in diffuse_terms(light.harmonics)
     )
-    lit, sky = (output.with_stem(f"{output.stem}_{part}") for part in ("ibl", "skybox"))
-    write_ktx1(lit, mips, {"sh": terms}, force)
+    sky = output.with_stem(f"{output.stem}-skybox")
+    write_ktx1(output, mips, {"sh": terms}, force)
     write_ktx1(sky, mips[:1], {}, force)
-    return [lit, sky]
+    return [output, sky]
 
 
 ENGINE = Engine(
     label="Filament",
-    use="load NAME_ibl.ktx and NAME_skybox.ktx with ktxreader::Ktx1Reader, or KTX1Loader on Android",
+    use="load NAME.ktx and NAME-skybox.ktx with ktxreader::Ktx1Reader, or KTX1Loader on Android",
     axes=Y_UP,
     roughness=lambda size: quadratic_roughness(mips_down_to(size, LAST)),
     least=2 * LAST,

@@ -22,7 +22,7 @@ def write(light: EngineLight, output: Path, force: bool) -> list[Path]:
 
 ENGINE = Engine(
     label="Bevy",
-    use="give NAME.ktx2 to EnvironmentMapLight as specular_map and to Skybox, NAME-diffuse.ktx2 as diffuse_map",
+    use="give EnvironmentMapLight NAME.ktx2 as specular_map, NAME-diffuse.ktx2 as diffuse_map",
     axes=MIRRORED_Z @ Y_UP,
     roughness=lambda size: linear_roughness(mips_down_to(size, LAST)),
     least=2 * LAST,

@@ -6,8 +6,8 @@ from typing import Any
 
 import bpy
 
-UNSTEADY = {"rna_type", "pixels", "has_data"}
-"""Properties left out: an image's pixels are many, and looking at an image loads it."""
+UNSTEADY = {"rna_type", "pixels", "has_data", "tag"}
+"""Properties left out: an image's pixels are many, looking at an image loads it, tags are Blender's."""
 
 DEPTH = 3
 """Of structs within structs that are looked into: scene.render.image_settings.file_format."""

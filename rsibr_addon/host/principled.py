@@ -1,5 +1,7 @@
 """Principled materials described: what of their nodes is a constant or an image, and what is not shown."""
 
+from typing import Any
+
 import bpy
 
 from ..core.errors import SceneError
@@ -27,6 +29,9 @@ INPUTS = {
     "alpha": "Alpha",
 }
 """Field of `PrincipledInputs`, and of `core.brdf.principled.Principled` -> input of Blender's node."""
+
+NORMAL_INPUTS = {"normal": "Normal", "coat_normal": "Coat Normal"}
+"""The same for normals."""
 
 MISSING = {
     "Transmission Weight": "transmission",
@@ -64,13 +69,13 @@ def principled(material: bpy.types.Material) -> PrincipledInputs:
         raise SceneError(
             f"The surface of material {material.name} is made by {node.name}: link a Principled BSDF alone."
         )
-    shading: dict[str, Shading] = {
-        field: _shading(node.inputs[name], groups) for field, name in INPUTS.items()
+    shading: dict[str, Any] = {field: _shading(node.inputs[name], groups) for field, name in INPUTS.items()}
+    normals: dict[str, Any] = {
+        field: _normal(node.inputs[name], groups) for field, name in NORMAL_INPUTS.items()
     }
     return PrincipledInputs(
         **shading,
-        normal=_normal(node.inputs["Normal"], groups),
-        coat_normal=_normal(node.inputs["Coat Normal"], groups),
+        **normals,
         missing=_missing(output, node, groups),
     )
 

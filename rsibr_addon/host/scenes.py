@@ -31,6 +31,21 @@ def find_scene(name: str | None) -> bpy.types.Scene:
     return bpy.data.scenes[name]
 
 
+def find_object(name: str) -> bpy.types.Object:
+    """An object of the open file.
+
+    Raises
+    ------
+    SceneError
+        There is none of that name.
+    """
+    found = bpy.data.objects.get(name)
+    if found is None:
+        near = did_you_mean(name, [item.name for item in bpy.data.objects])
+        raise SceneError(f"This file holds no object {name}{near}: check the name.")
+    return found
+
+
 @contextlib.contextmanager
 def temporary_scene() -> Iterator[bpy.types.Scene]:
     """Work in a new, empty scene; afterwards the file is as it was, also when something is raised.

@@ -76,12 +76,12 @@ def shape_dependence(material: bpy.types.Material) -> list[str]:
     reasons = [
         f"it has a {name.lower()}" for name in ("Volume", "Displacement") if output.inputs[name].is_linked
     ]
-    for socket in _outputs_behind([output.inputs["Surface"]], set()):
+    for socket in outputs_behind([output.inputs["Surface"]], set()):
         reasons += [f"{reason} (node {socket.node.label or socket.node.name})" for reason in _reasons(socket)]
     return list(dict.fromkeys(reasons))
 
 
-def _outputs_behind(inputs: list[bpy.types.NodeSocket], seen: set[int]) -> Iterator[bpy.types.NodeSocket]:
+def outputs_behind(inputs: list[bpy.types.NodeSocket], seen: set[int]) -> Iterator[bpy.types.NodeSocket]:
     """Every node output that can reach one of `inputs`, also within groups."""
     for link in (link for socket in inputs for link in socket.links if not link.is_muted):
         socket = link.from_socket
@@ -89,8 +89,8 @@ def _outputs_behind(inputs: list[bpy.types.NodeSocket], seen: set[int]) -> Itera
             continue
         seen.add(socket.as_pointer())
         yield socket
-        yield from _outputs_behind(_group_inputs(socket), seen)
-        yield from _outputs_behind([each for each in socket.node.inputs if not each.is_unavailable], seen)
+        yield from outputs_behind(_group_inputs(socket), seen)
+        yield from outputs_behind([each for each in socket.node.inputs if not each.is_unavailable], seen)
 
 
 def _group_inputs(socket: bpy.types.NodeSocket) -> list[bpy.types.NodeSocket]:

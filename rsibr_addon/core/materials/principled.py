@@ -24,17 +24,19 @@ class Texture:
     Attributes
     ----------
     image : str
-        Name of the image.
+        Name of the image; of a bake, that of its picture.
     library : str
         File that it is linked from; empty for an image of the open file.
     uv_map : str
-        Name of the UV map; empty for the one that the mesh renders with.
+        Name of the UV map, or of a bake's own unwrapping; empty for the one that the mesh renders with.
     mapping : Affine
         From the UV map to the image, whose lower left corner is (0, 0) and upper right one (1, 1).
     extension : {"REPEAT", "EXTEND", "CLIP", "MIRROR"}
         What lies outside of the image.
     closest : bool
         Whether a texel is one colour all over; bilinear otherwise.
+    bake : str
+        File of baked inputs that it is a picture of (`files.baked_inputs`); empty for an image of Blender's.
     """
 
     image: str
@@ -43,6 +45,7 @@ class Texture:
     mapping: Affine = IDENTITY
     extension: Extension = "REPEAT"
     closest: bool = False
+    bake: str = ""
 
 
 @dataclass(frozen=True)

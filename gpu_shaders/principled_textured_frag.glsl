@@ -6,8 +6,8 @@
 
 void main()
 {
-  Seen seen = seen_surface(draw.eye, draw.model, world_position, world_normal, gl_FrontFacing);
   sample_textures();
+  Seen seen = seen_surface(draw.eye, draw.model, world_position, shading_normal(), gl_FrontFacing);
   float alpha = clamp(number_of(ALPHA), 0.0, 1.0);
   Surface surface = Surface(color_of(BASE_COLOR),
                             number_of(METALLIC),

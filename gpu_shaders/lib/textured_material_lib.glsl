@@ -1,7 +1,13 @@
 // Twin of rsibr_addon/core/materials: the inputs of a material at a fragment, from its textures' texels. The
 // uniform block `material` and the textures `image_0` to `image_7` are those of device/textured_materials.py.
+#include "lib/directions_lib.glsl"
+#include "lib/shading_normal_lib.glsl"
 
 const int TEXTURES = 8;
+
+// Bits of what changes the normal.
+const int NORMAL_MAPPED = 1;
+const int BUMPED = 2;
 
 // Numbers of the block, in the order of device/textured_materials.py `NUMBERS`.
 const int BASE_COLOR = 0;
@@ -81,4 +87,49 @@ float number_of(int row)
 vec3 color_of(int row)
 {
   return vec3(number_of(row), number_of(row + 1), number_of(row + 2));
+}
+
+// How much higher a pixel's neighbours on the right and above are, by the slope of the first texture's texels: of
+// the four around a point where that is magnified, else of four a texel of its mip apart.
+vec2 height_rises()
+{
+  vec2 place = texture_place(0);
+  vec2 size = vec2(textureSize(image_0, 0));
+  vec2 right = dFdx(place);
+  vec2 above = dFdy(place);
+  float span = max(max(length(right * size), length(above * size)), 1.0);
+  vec2 texel = place * size - 0.5;
+  vec2 low = (span > 1.0) ? texel - 0.5 * span : floor(texel);
+  vec2 share = (texel - low) / span;
+  float level = log2(span);
+  vec4 row = material.rows[BUMP_HEIGHT];
+  vec2 near = (low + 0.5) / size;
+  vec2 far = (low + 0.5 + span) / size;
+  float h00 = dot(row, textureLod(image_0, near, level));
+  float h10 = dot(row, textureLod(image_0, vec2(far.x, near.y), level));
+  float h01 = dot(row, textureLod(image_0, vec2(near.x, far.y), level));
+  float h11 = dot(row, textureLod(image_0, far, level));
+  vec2 slope = vec2(mix(h10 - h00, h11 - h01, share.y), mix(h01 - h00, h11 - h10, share.x)) * size / span;
+  return vec2(dot(slope, right), dot(slope, above));
+}
+
+// The unit normal that the material is shaded with, in the map set's world.
+vec3 shading_normal()
+{
+  int changes = int(material.counts.y);
+  vec3 normal = normalize(world_normal);
+  if ((changes & NORMAL_MAPPED) != 0) {
+    vec3 mapped = mapped_normal(
+        color_of(NORMAL_COLOR), number_of(NORMAL_STRENGTH), object_normal, object_tangent);
+    normal = normalize(mat3(draw.turn) * transformed_normal(mat3(draw.model), mapped));
+  }
+  if ((changes & BUMPED) != 0) {
+    vec3 right = dFdx(world_position);
+    vec3 above = dFdy(world_position);
+    // Steps near 1: squares of those of a close view would vanish in single precision
+    float scale = 1.0 / max(max(length(right), length(above)), 1e-30);
+    vec2 rises = scale * number_of(BUMP_DISTANCE) * height_rises();
+    normal = bumped_normal(normal, scale * right, scale * above, rises, number_of(BUMP_STRENGTH));
+  }
+  return normal;
 }

@@ -205,8 +205,10 @@ def _inputs(inputs: PrincipledInputs) -> Iterator[Input]:
     """
     bump = _bump(inputs)
     flat = bump.normal or NormalMap(_BLACK, _ZERO)
+    steps = bump.height.texture is not None and bump.height.texture.closest
+    height = _ZERO if steps else bump.height  # within a texel it is flat
     values = (getattr(inputs, name) for name in INPUTS)
-    for value in (*values, flat.color, flat.strength, bump.height, bump.strength, _signed_distance(bump)):
+    for value in (*values, flat.color, flat.strength, height, bump.strength, _signed_distance(bump)):
         if not isinstance(value, Input):
             raise ShapeError(
                 f"An input of the material is still to be baked ({value.reason}): bake it first."

@@ -8,9 +8,19 @@ import pytest
 from rsibr.rsibr_addon.core.brdf.principled import Surface
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.errors import ShapeError
+from rsibr.rsibr_addon.core.geometry.directions import transformed_normal
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import principled_radiance
-from rsibr.rsibr_addon.core.materials.principled import Baked, Input, PrincipledInputs, Texture
-from rsibr.rsibr_addon.core.materials.surfaces import surface_at
+from rsibr.rsibr_addon.core.materials.normals import SurfacePoints, bumped_normal, shading_normal
+from rsibr.rsibr_addon.core.materials.principled import (
+    Baked,
+    Bump,
+    Input,
+    Normal,
+    NormalMap,
+    PrincipledInputs,
+    Texture,
+)
+from rsibr.rsibr_addon.core.materials.surfaces import surface_at, value_at
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.drawing import Draw, GpuMesh
@@ -87,12 +97,15 @@ def drawn(content: GpuPyramid, mesh: GpuMesh, look: object, draw: Draw = FROM_AB
 
 
 def square(uv: np.ndarray = UV, slots: tuple[int, int] = (0, 0), **more: object) -> GpuTexturedMesh:
+    more = {"uv_maps": ("UVMap",), **more}
     return GpuTexturedMesh(SQUARE, np.tile(UP, (4, 1)), TRIANGLES, np.array(slots), uv, **more)
 
 
-def reference(surface: Surface) -> np.ndarray:
-    view_dir = np.broadcast_to(FROM_ABOVE.eye[:3], (SIZE * SIZE, 3))
-    normal = np.broadcast_to(UP, view_dir.shape)
+def reference(
+    surface: Surface, normal: np.ndarray = UP, view_dir: np.ndarray = FROM_ABOVE.eye[:3]
+) -> np.ndarray:
+    view_dir = np.broadcast_to(view_dir, (SIZE * SIZE, 3))
+    normal = np.broadcast_to(normal, view_dir.shape)
     return principled_radiance(pyramid(), families(), surface, normal, view_dir).reshape(SIZE, SIZE, 3)
 
 
@@ -140,6 +153,55 @@ def test_a_picture_is_what_the_reference_says(content: GpuPyramid, extension: st
     wrong = np.abs(picture[..., :3] - expected).max(axis=-1) > 4e-3 * expected.max()
     # What lies on an edge between texels may be on either side of it
     assert np.count_nonzero(wrong) <= (0.02 * SIZE**2 if closest or extension == "CLIP" else 0)
+
+
+HEIGHT = Texture("height", mapping=(1.3, 0.2, 0.1, -0.3, 0.9, 0.2))
+MAP = Texture("normal", mapping=(0.8, -0.2, 0.1, 0.3, 0.7, 0.2), extension="MIRROR")
+TANGENT = np.array([0.8, 0.6, 0.0, -1.0])
+NORMAL_MAP = NormalMap(Input(COLOR, MAP), constants(0.7))
+BUMP = Bump(Input(rows((0.2, 0.5, 0, 0, 0)), HEIGHT), constants(0.8), constants(0.3), invert=True)
+TURN = np.array([[0.0, 1, 0], [-1, 0, 0], [0, 0, 1]])
+
+
+@pytest.mark.parametrize("normal", [NORMAL_MAP, BUMP, replace(BUMP, normal=NORMAL_MAP)])
+@pytest.mark.parametrize("turned", [False, True])
+def test_normals_are_what_the_reference_says(content: GpuPyramid, normal: Normal, turned: bool) -> None:
+    """Of an object that is turned and stretched, or in a world that is turned."""
+    model, turn = np.eye(4), np.eye(3)
+    if turned:
+        model[:3, :3] = [[2.0, -1.0, 0.0], [0.8, 1.6, 0.0], [0.3, 0.2, 1.0]]
+        turn = TURN
+    of_map, of_height = texels(4, 3, 4), texels(5)
+    of_map[..., 2] = 0.9
+    images = {MAP: of_map, HEIGHT: of_height}
+    inputs = replace(PLAIN, normal=normal, metallic=constants(1.0), roughness=constants(0.6))
+    textures = {texture: buffers.texture(values) for texture, values in images.items()}
+    draw = replace(FROM_ABOVE, model=model, turn=turn)
+    mesh = square(tangents=np.tile(TANGENT, (4, 1)))
+    picture = drawn(content, mesh, OwnMaterials((DrawnMaterial(inputs, textures),), antialiased=False), draw)
+
+    to_object = np.linalg.inv(model[:2, :2])
+    place = (2.0 * texel_centres(SIZE, SIZE).reshape(-1, 2) - 1.0) @ to_object.T
+    steps = np.broadcast_to(2.0 / SIZE * to_object.T[:, None], (2, len(place), 2))
+    points = SurfacePoints(
+        np.broadcast_to(UP, (len(place), 3)),
+        np.broadcast_to(TANGENT, (len(place), 4)),
+        {"": 0.5 + 0.5 * place},
+        np.concatenate([steps, np.zeros((2, len(place), 1))], axis=-1) @ model[:3, :3].T,
+        {"": 0.5 * steps},
+    )
+    below = normal if isinstance(normal, NormalMap) else normal.normal
+    shown = transformed_normal(model[:3, :3], shading_normal(below, images, points))
+    shown /= np.linalg.norm(shown, axis=-1, keepdims=True)
+    if isinstance(normal, Bump):
+        uv = [{"": points.uv[""] + 0.1 * step} for step in points.uv_steps[""]]
+        here = value_at(normal.height, images, points.uv)
+        rises = [-0.3 * (value_at(normal.height, images, moved) - here) / 0.1 for moved in uv]
+        shown = bumped_normal(shown, points.position_steps, rises, np.full((len(place), 1), 0.8))
+    expected = reference(Surface(metallic=1.0, roughness=0.6), shown @ turn.T, draw.view_dir)
+    wrong = np.abs(picture[..., :3] - expected).max(axis=-1) > 0.01 * expected.max()
+    # Where a tenth of a pixel crosses a line between texels, a bump's slope is another
+    assert np.count_nonzero(wrong) <= (0.15 * SIZE**2 if isinstance(normal, Bump) else 0)
 
 
 def test_each_slot_has_its_own_material(content: GpuPyramid) -> None:

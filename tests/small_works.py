@@ -48,6 +48,7 @@ def works(sources: Path) -> dict[str, tuple[str, ...]]:
         "ggx.rsibr.exr": ("mips", *light, "--filter", "ggx", "--size", "32"),
         "tables.rsibr.exr": ("tables", *light, "--material", "varnished"),
         "bank.rsibr.exr": ("bank", *light, "--size", "64"),
+        "pyramid.rsibr.exr": ("bake", "kernel-pyramid", *light, "--size", "128"),
         "stack.rsibr.exr": ("bake", *light, "--fit", str(sources / "fit.json")),
         "half.rsibr.exr": ("bake", *light, "--fit", str(sources / "fit.json"), "--half"),
         "single.json": (*fit, "single"),

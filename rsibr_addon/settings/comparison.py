@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from ..core.errors import RangeError
 from ..core.options import option
 from .drawing import SceneOptions
 
@@ -21,3 +22,21 @@ class ComparisonOptions(SceneOptions):
         most=2**16,
     )
     seed: int = option(0, label="Seed", help="Seed of all random numbers", least=0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ExactComparison(ComparisonOptions):
+    """How maps are compared with a reflectance model itself."""
+
+    rings: int | None = option(
+        None,
+        label="Rings",
+        help="Rings of a sphere on which reflection is integrated exactly",
+        least=4,
+        none="as the highlights are fine",
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.perspective is not None:
+            raise RangeError("Exact references are orthographic: leave the perspective out.")

@@ -3,7 +3,9 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ..core.kinds.kernel_pyramid.look import PrincipledMaterial
 from ..core.options import option
+from .comparison import ExactComparison
 from .method import MethodSettings
 
 
@@ -27,3 +29,8 @@ class KernelPyramidSettings(MethodSettings):
         draft=512,
         final=2048,
     )
+
+
+@dataclass(frozen=True, kw_only=True)
+class PyramidComparison(ExactComparison, PrincipledMaterial):
+    """How one material, shaded from a pyramid, is compared with its reflectance model."""

@@ -6,7 +6,7 @@ from typing import Any, ClassVar
 from ..core.errors import RangeError
 from ..core.kinds.lobe_stack.stack import LARGEST
 from ..core.options import Choice, declared_options, option
-from .comparison import ComparisonOptions
+from .comparison import ExactComparison
 from .fit import MODEL_HELP, MODELS, Fitting
 from .method import MethodSettings
 
@@ -89,16 +89,9 @@ class LobeStackSettings(Fitting, MethodSettings):
 
 
 @dataclass(frozen=True, kw_only=True)
-class StackComparison(ComparisonOptions):
+class StackComparison(ExactComparison):
     """How lobe stacks are compared with their reflectance model."""
 
-    rings: int | None = option(
-        None,
-        label="Rings",
-        help="Rings of a sphere on which reflection is integrated exactly",
-        least=4,
-        none="as the maps are fine",
-    )
     brdf: str | None = option(
         None,
         label="Model",
@@ -106,8 +99,3 @@ class StackComparison(ComparisonOptions):
         none="what the map set names",
         metavar="SPEC",
     )
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.perspective is not None:
-            raise RangeError("Exact references are orthographic: leave the perspective out.")

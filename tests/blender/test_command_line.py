@@ -283,6 +283,7 @@ def test_only_an_interrupted_capture_speaks_of_views(words: list[str], goes_on: 
         ["mip-chain", "--size", "8"],
         ["reflection-tables", "--material", "matte", "--diffuse-rows", "4"],
         ["kernel-bank", "--size", "16"],
+        ["kernel-pyramid", "--size", "32"],
         ["lobe-stack", "--brdf", "phong:n=8,ks=0.5", "--lobes", "1", "--slices", "3", "--size", "16"],
     ],
 )

@@ -30,6 +30,7 @@ SMALL = {
     "reflection-tables": {"--diffuse-rows": "8", "--rows": "8"},
     "mip-chain": {"--size": "64"},
     "kernel-bank": {"--size": "16"},
+    "kernel-pyramid": {"--size": "32"},
     "preview": {"--size": "16", "--turntable": "2"},
     "compare": {"--size": "8", "--views": "1", "--samples": "4"},
 }

@@ -43,6 +43,7 @@ COMMANDS = {
     "convert": ("convert", "light.hdr", "a.exr", "--from", "equirect", "--to", "octahedral", "--size", "16"),
     "mip-chain": ("bake", "mip-chain", *LIGHT, "--size", "8", "-o", "a.rsibr.exr"),
     "kernel-bank": ("bake", "kernel-bank", *LIGHT, "--size", "16", "-o", "bank.rsibr.exr"),
+    "kernel-pyramid": ("bake", "kernel-pyramid", *LIGHT, "--size", "32", "-o", "pyramid.rsibr.exr"),
     "lobe-stack": ("bake", "lobe-stack", *LIGHT, "--brdf", "phong:ks=.5,n=4", *FEW, "-o", "stack.rsibr.exr"),
     "tables": ("bake", "reflection-tables", *LIGHT, "--material", "matte", "-o", "tables.rsibr.exr"),
     "fit": ("fit", "--brdf", "phong:ks=.5,n=4", *FEW, "-o", "a.json"),

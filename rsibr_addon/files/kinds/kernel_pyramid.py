@@ -12,7 +12,7 @@ from ...core.kinds.kernel_pyramid.look import PrincipledLook
 from ...core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid
 from ...core.kinds.kernel_pyramid.shading import Families
 from ...core.lobes.bank import KernelBank
-from ...settings.kernel_pyramid import KernelPyramidSettings
+from ...settings.kernel_pyramid import KernelPyramidSettings, PyramidComparison
 from ..families import shipped_family
 from ..map_set_data import ENVIRONMENT, MapSet
 from ..map_set_header import Colour, Origin, StoredKind, make_header, role_in_words
@@ -118,6 +118,7 @@ def _part_title(part: dict[str, Any]) -> str:
 STORED = StoredKind(
     settings=KernelPyramidSettings,
     look=PrincipledLook,
+    comparison=PyramidComparison,
     roles={KERNEL: _Kernel, LAMBERT: _Filtered, LEANING: _Filtered},
     facts=_facts,
     part_title=_part_title,

@@ -24,6 +24,7 @@ from ...files.kinds import (
     reflection_tables,
 )
 from ...files.map_set import read_map_set, read_map_set_header
+from ..compare import kernel_pyramid as kernel_pyramid_truth
 from ..compare import lobe_stack as lobe_stack_truth
 from ..compare import radiance_views as radiance_views_truth
 from .kind import Kind
@@ -35,7 +36,7 @@ def _pyramid(pyramid: Pyramid) -> GpuPyramid:
 
 
 KINDS: dict[str, Kind] = {
-    "kernel_pyramid": Kind(kernel_pyramid.from_map_set, _pyramid),
+    "kernel_pyramid": Kind(kernel_pyramid.from_map_set, _pyramid, kernel_pyramid_truth.TRUTH),
     "radiance_views": Kind(radiance_views.from_map_set, GpuRadianceViews, radiance_views_truth.TRUTH),
     "lobe_stack": Kind(lobe_stack.from_map_set, GpuLobeStack, lobe_stack_truth.TRUTH),
     "reflection_tables": Kind(reflection_tables.from_map_set, GpuReflectionTables),

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ...brdf.principled import Surface
+from ...brdf.principled import Principled, Surface
 from ...options import Options, declared_options, option
 
 
@@ -62,14 +62,22 @@ class PrincipledMaterial(Options):
     @property
     def surface(self) -> Surface:
         """The material as arrays."""
-        names = Surface.__dataclass_fields__
-        return Surface(
-            **{
-                each.name: np.array(getattr(self, each.name))
-                for each in declared_options(type(self))
-                if each.name in names
-            }
-        )
+        return Surface(**{name: np.array(getattr(self, name)) for name in _INPUTS})
+
+    @property
+    def text(self) -> str:
+        """The material as the text of a reflectance model, without what has Blender's defaults."""
+        values = {name: getattr(self, name) for name in _INPUTS}
+        words = [f"{name}={_text(value)}" for name, value in values.items() if value != _INPUTS[name]]
+        return f"{Principled.model}:{','.join(words)}" if words else Principled.model
+
+
+def _text(value: float | tuple[float, ...]) -> str:
+    return "/".join(map(str, value)) if isinstance(value, tuple) else str(value)
+
+
+_INPUTS = {each.name: each.default for each in declared_options(PrincipledMaterial)}
+"""Name of each input -> its default."""
 
 
 @dataclass(frozen=True)

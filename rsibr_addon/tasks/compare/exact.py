@@ -1,0 +1,102 @@
+"""Pictures of a reflectance model itself, integrated over an environment."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ...core.brdf.model import Brdf
+from ...core.conventions import Array
+from ...core.environment import Environment
+from ...core.geometry.camera import Camera
+from ...core.geometry.lit_sphere import lit_spheres
+from ...core.metrics import relative_rmse, unpremultiplied
+from ...core.progress import Steps
+from ...device.drawing import GpuMapSet
+from ...device.lit_sphere import GpuLitSphere
+from ...device.preview import PreviewRenderer
+from ...host.meshes import TriangleMesh
+from ...settings.comparison import ExactComparison
+from .comparison import Comparison, Way, WayError, way_error
+
+LEAST_RINGS = 32
+"""Fewest rings of a reference, where no number is asked for."""
+
+
+def exact_pictures(
+    model: Brdf,
+    environment: Environment,
+    cameras: Sequence[Camera],
+    mesh: TriangleMesh,
+    size: int,
+    rings: int,
+) -> Steps[list[Array]]:
+    """A mesh as each camera sees it: see `Drawn.references`.
+
+    Notes
+    -----
+    Seen from afar, radiance depends on the normal alone, and so a sphere's is any mesh's: what
+    [Kautz2000] section 6 calls filtering with the true BRDF on a per-pixel basis. Pictures of all contents
+    take the same samples of the same mesh.
+    """
+    view_dirs = [camera.view_dir for camera in cameras]
+    spheres = yield from lit_spheres(model, environment.radiance, view_dirs, rings)
+    return [
+        picture(GpuLitSphere(sphere), None, mesh, camera, size)
+        for sphere, camera in zip(spheres, cameras, strict=True)
+    ]
+
+
+def picture(content: GpuMapSet, look: Any, mesh: TriangleMesh, camera: Camera, size: int) -> Array:
+    """A mesh shaded from a map set."""
+    surface = mesh.positions, mesh.normals, mesh.triangles
+    return PreviewRenderer(content).draw(*surface, camera, size, look)
+
+
+def error_of(way: Way, drawn: Sequence[Array], references: Sequence[Array]) -> WayError:
+    """Error of a way to draw, where the references have no noise."""
+    pictures, true = np.stack(drawn), np.stack(references)
+    return way_error(way, relative_rmse, unpremultiplied(pictures), unpremultiplied(true), true[..., 3])
+
+
+NAME, MADE = "the model itself", "integrated exactly"
+"""See `Truth`."""
+
+
+def notes(comparison: Comparison) -> str:
+    """See `Truth`."""
+    return (
+        "The reference is the sum over all texels of the environment of radiance times BRDF times cosine, "
+        "without noise; in neither picture does the mesh hide its surroundings from itself."
+    )
+
+
+def quality(settings: ExactComparison) -> str:
+    """See `Truth`."""
+    return f"{settings.rings} rings of surface points"
+
+
+def table(comparisons: Sequence[Comparison], what: str, columns: dict[str, Any]) -> str:
+    """Errors of several comparisons as a table in Markdown.
+
+    Parameters
+    ----------
+    comparisons : sequence of Comparison
+    what : str
+        What a material is, as the head of its column.
+    columns : mapping of str to callable
+        Head of a column -> a comparison to the number in it.
+
+    Returns
+    -------
+    str
+        A row for each.
+    """
+    head = [what, "environment", *columns, "all views", "median view", "worst view"]
+    rows = [head, ["---"] * 2 + ["---:"] * (len(columns) + 3)]
+    for comparison in comparisons:
+        (error,) = comparison.errors
+        numbers = [f"{number:.4f}" for number in (error.pooled, error.median, error.worst)]
+        told = [str(column(comparison)) for column in columns.values()]
+        rows.append([comparison.material, comparison.environment, *told, *numbers])
+    return "".join(f"| {' | '.join(row)} |\n" for row in rows)

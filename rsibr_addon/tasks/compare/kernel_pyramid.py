@@ -1,0 +1,108 @@
+"""One Principled material, shaded from a kernel pyramid, against its reflectance model."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import ceil
+from pathlib import Path
+from typing import Any
+
+from ...core.environment import Environment
+from ...core.kinds.kernel_pyramid.look import PrincipledLook
+from ...core.kinds.kernel_pyramid.pyramid import Pyramid
+from ...core.progress import Steps
+from ...device.kinds.kernel_pyramid import GpuPyramid
+from ...files.kinds.kernel_pyramid import shipped_families
+from ...host.meshes import load_mesh
+from ...settings.kernel_pyramid import PyramidComparison
+from ..reflectance.brdfs import load_brdf
+from .comparison import Comparison, cameras_of
+from .exact import LEAST_RINGS, MADE, NAME, error_of, exact_pictures, notes, picture, quality, table
+from .truth import Drawn, Truth
+
+MOST_RINGS = 256
+"""Most rings of a reference, where no number is asked for."""
+
+RINGS_BY_ALPHA = 19.0
+"""Rings times a lobe's width alpha, as lobe stacks have them."""
+
+
+@dataclass(frozen=True)
+class PyramidWay:
+    """The way to draw a pyramid: there is one.
+
+    Attributes
+    ----------
+    material : str
+        The material that was drawn, as `PrincipledMaterial.text` says it.
+    """
+
+    material: str
+
+    @property
+    def slug(self) -> str:
+        """A name for files and reports."""
+        return "pyramid"
+
+    @property
+    def name(self) -> str:
+        """A name for people."""
+        return "from the pyramid"
+
+
+def draw(
+    map_set: Path,
+    pyramid: Pyramid,
+    environment: Environment,
+    material: dict[str, Any],
+    settings: PyramidComparison,
+) -> Steps[Drawn]:
+    """Integrate a sphere's reflection exactly; draw a mesh from that and from the pyramid: see `Truth.draw`.
+
+    Raises
+    ------
+    RangeError
+        The material is a mirror, or its coat, which have no reflectance to be integrated.
+    """
+    model = yield from load_brdf(settings.text)
+    mesh, cameras = load_mesh(settings.mesh), cameras_of(settings)
+    rings = settings.rings or _rings(settings)
+    references = yield from exact_pictures(model, environment, cameras, mesh, settings.size, rings)
+    ours, look = GpuPyramid(pyramid, shipped_families()), settings.surface
+    drawn = [picture(ours, look, mesh, camera, settings.size) for camera in cameras]
+    way = PyramidWay(settings.text)
+    return Drawn(
+        material=settings.text,
+        map_size=pyramid.mirror.shape[1],
+        settings=replace(settings, rings=rings),
+        references=references,
+        drawn={way: drawn},
+        errors=(error_of(way, drawn, references),),
+    )
+
+
+def _rings(settings: PyramidComparison) -> int:
+    """As many as the narrowest lobe needs."""
+    narrowest = settings.roughness
+    if settings.coat_weight > 0.0:
+        narrowest = min(narrowest, settings.coat_roughness)
+    return min(max(LEAST_RINGS, ceil(RINGS_BY_ALPHA / narrowest**2)), MOST_RINGS)
+
+
+def _is_look(way: PyramidWay, look: PrincipledLook) -> bool:
+    return not look.own and way.material == look.text
+
+
+def _table(comparisons: Sequence[Comparison]) -> str:
+    return table(comparisons, "material", {"size": lambda each: each.map_size})
+
+
+TRUTH = Truth(
+    way=PyramidWay,
+    draw=draw,
+    name=NAME,
+    made=MADE,
+    notes=notes,
+    quality=quality,
+    table=_table,
+    is_look=_is_look,
+)

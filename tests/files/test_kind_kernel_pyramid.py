@@ -1,0 +1,85 @@
+"""Kernel pyramids as files: what is written comes back, and everything else is named."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.core.environment import Environment
+from rsibr.rsibr_addon.core.errors import MapSetError
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import BakedPyramid, FilterErrors
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import Pyramid
+from rsibr.rsibr_addon.core.lobes.bank import KernelBank
+from rsibr.rsibr_addon.files.kinds.kernel_pyramid import from_map_set, to_map_set
+from rsibr.rsibr_addon.files.map_set import read_map_set, write_map_set
+from rsibr.rsibr_addon.files.map_set_data import MapSet
+from rsibr.rsibr_addon.files.map_set_header import Origin
+
+RNG = np.random.default_rng(4)
+LIGHT = Environment(RNG.random((8, 16, 3), dtype=np.float32), "light")
+
+
+def make_map_set() -> tuple[BakedPyramid, MapSet]:
+    maps = tuple(RNG.random((1, n, n, 3), dtype=np.float32) for n in (4, 4, 8))
+    mirror, diffuse = (RNG.random((count, n, n, 3), dtype=np.float32) for count, n in ((1, 16), (2, 4)))
+    errors = [FilterErrors(RNG.random(3), 1e-3 * number) for number in range(5)]
+    pyramid = Pyramid(KernelBank((0.5, 1.0, 2.0)), mirror, maps, diffuse)
+    baked = BakedPyramid(pyramid, tuple(errors[:3]), tuple(errors[3:]))
+    return baked, to_map_set(baked, Origin(LIGHT, {"size": 16}, "a test"))
+
+
+def test_a_pyramid_comes_back_bit_by_bit(tmp_path: Path) -> None:
+    baked, map_set = make_map_set()
+    write_map_set(tmp_path / "a.rsibr.exr", map_set)
+    held = read_map_set(tmp_path / "a.rsibr.exr", "kernel_pyramid")
+    back = from_map_set(tmp_path / "a.rsibr.exr", held)
+    assert back.bank == baked.pyramid.bank
+    for found, written in zip(back.all_maps, baked.pyramid.all_maps, strict=True):
+        np.testing.assert_array_equal(found, written)
+    assert held.header["size"] == [16, 16]
+    every = (*baked.kernels, *baked.diffuse)
+    largest = np.max([errors.bound for errors in every], axis=0)
+    np.testing.assert_array_equal(held.header["error_bound"]["filter"], largest)
+    assert held.header["error_bound"]["interpolation"] == 0.004
+    stated = {part["name"]: part for part in held.header["parts"]}
+    assert stated["kernel02"]["concentration"] == 2.0
+    np.testing.assert_array_equal(stated["leaning"]["bound"], every[4].bound)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "sentence"),
+    [
+        (lambda header, parts: header.update(layout="cube_map"), "laid out as cube_map, not as octahedral"),
+        (lambda header, parts: parts["kernel01"].update(concentration=0.5), "ascending order"),
+        (lambda header, parts: parts["kernel01"].update(concentration=0.75), "not those that materials are"),
+        (lambda header, parts: parts["kernel00"].update(role="other"), "not those that materials are"),
+        (lambda header, parts: parts["mirror"].update(role="other"), "0 maps of the role mirror"),
+        (lambda header, parts: parts["leaning"].update(role="diffuse"), "2 maps of the role diffuse"),
+    ],
+)
+def test_what_is_no_pyramid_is_named(tmp_path: Path, spoil: Callable, sentence: str) -> None:
+    _, map_set = make_map_set()
+    spoil(map_set.header, {part["name"]: part for part in map_set.header["parts"]})
+    path = tmp_path / "a.rsibr.exr"
+    write_map_set(path, map_set)
+    with pytest.raises(MapSetError, match=f"{path} holds .*{sentence}"):
+        from_map_set(path, read_map_set(path))
+
+
+@pytest.mark.parametrize(
+    ("name", "shape", "sentence"),
+    [
+        ("kernel01", (4, 5, 3), "a square map for each of its kernels"),
+        ("mirror", (8, 4, 3), "a square map for each of its kernels"),
+        ("leaning", (2, 2, 3), "diffuse maps differ in size"),
+    ],
+)
+def test_maps_of_other_shapes_are_named(
+    tmp_path: Path, name: str, shape: tuple[int, ...], sentence: str
+) -> None:
+    _, map_set = make_map_set()
+    map_set.maps[name] = np.ones(shape, dtype=np.float32)
+    path = tmp_path / "a.rsibr.exr"
+    write_map_set(path, map_set)
+    with pytest.raises(MapSetError, match=f"{path} holds no kernel pyramid. .*{sentence}"):
+        from_map_set(path, read_map_set(path))

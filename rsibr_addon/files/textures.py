@@ -49,7 +49,7 @@ class Texture:
 
 
 def arrays(map_set: MapSet, numbers: Sequence[str]) -> list[Texture]:
-    """A texture for each size of maps, a layer for each of their sheets.
+    """A texture for each size of maps, a layer for each of their sheets; their names are their maps' roles.
 
     Parameters
     ----------
@@ -70,14 +70,18 @@ def arrays(map_set: MapSet, numbers: Sequence[str]) -> list[Texture]:
         for part in header["parts"]
         if part["role"] in numbers
     }
+    alike: dict[tuple[int, ...], list[dict[str, Any]]] = {}
+    for part in parts:
+        alike.setdefault(sheets[part["name"]].shape, []).append(part)
+    roles = {size: "-".join(dict.fromkeys(part["role"] for part in those)) for size, those in alike.items()}
     textures = []
-    for size in dict.fromkeys(each.shape for each in sheets.values()):
-        alike = [part for part in parts if sheets[part["name"]].shape == size]
-        layers = [{**part, "sheet": sheet} for part in alike for sheet in range(size[0])]
+    for size, those in alike.items():
+        layers = [{**part, "sheet": sheet} for part in those for sheet in range(size[0])]
+        is_only = [*roles.values()].count(roles[size]) == 1
         textures.append(
             Texture(
-                (np.concatenate([sheets[part["name"]] for part in alike]),),
-                name="-".join(dict.fromkeys(part["role"] for part in alike)),
+                (np.concatenate([sheets[part["name"]] for part in those]),),
+                name=roles[size] if is_only else f"{roles[size]}-{size[2]}",
                 note={"axes": WORLD_AXES, "layers": layers, "numbers": tables},
             )
         )

@@ -11,12 +11,15 @@ import pytest
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError
 from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_from_harmonics
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import BakedPyramid, FilterErrors
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import Pyramid
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
 from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTables, Role
+from rsibr.rsibr_addon.core.lobes.bank import KernelBank
 from rsibr.rsibr_addon.core.maps.representation import representation
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.core.resample import lookup
-from rsibr.rsibr_addon.files.kinds import mip_chain, reflection_tables
+from rsibr.rsibr_addon.files.kinds import kernel_pyramid, mip_chain, reflection_tables
 from rsibr.rsibr_addon.files.ktx2 import write_ktx2
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.files.map_set_header import Origin
@@ -136,6 +139,25 @@ def test_tables_of_several_sizes_are_several_textures(tmp_path: Path) -> None:
         assert texture.note["numbers"]["weights"]["rows"] == np.ones((len(Role), 3, 3)).tolist()
     with pytest.raises(RangeError, match=r"cannot be turned: export it with Z up"):
         drain(export(source, tmp_path / "turned.ktx2", Ktx2Settings(up=Up.Y)))
+
+
+def test_maps_of_one_role_and_several_sizes_are_told_apart(tmp_path: Path) -> None:
+    mirror, *maps = (RNG.random((1, n, n, 3), dtype=np.float32) for n in (16, 4, 4, 8))
+    pyramid = Pyramid(KernelBank((0.5, 1.0, 2.0)), mirror, tuple(maps), RNG.random((2, 2, 2, 3)))
+    errors = FilterErrors(np.zeros(3), 0.0)
+    baked = BakedPyramid(pyramid, (errors,) * 3, (errors,) * 2)
+    source = tmp_path / "pyramid.rsibr.exr"
+    write_map_set(source, kernel_pyramid.to_map_set(baked, Origin(SKY, {}, "a test")))
+    textures = {path.stem: read(path) for path in drain(export(source, tmp_path / "out.ktx2"))}
+    layers = {name: [each["name"] for each in made.note["layers"]] for name, made in textures.items()}
+    assert layers == {
+        "out-mirror": ["mirror"],
+        "out-prefiltered-4": ["kernel00", "kernel01"],
+        "out-prefiltered-8": ["kernel02"],
+        "out-diffuse-leaning": ["diffuse", "leaning"],
+    }
+    found = textures["out-prefiltered-8"].levels[0][0, ..., :3]
+    np.testing.assert_allclose(found, maps[2][0], rtol=2.0**-11, atol=2.0**-25)
 
 
 def test_light_too_bright_for_half_floats_is_kept(tmp_path: Path) -> None:

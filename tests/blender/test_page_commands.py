@@ -19,7 +19,7 @@ COMPLETE = [
     "README.md",
     *(
         f"docs/{name}.md"
-        for name in ("commands", "export", "kernel-banks", "mip-chains", "reflection-tables")
+        for name in ("commands", "export", "kernel-banks", "materials", "mip-chains", "reflection-tables")
     ),
 ]
 """Pages whose commands want no files but each other's, and `room.exr`."""

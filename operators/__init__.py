@@ -17,6 +17,8 @@ from .merge_brackets import RSIBR_OT_merge_brackets
 from .open_comparison import RSIBR_OT_open_comparison
 from .open_report import RSIBR_OT_open_report
 from .pack import RSIBR_OT_pack
+from .preview_scene import RSIBR_OT_preview_scene
+from .rebake import RSIBR_OT_rebake
 from .reload_map_sets import RSIBR_OT_reload_map_sets
 from .unpack import RSIBR_OT_unpack
 from .unwrap_ball import RSIBR_OT_unwrap_ball
@@ -31,7 +33,9 @@ CLASSES: tuple[type, ...] = (
     RSIBR_OT_fit_lobes,
     RSIBR_OT_apply_quality,
     RSIBR_OT_bake,
+    RSIBR_OT_preview_scene,
     RSIBR_OT_bake_again,
+    RSIBR_OT_rebake,
     RSIBR_OT_cancel_bake,
     RSIBR_OT_assign,
     RSIBR_OT_accept,

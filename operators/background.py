@@ -40,7 +40,8 @@ def look() -> None:
             for item in bake.items:
                 assign(item, bake.output, bake.settings)
             session().previews.reload()  # it may have replaced a file that is shown
-            _push_undo("Assign Map Set")
+            if not bake.by_itself:
+                _push_undo("Assign Map Set")
     redraw_sidebars()
 
 

@@ -3,6 +3,7 @@
 import bpy
 
 from ..rsibr_addon.host.bake_settings import apply_settings, plain_settings
+from ..rsibr_addon.tasks.queue.bake_request import request_for
 from .at_once import Undoable
 from .bake_in_background import queue_bake
 
@@ -24,4 +25,6 @@ class RSIBR_OT_bake_again(Undoable, bpy.types.Operator):
     def work(self, context: bpy.types.Context) -> None:
         """Choose the settings and queue the bake; a file that holds what it did is taken at once."""
         apply_settings(context.scene.rsibr_bake, plain_settings(context.object.rsibr_baked))
-        self.report({"INFO"}, queue_bake(context, context.object.rsibr.content))
+        scene, item = context.scene, context.object
+        request = request_for(scene.rsibr_bake, scene, item)
+        self.report({"INFO"}, queue_bake(scene, request, [item], item.rsibr.content))

@@ -91,7 +91,7 @@ class RSIBR_PG_preview(bpy.types.PropertyGroup):
     follow_world = bpy.props.BoolProperty(
         name="Follow World",
         description="Turn and scale the light as the world's Mapping and Background do with its Environment "
-        "Texture; for map sets that were made in the bare environment",
+        "Texture; and bake the world's light anew when something else of it changes",
         update=_notice,
         default=True,
     )

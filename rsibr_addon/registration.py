@@ -12,7 +12,7 @@ def register() -> None:
     import bpy
 
     from .. import operators
-    from ..operators import background
+    from ..operators import background, keep_fresh
     from . import properties, ui
     from .host.map_sets import unpacked
     from .host.overrides import complete_overrides
@@ -37,6 +37,7 @@ def register() -> None:
         undo.callback(unpacked.remove)
         viewport_handlers.start(undo)
         export_menu.start(undo)
+        keep_fresh.start(undo)
         undo.callback(background.stop)
         command = bpy.utils.register_cli_command("rsibr", _run_command)
         undo.callback(bpy.utils.unregister_cli_command, command)

@@ -23,7 +23,7 @@ LAYERS: dict[str, set[str]] = {
     "device": {"core"},
     "tasks": {"core", "settings", "job", "files", "host", "device"},
     "command_line": {"core", "settings", "job", "files", "host", "device", "tasks"},
-    "session": {"core", "host", "tasks"},
+    "session": {"core", "files", "host", "tasks"},
     "operators": {"core", "settings", "job", "files", "host", "device", "tasks", "session"},
     "properties": {"core", "settings", "files", "host"},
     "ui": {"core", "settings", "job", "files", "host", "device", "tasks", "session", "properties"},

@@ -26,6 +26,9 @@ SHAPED = ("MESH", "CURVE", "SURFACE", "FONT", "META")
 class LightSettings(Settings, Protocol):
     """`ui.bake_properties.RSIBR_PG_bake`."""
 
+    light: str
+    studio: str
+    picture: str
     layer: str
 
 
@@ -42,8 +45,14 @@ def use_picture(settings: LightSettings, path: str) -> None:
     use_file(settings, path.removesuffix(f":{layer}"))
 
 
-def chosen_environment(scene: bpy.types.Scene) -> str | None:
-    """The environment that a scene's settings choose.
+def chosen_environment(chosen: LightSettings, scene: bpy.types.Scene) -> str | None:
+    """The environment that settings choose.
+
+    Parameters
+    ----------
+    chosen : RSIBR_PG_bake
+    scene : bpy.types.Scene
+        Has the world.
 
     Returns
     -------
@@ -59,7 +68,6 @@ def chosen_environment(scene: bpy.types.Scene) -> str | None:
     OutputFileError
         It is packed, and the disk is full.
     """
-    chosen = scene.rsibr_bake
     match chosen.light:
         case "WORLD":
             check_saved(world_of(scene))

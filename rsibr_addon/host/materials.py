@@ -14,6 +14,7 @@ import numpy as np
 from ..core.brdf.cycles_presets import PRESETS
 from ..core.errors import InputFileError, SceneError
 from ..core.near_names import did_you_mean
+from ..files.digests import digest
 from .blend_files import check_there, unreadable
 from .presets import build_preset
 
@@ -102,6 +103,11 @@ def fingerprint(material: bpy.types.Material | bpy.types.World) -> str:
     """
     content = {"nodes": _tree_content(material.node_tree), "cycles": _struct_content(material.cycles)}
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
+
+
+def node_fingerprint(node: bpy.types.Node) -> str:
+    """A hash of the content of one node, as `fingerprint` of all."""
+    return hashlib.sha256(json.dumps(_node_content(node), sort_keys=True).encode()).hexdigest()
 
 
 def check_saved(material: bpy.types.Material | bpy.types.World) -> None:
@@ -230,14 +236,15 @@ def _content(value: Any) -> Any:
 
 
 def _image_content(image: bpy.types.Image) -> Any:
+    return [image.source, image.alpha_mode, image.colorspace_settings.name, _image_digest(image)]
+
+
+def _image_digest(image: bpy.types.Image) -> str:
     file = Path(bpy.path.abspath(image.filepath, library=image.library))
     if image.packed_file:
-        data = image.packed_file.data
-    elif image.filepath and file.is_file() and not image.is_dirty:
-        data = file.read_bytes()
-    else:
-        pixels = np.empty(len(image.pixels), dtype=np.float32)
-        image.pixels.foreach_get(pixels)
-        data = pixels.tobytes()
-    interpretation = (image.source, image.alpha_mode, image.colorspace_settings.name)
-    return [*interpretation, hashlib.sha256(data).hexdigest()]
+        return hashlib.sha256(image.packed_file.data).hexdigest()
+    if image.filepath and file.is_file() and not image.is_dirty:
+        return digest(file)
+    pixels = np.empty(len(image.pixels), dtype=np.float32)
+    image.pixels.foreach_get(pixels)
+    return hashlib.sha256(pixels.tobytes()).hexdigest()

@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 
 from ..core.conventions import Array
+from ..core.errors import SceneError
 
 
 @dataclass(frozen=True)
@@ -36,8 +37,7 @@ def world_light(world: bpy.types.World | None) -> WorldLight | None:
         None unless the world is a Background of constant strength with an Environment Texture, which may have
         a Mapping that only rotates.
     """
-    background = _before(world.node_tree.get_output_node("ALL") if world else None, "Surface", "BACKGROUND")
-    texture = _before(background, "Color", "TEX_ENVIRONMENT")
+    background, texture = _lights(world)
     if background is None or texture is None or background.inputs["Strength"].is_linked:
         return None
     strength = background.inputs["Strength"].default_value
@@ -50,19 +50,64 @@ def world_light(world: bpy.types.World | None) -> WorldLight | None:
     return WorldLight(strength, rotation.T if mapping.vector_type == "TEXTURE" else rotation)
 
 
+def environment_texture(world: bpy.types.World) -> bpy.types.Node:
+    """The Environment Texture of a world of which `world_light` reads strength and rotation.
+
+    Raises
+    ------
+    SceneError
+        It is another one.
+    """
+    _, texture = _lights(world)
+    if texture is None or world_light(world) is None:
+        raise SceneError(
+            f"World {world.name} is more than a Background and an Environment Texture with a Mapping that "
+            f"rotates: bake it as it is."
+        )
+    return texture
+
+
+def make_bare(world: bpy.types.World) -> None:
+    """Leave a world its environment alone, without the strength and rotation that `world_light` reads.
+
+    Raises
+    ------
+    SceneError
+        See `environment_texture`.
+    """
+    texture = environment_texture(world)
+    background, _ = _lights(world)
+    assert background is not None
+    background.inputs["Strength"].default_value = 1.0
+    for link in texture.inputs["Vector"].links:
+        world.node_tree.links.remove(link)
+
+
 def followed_light(item: bpy.types.Object, world: bpy.types.World | None) -> WorldLight | None:
     """The world's strength and rotation, for an object's map set; None where it follows none.
 
-    A map set that was baked in the world itself holds them already, and live light shows them.
+    A map set that was baked in the world with them holds them already, and live light shows them.
     """
-    in_world = item.is_property_set("rsibr_baked") and item.rsibr_baked.light == "WORLD"
-    follows = item.rsibr.follow_world and not item.rsibr.live.on and not in_world
+    follows = item.rsibr.follow_world and not item.rsibr.live.on and not holds_world(item)
     return world_light(world) if follows else None
+
+
+def holds_world(item: bpy.types.Object) -> bool:
+    """Whether an object's map set was baked in the world as it was, with its strength and rotation."""
+    if not item.is_property_set("rsibr_baked"):
+        return False
+    return bool(item.rsibr_baked.light == "WORLD" and not item.rsibr_baked.bare_world)
 
 
 def has_environment(world: bpy.types.World | None) -> bool:
     """Whether a world has an Environment Texture."""
     return world is not None and any(node.type == "TEX_ENVIRONMENT" for node in world.node_tree.nodes)
+
+
+def _lights(world: bpy.types.World | None) -> tuple[bpy.types.Node | None, bpy.types.Node | None]:
+    """The Background that lights a world, and its Environment Texture, as far as there are such."""
+    background = _before(world.node_tree.get_output_node("ALL") if world else None, "Surface", "BACKGROUND")
+    return background, _before(background, "Color", "TEX_ENVIRONMENT")
 
 
 def _before(node: bpy.types.Node | None, socket: str, kind: str) -> bpy.types.Node | None:

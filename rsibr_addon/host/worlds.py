@@ -11,6 +11,7 @@ from .cameras import add_panoramic_camera
 from .rendering import configure_cycles, render_passes
 from .scenes import temporary_scene
 from .working_space import rec709_from_working, working_from_rec709
+from .world_light import make_bare
 
 LARGEST_IMPORTANCE_MAP = 8192
 """Width of the largest map that Cycles chooses light directions from."""
@@ -64,7 +65,9 @@ def light_with(scene: bpy.types.Scene, environment: Environment) -> None:
     scene.world = world
 
 
-def sample_world(world: bpy.types.World, height: int, clamp: float | None = None) -> Environment:
+def sample_world(
+    world: bpy.types.World, height: int, clamp: float | None = None, bare: bool = False
+) -> Environment:
     """Render a world with any nodes as an environment.
 
     Parameters
@@ -74,6 +77,8 @@ def sample_world(world: bpy.types.World, height: int, clamp: float | None = None
         Height of the environment in texels; it is twice as wide.
     clamp : float, optional
         See `core.environment.usable_radiance`.
+    bare : bool
+        Whether its rotation and strength are left out.
 
     Returns
     -------
@@ -82,6 +87,8 @@ def sample_world(world: bpy.types.World, height: int, clamp: float | None = None
 
     Raises
     ------
+    SceneError
+        It is to be bare, and does more than to turn and scale an Environment Texture.
     RenderError
         Cycles did not deliver.
     InputFileError
@@ -99,6 +106,8 @@ def sample_world(world: bpy.types.World, height: int, clamp: float | None = None
     """
     with temporary_scene() as scene:
         scene.world = world.copy()
+        if bare:
+            make_bare(scene.world)
         scene.world.cycles.sampling_method = "NONE"
         add_panoramic_camera(scene)
         configure_cycles(scene, 2 * height, height, MOST_WORLD_SAMPLES)

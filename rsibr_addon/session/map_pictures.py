@@ -10,9 +10,9 @@ from bpy.app.handlers import persistent
 
 from ..core.errors import MapSetError
 from ..core.lobes.fit import Fit
+from ..files.read_once import file_stamp
 from ..host.icons import add_icon
 from ..host.sidebars import redraw_sidebars
-from ..tasks.read_once import file_stamp
 from ..tasks.reflectance.fit_plots import lobe_picture
 from ..tasks.report.pictures import MapPicture, map_set_pictures
 

@@ -8,8 +8,10 @@ from ..tasks.methods.latest_request_worker import LatestRequestWorker
 from ..tasks.methods.live_materials import LiveFits
 from ..tasks.queue.background import BakeQueue
 from ..tasks.queue.bake_request import ObjectBake
+from ..tasks.queue.freshness import Freshness
 from ..tasks.viewport.previews import Previews
 from .map_pictures import MapPictures
+from .material_notes import MaterialNotes
 
 READERS = 2
 """Map sets that are read at once, so that one on a slow disk does not keep all others waiting."""
@@ -33,10 +35,15 @@ class Session:
         In viewports.
     map_pictures : MapPictures
         In panels.
+    material_notes : MaterialNotes
+        In panels.
+    freshness : Freshness
+        Of what objects are shaded from.
     """
 
     def __init__(self, has_windows: bool) -> None:
         with ExitStack() as undo:
+            self.material_notes, self.freshness = MaterialNotes(), Freshness()
             self.bakes = BakeQueue[ObjectBake]()
             undo.callback(self._end_bakes)
             self.worker = LatestRequestWorker()

@@ -34,3 +34,10 @@ class Light(Clamp):
         none_as="",
         metavar="FILE",
     )
+    bare_world: bool = option(
+        False,
+        label="Bare World",
+        help="Bake the Environment Texture of the open file's world without rotation and strength, which "
+        "previews add that follow the world",
+        advanced=True,
+    )

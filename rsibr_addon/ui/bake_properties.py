@@ -72,6 +72,11 @@ class RSIBR_PG_bake(bpy.types.PropertyGroup):
     layer = bpy.props.StringProperty(
         name="Layer", description="Layer of an OpenEXR picture that has several; empty for its main picture"
     )
+    bare_world = bpy.props.BoolProperty(
+        name="Bare World",
+        description="Whether the world was baked without its strength and rotation",
+        options={"HIDDEN"},
+    )
     kind = bpy.props.EnumProperty(
         name="Method",
         description="What is baked",

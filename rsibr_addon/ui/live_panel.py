@@ -12,7 +12,7 @@ class RSIBR_PT_live(InSidebar, bpy.types.Panel):
     """Shade the active object from its surroundings, as the viewport shows them"""  # noqa: D400  (a tooltip)
 
     bl_label = "Live Light"
-    bl_parent_id = "RSIBR_PT_preview"
+    bl_parent_id = "RSIBR_PT_look"
     bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012  (Blender reads the class)
 
     def draw_header(self, context: bpy.types.Context) -> None:

@@ -10,8 +10,27 @@ from ..tasks.report.facts import map_set_content
 from .sentences import tell
 
 
-def draw_file(layout: bpy.types.UILayout, item: bpy.types.Object, path: Path, width: int) -> None:
-    """Show the name of an object's map set, the button that packs or unpacks it, and whether it has changed.
+def draw_file(layout: bpy.types.UILayout, item: bpy.types.Object, path: Path) -> None:
+    """Show the name of an object's map set, and the button that packs or unpacks it.
+
+    Parameters
+    ----------
+    layout : bpy.types.UILayout
+    item : bpy.types.Object
+    path : Path
+        A whole map set.
+    """
+    packed = is_packed(item.rsibr)
+    row = layout.row(align=True)
+    row.label(text=plain_name(path), icon="FILE_IMAGE")
+    if packed:
+        row.operator("rsibr.unpack", text="", icon="PACKAGE")
+    else:
+        row.operator("rsibr.pack", text="", icon="UGLYPACKAGE")
+
+
+def draw_change(layout: bpy.types.UILayout, item: bpy.types.Object, path: Path, width: int) -> None:
+    """Show whether an object's map set holds something else than when it was chosen, and what helps.
 
     Parameters
     ----------
@@ -22,13 +41,6 @@ def draw_file(layout: bpy.types.UILayout, item: bpy.types.Object, path: Path, wi
     width : int
         Width of the region in pixels.
     """
-    packed = is_packed(item.rsibr)
-    row = layout.row(align=True)
-    row.label(text=plain_name(path), icon="FILE_IMAGE")
-    if packed:
-        row.operator("rsibr.unpack", text="", icon="PACKAGE")
-    else:
-        row.operator("rsibr.pack", text="", icon="UGLYPACKAGE")
     if item.rsibr.content and item.rsibr.content != map_set_content(path):
         tell(
             layout,

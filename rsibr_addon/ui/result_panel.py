@@ -10,8 +10,8 @@ from ..host.map_sets import written_path
 from ..session.running import session
 from ..tasks.compare.measured_error import measured_facts
 from ..tasks.report.facts import is_picture, map_set_facts, map_set_fit, map_set_header
-from .bake_panel import draw_progress
-from .map_set_file import draw_file, draw_remedies
+from .bakes import draw_progress
+from .map_set_file import draw_file
 from .sentences import tell
 from .sidebar import InSidebar
 
@@ -23,6 +23,7 @@ class RSIBR_PT_result(InSidebar, bpy.types.Panel):
     """The active object's map set"""  # noqa: D400  (a tooltip)
 
     bl_label = "Result"
+    bl_parent_id = "RSIBR_PT_advanced"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -43,9 +44,8 @@ class RSIBR_PT_result(InSidebar, bpy.types.Panel):
             measured = measured_facts(path, getattr(item.rsibr, map_set_header(path)["kind"], None))
         except RsibrError as error:
             tell(layout, str(error), context.region.width)
-            draw_remedies(layout)
             return
-        draw_file(layout, item, path, context.region.width)
+        draw_file(layout, item, path)
         column = layout.column(align=True)
         for what, which in {**facts, **measured}.items():
             row = column.split(factor=0.4)

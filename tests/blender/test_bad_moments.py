@@ -37,7 +37,7 @@ def test_choices_of_a_newer_version_are_named(spoil: str, sentence: str) -> None
     exec(spoil, {"bpy": bpy})
     assert not bpy.ops.rsibr.bake.poll()
     with pytest.raises(SceneError, match=sentence):
-        request_for(bpy.context.scene, bpy.context.object)
+        request_for(bpy.context.scene.rsibr_bake, bpy.context.scene, bpy.context.object)
 
 
 @pytest.mark.parametrize(
@@ -64,7 +64,9 @@ def test_neither_camera_nor_lamp_is_needed(tmp_path: Path) -> None:
     chosen = bpy.context.scene.rsibr_bake
     chosen.kind, chosen.light, chosen.studio = "mip_chain", "STUDIO", "forest"
     chosen.mip_chain.size, chosen.mip_chain.filter = "64", "box"
-    job = request_for(bpy.context.scene, bpy.context.object).job(tmp_path / "light.rsibr.exr")
+    job = request_for(bpy.context.scene.rsibr_bake, bpy.context.scene, bpy.context.object).job(
+        tmp_path / "light.rsibr.exr"
+    )
     assert run_job(job, tmp_path) == 0
 
 
@@ -114,4 +116,4 @@ def test_a_missing_library_is_named(tmp_path: Path) -> None:
     library.unlink()
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "scene.blend"))
     with pytest.raises(RsibrError, match=r"Object Cube is missing in .*library\.blend: bring that file back"):
-        request_for(bpy.context.scene, bpy.data.objects["Cube"])
+        request_for(bpy.context.scene.rsibr_bake, bpy.context.scene, bpy.data.objects["Cube"])

@@ -30,7 +30,7 @@ from rsibr.rsibr_addon.tasks.queue.bake_request import (
     plain_name,
     request_for,
 )
-from rsibr.rsibr_addon.ui.environment_panel import RSIBR_PT_environment
+from rsibr.rsibr_addon.ui.light import draw_light
 from rsibr.tests.bake_jobs import run_job
 from rsibr.tests.flat_capture import write_flat_capture
 from rsibr.tests.open_file import linked_cube, open_file_state
@@ -46,7 +46,7 @@ def _registered(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Non
 
 
 def order() -> BakeRequest:
-    return request_for(bpy.context.scene, bpy.context.object)
+    return request_for(bpy.context.scene.rsibr_bake, bpy.context.scene, bpy.context.object)
 
 
 def output() -> Path:
@@ -232,10 +232,10 @@ def test_equal_bakes_have_one_file_and_others_another(tmp_path: Path) -> None:
 
 
 def panel_labels() -> str:
-    """What the environment's panel tells, its lines in one."""
+    """What the panel tells of the light, its lines in one."""
     layout = MagicMock()
     context = SimpleNamespace(scene=bpy.context.scene, object=None, region=SimpleNamespace(width=500))
-    RSIBR_PT_environment.draw(SimpleNamespace(layout=layout), context)
+    draw_light(layout, context)
     return " ".join(call.kwargs["text"] for call in layout.column.return_value.label.call_args_list)
 
 
@@ -279,7 +279,7 @@ def test_a_bake_gets_a_copy_of_the_file_as_it_is(tmp_path: Path, monkeypatch: py
     monkeypatch.setattr("rsibr.rsibr_addon.tasks.queue.bake_request.blender_program", lambda: "blender")
     bpy.context.scene.rsibr_bake.radiance_views.samples = 5
     before = open_file_state()
-    bake = bake_of(order(), bpy.context.scene, bpy.context.object, tmp_path / "out.rsibr.exr")
+    bake = bake_of(order(), bpy.context.scene, [bpy.context.object], tmp_path / "out.rsibr.exr")
     assert open_file_state() == before
     assert bake.variables["RSIBR_ORIGINAL"] == ""
     assert is_staging_folder(Path(bake.variables["TMPDIR"]))
@@ -307,7 +307,7 @@ def test_a_bake_leaves_particles_and_relative_paths_as_they_are(
     for frame in range(1, 15):
         scene.frame_set(frame)
     before, dust = open_file_state(), _particles(cube)
-    bake = bake_of(order(), scene, cube, tmp_path / "out.rsibr.exr")
+    bake = bake_of(order(), scene, [cube], tmp_path / "out.rsibr.exr")
     assert np.array_equal(_particles(cube), dust)
     assert np.ptp(dust) > 0.0
     assert open_file_state() == before
@@ -329,7 +329,7 @@ def test_without_a_blender_there_is_a_sentence(tmp_path: Path) -> None:
     with pytest.raises(
         SceneError, match="There is no Blender to bake in: bake with the command rsibr instead"
     ):
-        bake_of(order(), bpy.context.scene, bpy.context.object, tmp_path / "out.rsibr.exr")
+        bake_of(order(), bpy.context.scene, [bpy.context.object], tmp_path / "out.rsibr.exr")
     with pytest.raises(RuntimeError, match="There is no Blender to bake in"):
         bpy.ops.rsibr.bake()
 
@@ -424,4 +424,4 @@ def test_a_linked_object_is_not_baked_for(tmp_path: Path) -> None:
     with pytest.raises(
         SceneError, match="Object Cube belongs to another file: make it local, or an override"
     ):
-        request_for(bpy.context.scene, cube)
+        request_for(bpy.context.scene.rsibr_bake, bpy.context.scene, cube)

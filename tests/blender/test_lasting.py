@@ -126,11 +126,11 @@ def test_the_picture_of_the_light_is_found_from_elsewhere_too(tmp_path: Path) ->
     assert plain_settings(chosen)["picture"] == "//../light.exr"
     save(tmp_path / "elsewhere" / "deeper" / "car.blend")
     bpy.ops.wm.open_mainfile(filepath=bpy.data.filepath)
-    assert Path(chosen_environment(bpy.context.scene)).samefile(picture)
+    assert Path(chosen_environment(bpy.context.scene.rsibr_bake, bpy.context.scene)).samefile(picture)
     bpy.ops.file.pack_all()
     content = picture.read_bytes()
     picture.unlink()
-    assert Path(chosen_environment(bpy.context.scene)).read_bytes() == content
+    assert Path(chosen_environment(bpy.context.scene.rsibr_bake, bpy.context.scene)).read_bytes() == content
 
 
 def test_copies_share_one_file(baked: Path) -> None:
@@ -220,7 +220,7 @@ def baked_with(size: str) -> Path:
     chosen = bpy.context.scene.rsibr_bake
     chosen.kind, chosen.light, chosen.studio = "mip_chain", "STUDIO", "forest"
     chosen.mip_chain.size, chosen.mip_chain.filter = size, "box"
-    order = request_for(bpy.context.scene, cube())
+    order = request_for(bpy.context.scene.rsibr_bake, bpy.context.scene, cube())
     path = output_for(order, bpy.context.scene, cube())
     assert run_job(order.job(path), path.parent) == 0
     return path

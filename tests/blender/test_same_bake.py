@@ -165,7 +165,12 @@ def test_every_option_goes_every_way(
     assert operator(filepath="out.rsibr.exr", **by_operator(kind, values, light)) == {"FINISHED"}
     in_panel(kind, values, light)
     jobs.append(
-        replace(request_for(bpy.context.scene, bpy.context.object).job(Path("out.rsibr.exr")), force=False)
+        replace(
+            request_for(bpy.context.scene.rsibr_bake, bpy.context.scene, bpy.context.object).job(
+                Path("out.rsibr.exr")
+            ),
+            force=False,
+        )
     )
     assert jobs == 4 * [expected]
 
@@ -189,6 +194,12 @@ def test_every_way_makes_the_same_file(kind: str, light: Light, tmp_path: Path) 
     assert operator(filepath=str(output.resolve()), **by_operator(kind, values, light)) == {"FINISHED"}
     take()
     in_panel(kind, values, light)
-    assert run_job(request_for(bpy.context.scene, bpy.context.object).job(output), tmp_path) == 0
+    assert (
+        run_job(
+            request_for(bpy.context.scene.rsibr_bake, bpy.context.scene, bpy.context.object).job(output),
+            tmp_path,
+        )
+        == 0
+    )
     take()
     assert made == 4 * [made[0]]

@@ -156,9 +156,9 @@ def test_the_written_scene_gives_the_same_bake(make: Callable[[Path], None], tmp
     chosen, item, scene = bpy.context.scene.rsibr_bake, bpy.context.object, bpy.context.scene
     chosen.kind, views = "radiance_views", chosen.radiance_views
     views.size, views.samples, views.denoise = 8, 4, False
-    request = request_for(scene, item)
+    request = request_for(scene.rsibr_bake, scene, item)
     theirs, ours = tmp_path / "theirs.rsibr.exr", tmp_path / "ours.rsibr.exr"
-    bake = bake_of(request, scene, item, theirs)
+    bake = bake_of(request, scene, [item], theirs)
     child = subprocess.run(
         [sys.executable, "-c", CHILD, *bake.command[1:]],
         env={**os.environ, **bake.variables},
@@ -174,17 +174,17 @@ def test_the_written_scene_gives_the_same_bake(make: Callable[[Path], None], tmp
 
 def test_what_only_this_blender_holds_is_told_before_a_bake(tmp_path: Path) -> None:
     textured(tmp_path)
-    request_for(bpy.context.scene, bpy.context.object)
+    request_for(bpy.context.scene.rsibr_bake, bpy.context.scene, bpy.context.object)
     painted = bpy.data.images["rust.png"]
     painted.pixels.foreach_set(noise(4, 8 * 8 * 4))
     painted.update()
     with pytest.raises(SceneError, match=r"Image rust\.png has pixels that are not saved.*: save or pack it"):
-        request_for(bpy.context.scene, bpy.context.object)
+        request_for(bpy.context.scene.rsibr_bake, bpy.context.scene, bpy.context.object)
     assert not bpy.ops.rsibr.bake.poll()
     painted.pack()
-    request_for(bpy.context.scene, bpy.context.object)
+    request_for(bpy.context.scene.rsibr_bake, bpy.context.scene, bpy.context.object)
     sky = bpy.data.images["sky.exr"]
     sky.pixels.foreach_set(noise(5, 16 * 32 * 4))
     sky.update()
     with pytest.raises(SceneError, match=r"Image sky\.exr has pixels"):
-        request_for(bpy.context.scene, bpy.context.object)
+        request_for(bpy.context.scene.rsibr_bake, bpy.context.scene, bpy.context.object)

@@ -103,7 +103,7 @@ def scenario(told):
     bpy.context.view_layer.objects.active = bpy.data.objects["Cube"]
     order = importlib.import_module(ROOT + ".rsibr_addon.tasks.queue.bake_request")
     try:
-        order.request_for(bpy.context.scene, bpy.context.object)
+        order.request_for(bpy.context.scene.rsibr_bake, bpy.context.scene, bpy.context.object)
     except order.SceneError as error:
         told["sentence"] = str(error)
 """
@@ -118,7 +118,7 @@ def scenario(told):
     chosen = scene.rsibr_bake
     chosen.kind, chosen.light, chosen.studio = "mip_chain", "STUDIO", "forest"
     chosen.mip_chain.size, chosen.mip_chain.filter = "64", "box"
-    path = orders.output_for(orders.request_for(scene, cube), scene, cube)
+    path = orders.output_for(orders.request_for(scene.rsibr_bake, scene, cube), scene, cube)
     bpy.ops.rsibr.bake_mip_chain(filepath=str(path), environment="forest", size=64, filter="box")
     bpy.ops.rsibr.bake()
     told["taken"] = bpy.path.abspath(cube.rsibr.map_set) == str(path)

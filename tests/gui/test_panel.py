@@ -47,7 +47,7 @@ def command_at(x, y):
 def press(command):
     # Find the button that runs a command, by moving the mouse down the panel, and click it
     area, region = sidebar()
-    x = region.x + region.width // 2 - 20
+    x = region.x + region.width // 3
     for y in range(region.y + region.height - 10, region.y, -12):
         found = yield from command_at(x, y)
         if found.startswith(command):

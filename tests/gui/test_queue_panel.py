@@ -18,7 +18,7 @@ def look():
 
 def scenario(told):
     chosen = settings()
-    chosen.light, chosen.kind = "WORLD", "kernel_bank"  # of the fewest buttons, so that the queue is in sight
+    chosen.light = "WORLD"  # of the fewest buttons, so that the queue is in sight
     sidebar()
     yield from drawn()
     sidebar()[1].active_panel_category = "RSIBR"

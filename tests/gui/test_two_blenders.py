@@ -14,10 +14,10 @@ bake_order = importlib.import_module(ROOT + ".rsibr_addon.tasks.queue.bake_reque
 
 def another_blender(cube):
     # A bake of the same that is in another Blender's queue
-    order = bake_order.request_for(bpy.context.scene, cube)
+    order = bake_order.request_for(bpy.context.scene.rsibr_bake, bpy.context.scene, cube)
     output = bake_order.output_for(order, bpy.context.scene, cube)
     queue = type(session().bakes)()
-    queue.add(bake_order.bake_of(order, bpy.context.scene, cube, output))
+    queue.add(bake_order.bake_of(order, bpy.context.scene, [cube], output))
     return queue
 
 def ended(queue):

@@ -7,9 +7,9 @@ from ...core.errors import InputFileError, SchemaError
 from ...core.schema import LARGEST_TEXT, loads
 from ...files.kinds.registry import STORED
 from ...files.output_paths import comparison_beside
+from ...files.read_once import read_once
 from ...files.reading import opened
 from ..methods.kinds import KINDS
-from ..read_once import read_once
 from ..report.facts import map_set_content, map_set_header
 from .comparison import RESULT, Comparison, WayError
 

@@ -12,7 +12,7 @@ WORLD_HEIGHT = 512
 """Height in texels of the environment that a world is sampled into."""
 
 
-def load_environment(spec: str | None, clamp: float | None = None) -> Environment:
+def load_environment(spec: str | None, clamp: float | None = None, bare_world: bool = False) -> Environment:
     """An environment from a file, one of Blender's own, or the world of the open file.
 
     Parameters
@@ -22,6 +22,8 @@ def load_environment(spec: str | None, clamp: float | None = None) -> Environmen
         world as it is, sampled through Cycles.
     clamp : float, optional
         See `core.environment.usable_radiance`.
+    bare_world : bool
+        Whether a world's rotation and strength are left out.
 
     Returns
     -------
@@ -32,7 +34,8 @@ def load_environment(spec: str | None, clamp: float | None = None) -> Environmen
     InputFileError
         There is neither; or the file cannot be used.
     SceneError, RenderError
-        There is no world, or Cycles did not deliver its picture.
+        There is no world, or none whose rotation and strength can be left out; or Cycles did not deliver its
+        picture.
 
     Warns
     -----
@@ -43,7 +46,7 @@ def load_environment(spec: str | None, clamp: float | None = None) -> Environmen
         from ...host.scenes import find_scene
         from ...host.worlds import sample_world, world_of
 
-        return sample_world(world_of(find_scene(None)), WORLD_HEIGHT, clamp)
+        return sample_world(world_of(find_scene(None)), WORLD_HEIGHT, clamp, bare_world)
     own = studio_environments()
     # A folder may have the name of one of Blender's own
     if spec in own and not Path(spec).is_file():

@@ -8,7 +8,7 @@ from ...core.errors import InputFileError
 from ...files.photographs import read_photograph
 from ...files.picture_facts import GREY
 from ...files.radiance_pictures import describe_radiance, holds_radiance, read_radiance
-from ..read_once import read_once
+from ...files.read_once import read_once
 
 NO_RADIANCE = (
     "This picture holds no radiance: its lamps end at white. Give OpenEXR or Radiance HDR, or make one of it."

@@ -114,7 +114,7 @@ def read_light(job: BakeJob[Any]) -> Steps[Environment]:
     """
     check_map_set_target(job.output, job.force)
     yield Progress(0, 1, "reading the environment")
-    return load_environment(job.light.environment, job.light.clamp)
+    return load_environment(job.light.environment, job.light.clamp, job.light.bare_world)
 
 
 def software_of(job: BakeJob[Any], measured: bool = False) -> str:

@@ -93,7 +93,8 @@ def bake(job: BakeJob[RadianceViewsSettings]) -> Steps[Baked]:
     named = not job.force and output.is_file() and work_folder_beside(output).is_dir()
     check_map_set_target(output, job.force or named)
     yield Progress(0, asked.views, "reading the environment")
-    captured = _Captured(asked, load_environment(job.light.environment, job.light.clamp))
+    light = load_environment(job.light.environment, job.light.clamp, job.light.bare_world)
+    captured = _Captured(asked, light)
     if named and captured.is_in(output):
         clear_work_folder(work_folder_beside(output))
         return done

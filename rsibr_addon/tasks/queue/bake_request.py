@@ -3,6 +3,7 @@
 import hashlib
 import json
 import re
+from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -10,6 +11,7 @@ from typing import Any
 
 from ...core.errors import MapSetError, SceneError
 from ...core.options import declared_options, to_plain
+from ...files.digests import digest
 from ...files.kinds.registry import STORED
 from ...files.map_set import read_map_set
 from ...files.output_paths import comparison_beside, comparison_page
@@ -28,10 +30,11 @@ from ...host.bake_settings import (
     plain_settings,
     save_copy,
 )
-from ...host.materials import ORIGINAL, fingerprint
+from ...host.materials import ORIGINAL, fingerprint, node_fingerprint
 from ...host.option_properties import FILE, OWN, options_of
 from ...host.shape_dependence import shape_dependence
 from ...host.version import software
+from ...host.world_light import environment_texture, world_light
 from ...host.worlds import world_of
 from ...job import BakeJob, CommandJob
 from ...settings.light import Clamp, Light
@@ -85,9 +88,10 @@ class BakeRequest:
     @property
     def title(self) -> str:
         """What is baked, in words."""
-        environment, kind = self.light.environment, self.settings.KIND
+        environment = self.light.environment
         light = "the world" if environment is None else split_layer(environment)[0].stem
-        return f"{METHODS[kind].material(self.settings) or kind.replace('_', ' ')} in {light}"
+        what = METHODS[self.settings.KIND].material(self.settings) or self.settings.LABEL.lower()
+        return f"{what} in {light}"
 
     @property
     def cost(self) -> Cost:
@@ -111,25 +115,32 @@ class ObjectBake(Bake):
         Settings of the request; empty if what it makes shades nothing.
     reads : ExitStack
         Removes what the bake reads.
+    by_itself : bool
+        Whether nobody asked for it, so that nobody undoes it.
     """
 
     settings: dict[str, Any] = field(default_factory=dict)
     items: list[int] = field(default_factory=list)
     reads: ExitStack = field(default_factory=ExitStack, repr=False)
+    by_itself: bool = False
 
     def tidy(self) -> None:
         """Remove its input files after it has ended."""
         self.reads.close()
 
 
-def request_for(scene: Any, item: Any) -> BakeRequest:
-    """Read the settings for an object.
+def request_for(chosen: Any, scene: Any, item: Any, kind: str = "") -> BakeRequest:
+    """Read settings for an object.
 
     Parameters
     ----------
+    chosen : RSIBR_PG_bake
+        Settings of the scene, or those that an object was baked with.
     scene : bpy.types.Scene
-        Holds `ui.bake_properties.RSIBR_PG_bake`.
+        Has the world.
     item : bpy.types.Object or None
+    kind : str
+        Kind of map sets to make instead of the one that is chosen.
 
     Raises
     ------
@@ -137,20 +148,24 @@ def request_for(scene: Any, item: Any) -> BakeRequest:
         Something is missing, or cannot be; says what to do.
     """
     check_object(item)
-    check_choices(scene.rsibr_bake)
-    chosen = getattr(scene.rsibr_bake, scene.rsibr_bake.kind)
     check_choices(chosen)
-    source = getattr(chosen, "source", None)
+    kind = kind or chosen.kind
+    of_kind = getattr(chosen, kind)
+    check_choices(of_kind)
+    source = getattr(of_kind, "source", None)
     material = own_material(item) if source == OWN else None
     own = material.name if material else None
-    files = [existing(chosen.path, "measured material", "its file")] if source == FILE else []
-    settings = options_of(STORED[scene.rsibr_bake.kind].settings, chosen, own or "")
+    files = [existing(of_kind.path, "measured material", "its file")] if source == FILE else []
+    settings = options_of(STORED[kind].settings, of_kind, own or "")
     named = [each for each in declared_options(type(settings)) if each.option.subtype == "FILE_PATH"]
     files += filter(None, (getattr(settings, each.name) for each in named))
-    light = Light(environment=chosen_environment(scene), clamp=options_of(Clamp, scene.rsibr_bake).clamp)
-    request = BakeRequest(
-        settings, light, own, tuple(files), plain_settings(scene.rsibr_bake), _remarks(material)
-    )
+    environment, clamp = chosen_environment(chosen, scene), options_of(Clamp, chosen).clamp
+    # A material's emission would follow the world too
+    follows = environment is None and own is None and item.rsibr.follow_world
+    bare = follows and world_light(scene.world) is not None
+    light = Light(environment=environment, clamp=clamp, bare_world=bare)
+    shown = plain_settings(chosen) | {"kind": kind, "bare_world": bare}
+    request = BakeRequest(settings, light, own, tuple(files), shown, _remarks(material))
     _ = request.cost  # which a text that describes no model has not
     return request
 
@@ -175,14 +190,13 @@ def output_for(request: BakeRequest, scene: Any, item: Any) -> Path:
     OutputFileError
         Its folder cannot be made.
     """
-    environment = request.light.environment
     content = {
         "kind": request.settings.KIND,
         "settings": to_plain(request.settings),
         "clamp": request.light.clamp,
-        "light": fingerprint(world_of(scene)) if environment is None else _light(environment),
+        "light": _light(request.light, scene),
         "material": fingerprint(own_material(item)) if request.own_material else None,
-        "files": [_digest(path) for path in request.files],
+        "files": [digest(Path(path)) for path in request.files],
         "software": software(),
     }
     letters = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:HASH_LETTERS]
@@ -204,16 +218,16 @@ def is_baked(output: Path) -> bool:
     return True
 
 
-def bake_of(request: BakeRequest, scene: Any, item: Any, output: Path) -> ObjectBake:
+def bake_of(request: BakeRequest, scene: Any, items: Sequence[Any], output: Path) -> ObjectBake:
     """Make everything ready that a background Blender needs to bake.
 
     Parameters
     ----------
     request : BakeRequest
-        The request of `scene` and `item`.
+        The request of `scene` and each of `items`.
     scene : bpy.types.Scene
-    item : bpy.types.Object
-        The object that the map set will shade.
+    items : sequence of bpy.types.Object
+        The objects that the map set will shade.
     output : Path
 
     Returns
@@ -228,8 +242,9 @@ def bake_of(request: BakeRequest, scene: Any, item: Any, output: Path) -> Object
     OutputFileError
         The open file cannot be copied.
     """
-    title = f"{item.name}: {request.title}"
-    bake = _in_background(title, request.job(output), scene, item, output, request.needs_file)
+    shaded = items[0].name if len(items) == 1 else f"{len(items)} objects"
+    title = f"{shaded}: {request.title}"
+    bake = _in_background(title, request.job(output), scene, items, output, request.needs_file)
     bake.settings = request.shown
     return bake
 
@@ -255,7 +270,7 @@ def comparison_of(scene: Any, item: Any, map_set: Path) -> ObjectBake:
     job = CommandJob(
         ("compare", str(map_set), *views, *_named_model(item), "--output", str(folder), "--force")
     )
-    return _in_background(f"{item.name}: comparison", job, scene, item, comparison_page(map_set), True)
+    return _in_background(f"{item.name}: comparison", job, scene, [item], comparison_page(map_set), True)
 
 
 def _named_model(item: Any) -> tuple[str, ...]:
@@ -278,7 +293,12 @@ def _named_model(item: Any) -> tuple[str, ...]:
 
 
 def _in_background(
-    title: str, job: BakeJob[Any] | CommandJob, scene: Any, item: Any, output: Path, needs_file: bool
+    title: str,
+    job: BakeJob[Any] | CommandJob,
+    scene: Any,
+    items: Sequence[Any],
+    output: Path,
+    needs_file: bool,
 ) -> ObjectBake:
     program = blender_program()
     if not program:
@@ -297,7 +317,7 @@ def _in_background(
         command=blender_command(program, EXTENSION, opened, path),
         # What a Blender leaves that is ended while it starts goes with the folder
         variables={ORIGINAL: open_file(), "TMPDIR": str(folder)},
-        items=[item.session_uid],
+        items=[item.session_uid for item in items],
         reads=reads,
     )
 
@@ -307,11 +327,10 @@ def _remarks(material: Any) -> tuple[str, ...]:
     return (f"{material.name} is baked as it looks on one shape: {reasons}.",) if reasons else ()
 
 
-def _light(environment: str) -> str:
-    file, layer = split_layer(environment)
-    return _digest(file) + (f":{layer}" if layer else "")
-
-
-def _digest(path: str | Path) -> str:
-    with open(path, "rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
+def _light(light: Light, scene: Any) -> str:
+    if light.bare_world:
+        return f"bare {node_fingerprint(environment_texture(world_of(scene)))}"
+    if light.environment is None:
+        return fingerprint(world_of(scene))
+    file, layer = split_layer(light.environment)
+    return digest(file) + (f":{layer}" if layer else "")

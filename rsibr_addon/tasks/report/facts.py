@@ -9,7 +9,7 @@ from ...files.kinds.registry import STORED
 from ...files.map_set import read_map_set_header
 from ...files.map_set_facts import told_errors, told_facts
 from ...files.map_set_header import content_hash
-from ..read_once import read_once
+from ...files.read_once import read_once
 
 
 @read_once

@@ -9,13 +9,14 @@ from ...brdf.principled import Principled, Surface
 from ...options import Options, declared_options, option
 
 
-def _share(default: float, label: str, help: str) -> Any:
-    return option(default, label=label, help=help, least=0.0, most=1.0, metavar="F")
+def _share(default: float, label: str, help: str, **more: Any) -> Any:
+    return option(default, label=label, help=help, least=0.0, most=1.0, metavar="F", **more)
 
 
-def _colour(default: float, label: str, help: str) -> Any:
+def _colour(default: float, label: str, help: str, **more: Any) -> Any:
+    limits = {"least": 0.0, "most": 1.0}
     return option(
-        (default,) * 3, label=label, help=help, least=0.0, most=1.0, subtype="COLOR", metavar="F|R,G,B"
+        (default,) * 3, label=label, help=help, subtype="COLOR", metavar="F|R,G,B", **limits, **more
     )
 
 
@@ -35,9 +36,12 @@ class PrincipledMaterial(Options):
         least=1.0,
         most=100.0,
         soft_most=2.5,
+        advanced=True,
         metavar="N",
     )
-    diffuse_roughness: float = _share(0.0, "Diffuse Roughness", "Roughness of the diffuse part, as of clay")
+    diffuse_roughness: float = _share(
+        0.0, "Diffuse Roughness", "Roughness of the diffuse part, as of clay", advanced=True
+    )
     specular_level: float = option(
         0.5,
         label="Specular Level",
@@ -45,18 +49,25 @@ class PrincipledMaterial(Options):
         least=0.0,
         most=10.0,
         soft_most=1.0,
+        advanced=True,
         metavar="F",
     )
     specular_tint: tuple[float, float, float] = _colour(
-        1.0, "Specular Tint", "Color of a dielectric's gloss, and of a metal's edges"
+        1.0, "Specular Tint", "Color of a dielectric's gloss, and of a metal's edges", advanced=True
     )
     coat_weight: float = _share(0.0, "Coat Weight", "How much of the surface a clear coat covers")
     coat_roughness: float = _share(0.03, "Coat Roughness", "Roughness of the coat")
     coat_ior: float = option(
-        1.5, label="Coat IOR", help="Index of refraction of the coat", least=1.0, most=4.0, metavar="N"
+        1.5,
+        label="Coat IOR",
+        help="Index of refraction of the coat",
+        least=1.0,
+        most=4.0,
+        advanced=True,
+        metavar="N",
     )
     coat_tint: tuple[float, float, float] = _colour(
-        1.0, "Coat Tint", "Color of what is seen through the coat"
+        1.0, "Coat Tint", "Color of what is seen through the coat", advanced=True
     )
 
     @property

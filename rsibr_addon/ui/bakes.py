@@ -1,38 +1,25 @@
-"""The button, what it will cost, and the queue behind it."""
+"""The queue of bakes, and how far each is."""
+
+from collections.abc import Sequence
 
 import bpy
 
-from ..core.errors import RsibrError
-from ..session.running import session
 from ..tasks.queue.background import Bake, State
-from ..tasks.queue.bake_request import request_for
-from .sentences import amount, capital, duration, tell
-from .sidebar import InSidebar
+from .sentences import capital, duration, tell
 
 
-class RSIBR_PT_bake(InSidebar, bpy.types.Panel):
-    """Bake in the background"""  # noqa: D400  (a tooltip)
+def draw_bakes(layout: bpy.types.UILayout, bakes: Sequence[Bake], width: int) -> None:
+    """Show every bake of the queue.
 
-    bl_label = "Bake"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        """Show what a bake would cost or what it lacks, the button, and every bake."""
-        layout, width = self.layout, context.region.width
-        try:
-            request = request_for(context.scene, context.object)
-        except RsibrError as error:
-            tell(layout, str(error), width)
-        else:
-            cost = request.cost
-            for remark in request.remarks:
-                tell(layout, remark, width, icon="INFO")
-            takes = f"{amount(cost.memory)} of memory, {amount(cost.disk)} on disk"
-            tell(layout, capital(f"{duration(cost.seconds)}, {takes}"), width, icon="TIME")
-        row = layout.row()
-        row.scale_y = 1.5
-        row.operator("rsibr.bake", text="Bake", icon="RENDER_STILL")
-        for number, bake in enumerate(session().bakes.bakes):
-            _draw_bake(layout, bake, number, width)
+    Parameters
+    ----------
+    layout : bpy.types.UILayout
+    bakes : sequence of Bake
+    width : int
+        Width of the region in pixels.
+    """
+    for number, bake in enumerate(bakes):
+        _draw_bake(layout, bake, number, width)
 
 
 def draw_progress(layout: bpy.types.UILayout, bake: Bake, width: int) -> None:

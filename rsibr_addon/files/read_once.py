@@ -6,7 +6,7 @@ from functools import lru_cache, wraps
 from pathlib import Path
 from typing import TypeVar, TypeVarTuple
 
-from ..files.pictures import split_layer
+from .pictures import split_layer
 
 More = TypeVarTuple("More")
 Told = TypeVar("Told")

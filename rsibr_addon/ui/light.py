@@ -1,4 +1,4 @@
-"""Which light is baked."""
+"""Which light objects are seen in."""
 
 from contextlib import suppress
 from pathlib import Path
@@ -15,6 +15,28 @@ THUMBNAIL_SCALE = 4.0
 """Height of an environment's picture; a button is 1 high."""
 
 
+def draw_light(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    """Show where light comes from, with its picture."""
+    chosen = context.scene.rsibr_bake
+    layout.row().prop(chosen, "light", expand=True)
+    match chosen.light:
+        case "WORLD":
+            layout.template_ID(context.scene, "world", new="world.new")
+        case "STUDIO":
+            layout.template_icon_view(chosen, "studio", show_labels=True, scale=THUMBNAIL_SCALE)
+            layout.prop(chosen, "studio", text="")
+        case _:
+            if chosen.image is not None:
+                layout.template_icon(bpy.types.UILayout.icon(chosen.image), scale=THUMBNAIL_SCALE)
+            layout.prop(chosen, "picture", text="")
+            if chosen.image is not None:
+                layout.prop(chosen, "layer")
+                # The line above the button tells why it cannot be used
+                with suppress(RsibrError):
+                    for remark in light_remarks(Path(chosen_environment(chosen, context.scene) or "")):
+                        tell(layout, remark, context.region.width)
+
+
 class RSIBR_MT_pictures(bpy.types.Menu):
     """Make an environment from photographs or a painting"""  # noqa: D400  (a tooltip)
 
@@ -28,31 +50,15 @@ class RSIBR_MT_pictures(bpy.types.Menu):
         self.layout.operator("rsibr.lift_painting", text="Lift Painting...").use = True
 
 
-class RSIBR_PT_environment(InSidebar, bpy.types.Panel):
-    """The light that is baked"""  # noqa: D400  (a tooltip)
+class RSIBR_PT_light(InSidebar, bpy.types.Panel):
+    """Other sources of light, and its limit"""  # noqa: D400  (a tooltip)
 
-    bl_label = "Environment"
+    bl_label = "Light"
+    bl_parent_id = "RSIBR_PT_advanced"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Show where light comes from, and of that source the rest."""
+        """Show the limit of radiance, and the ways to make light."""
         chosen, layout = context.scene.rsibr_bake, self.layout
-        layout.row().prop(chosen, "light", expand=True)
-        match chosen.light:
-            case "WORLD":
-                layout.template_ID(context.scene, "world", new="world.new")
-            case "STUDIO":
-                layout.template_icon_view(chosen, "studio", show_labels=True, scale=THUMBNAIL_SCALE)
-                layout.prop(chosen, "studio", text="")
-            case _:
-                if chosen.image is not None:
-                    layout.template_icon(bpy.types.UILayout.icon(chosen.image), scale=THUMBNAIL_SCALE)
-                layout.prop(chosen, "picture", text="")
-                if chosen.image is not None:
-                    layout.prop(chosen, "layer")
-                    # The button tells why it cannot be used
-                    with suppress(RsibrError):
-                        for remark in light_remarks(Path(chosen_environment(context.scene) or "")):
-                            tell(layout, remark, context.region.width)
         layout.prop(chosen, "clamp")
         capture = layout.operator(
             "rsibr.capture_environment", text="Capture from Scene...", icon="RENDER_STILL"

@@ -1,0 +1,103 @@
+"""After an edit: look what is out of date, and bake anew what follows the world."""
+
+from collections.abc import Callable, Collection
+from contextlib import ExitStack, suppress
+from pathlib import Path
+
+import bpy
+from bpy.app.handlers import persistent
+
+from ..rsibr_addon.core.errors import RsibrError
+from ..rsibr_addon.core.warned import recorded_warnings
+from ..rsibr_addon.host.sidebars import redraw_sidebars
+from ..rsibr_addon.session.running import session
+from .bake_in_background import queue_bake
+
+SECONDS = 0.4
+"""After the last edit; while a slider is being moved, nothing is looked at."""
+
+WATCHED = (bpy.types.World, bpy.types.Material, bpy.types.Image, bpy.types.NodeTree)
+"""What a bake may depend on, besides its settings."""
+
+
+def start(undo: ExitStack) -> None:
+    """Look from now on; a Blender without windows has nobody to tell.
+
+    Parameters
+    ----------
+    undo : ExitStack
+        Takes what ends it.
+    """
+    if bpy.app.background:
+        return
+    undo.callback(_stop)
+    for name, function in _HANDLERS.items():
+        handlers = getattr(bpy.app.handlers, name)
+        handlers.append(function)
+        undo.callback(handlers.remove, function)
+
+
+@persistent
+def _edited(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    if depsgraph.mode != "VIEWPORT":  # A render evaluates scenes too, in a thread of its own
+        return
+    changed = [update.id.original for update in depsgraph.updates]
+    if any(isinstance(each, WATCHED) for each in changed):
+        session().material_notes.forget()
+        _look_soon()
+        return
+    objects = [each for each in changed if isinstance(each, bpy.types.Object)]
+    if session().freshness.has_changed(scene, objects):
+        _look_soon()
+
+
+@persistent
+def _replaced(*_: object) -> None:
+    session().material_notes.forget()
+    _look_soon()
+
+
+def _look_soon() -> None:
+    _stop()
+    bpy.app.timers.register(_look, first_interval=SECONDS)
+
+
+def _stop() -> None:
+    if bpy.app.timers.is_registered(_look):
+        bpy.app.timers.unregister(_look)
+
+
+def _look() -> None:
+    """Look at the scenes of the windows. What cannot be baked is told in the panel, where it is asked for."""
+    freshness, scenes = session().freshness, {window.scene for window in bpy.context.window_manager.windows}
+    with recorded_warnings():
+        freshness.look(scenes)
+        wanted = [(scene, *each) for scene in scenes for each in freshness.wanted(scene) if each[0].by_itself]
+        _cancel_all_but({stale.output for _, stale, _ in wanted})
+        for scene, stale, items in wanted:
+            if stale.request is not None and not _has_ended_badly(stale.output):
+                with suppress(RsibrError):
+                    queue_bake(scene, stale.request, items, by_itself=True)
+    redraw_sidebars()
+
+
+def _cancel_all_but(outputs: Collection[Path | None]) -> None:
+    """Cancel bakes that nobody asked for, and that an edit has overtaken."""
+    for bake in session().bakes.bakes:
+        if bake.by_itself and not bake.ended and bake.output not in outputs:
+            bake.cancel()
+            bake.tidy()
+
+
+def _has_ended_badly(output: Path | None) -> bool:
+    """Whether the last bake of a file failed, or was cancelled: then the artist has to ask for it."""
+    return any(bake.output == output and bake.ended for bake in session().bakes.bakes)
+
+
+_HANDLERS: dict[str, Callable[..., None]] = {
+    "depsgraph_update_post": _edited,
+    "frame_change_post": _edited,
+    "undo_post": _replaced,
+    "redo_post": _replaced,
+    "load_post": _replaced,
+}

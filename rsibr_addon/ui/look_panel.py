@@ -1,0 +1,113 @@
+"""How the active object is shaded."""
+
+import bpy
+
+from ..core.options import Declared, declared_options
+from ..files.kinds.registry import look_types
+from ..host.option_properties import property_name, said_by
+from ..host.world_light import has_environment, holds_world, world_light
+from ..session.running import session
+from ..tasks.methods.kinds import KINDS
+from .sentences import tell
+from .sidebar import InSidebar
+
+NOT_FOLLOWED = (
+    "The world is more than a Background and an Environment Texture with a Mapping that rotates: bake in "
+    "the world itself instead of following it."
+)
+
+EQUAL_LOOKS = "Both looks are the same, and so nothing differs: change the other look below."
+
+
+class RSIBR_PT_look(InSidebar, bpy.types.Panel):
+    """How the active object is shaded"""  # noqa: D400  (a tooltip)
+
+    bl_label = "Look"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Whether there is an object to be shaded."""
+        return context.object is not None
+
+    def draw_header(self, context: bpy.types.Context) -> None:
+        """Show the switch."""
+        self.layout.prop(context.object.rsibr, "show", text="")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Show how it is shaded, what went wrong, and what is beside it."""
+        item, layout = context.object, self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        world = context.scene.world
+        if not holds_world(item):
+            layout.prop(item.rsibr, "follow_world")
+            if item.rsibr.follow_world and has_environment(world) and world_light(world) is None:
+                tell(layout, NOT_FOLLOWED, context.region.width)
+        previews = session().previews
+        for message in previews.messages(item):
+            tell(layout, message, context.region.width)
+        if previews.is_loading(item):
+            layout.label(text="Loading...", icon="TIME")
+        kind = previews.kind(item)
+        if kind is None:
+            return
+        if KINDS[kind].menu:
+            layout.menu(KINDS[kind].menu, text="Choose...", icon="MATERIAL")
+        _show_look(layout, item, kind, other=False)
+        view = context.window_manager.rsibr_view
+        row = layout.row(heading="Split Screen")
+        row.prop(view, "split", text="")
+        row.prop(view, "line", text="", slider=True)
+        row.operator("rsibr.drag_split", text="", icon="ARROW_LEFTRIGHT")
+        if view.split:
+            layout.prop(view, "beyond")
+        if view.split and view.beyond == "difference":
+            layout.prop(view, "difference")
+        if view.split and view.beyond != "blender":
+            layout.label(text="Other look")
+            if _looks_are_equal(item, kind):
+                tell(layout, EQUAL_LOOKS, context.region.width, icon="INFO")
+            _show_look(layout, item, kind, other=True)
+
+
+def _looks_are_equal(item: bpy.types.Object, kind: str) -> bool:
+    look = look_types()[kind]
+    return said_by(look, getattr(item.rsibr, kind)) == said_by(look, getattr(item.rsibr.other, kind))
+
+
+def _show_look(layout: bpy.types.UILayout, item: bpy.types.Object, kind: str, other: bool) -> None:
+    """Show how a kind of map set is shaded; in its own materials, an object needs no other."""
+    group = getattr(item.rsibr.other if other else item.rsibr, kind)
+    options = list(declared_options(look_types()[kind]))
+    if hasattr(group, "own"):
+        layout.prop(group, "own")
+        options = [each for each in options if each.name != "own"]
+        if group.own and _has_materials(item):
+            return
+    for each in options:
+        if not each.option.advanced:
+            _show_option(layout, group, each)
+    if more := [each for each in options if each.option.advanced]:
+        header, opened = layout.panel(f"RSIBR_look_{kind}_{other}", default_closed=True)
+        header.label(text="More")
+        for each in more if opened else ():
+            _show_option(opened, group, each)
+
+
+def _has_materials(item: bpy.types.Object) -> bool:
+    slots = item.material_slots
+    return bool(slots) and all(slot.material for slot in slots)
+
+
+def _show_option(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, declared: Declared) -> None:
+    name = property_name(declared)
+    if declared.option.switch is not None:
+        layout.prop(group, f"use_{name}")
+    if isinstance(getattr(group, name), set):
+        # In a row there would be room for one letter of each
+        layout.label(text=declared.option.label)
+        flow = layout.column_flow(columns=2, align=True)
+        flow.use_property_split = False
+        flow.prop(group, name)
+    else:
+        layout.prop(group, name)

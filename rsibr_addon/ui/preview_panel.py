@@ -1,0 +1,113 @@
+"""What an artist needs: the light, what it will shade, how well, and the button."""
+
+import bpy
+
+from ..core.errors import RsibrError
+from ..files.kinds.registry import STORED
+from ..host.map_sets import written_path
+from ..session.running import session
+from ..tasks.queue.bake_request import request_for
+from ..tasks.queue.freshness import Stale
+from ..tasks.report.facts import is_picture, map_set_header
+from .bakes import draw_bakes
+from .light import draw_light
+from .map_set_file import draw_change, draw_remedies
+from .materials import draw_materials
+from .quality import draw_quality
+from .sentences import amount, capital, duration, tell
+from .sidebar import InSidebar
+
+UNKNOWN_METHOD = "The method is one of another version: choose one below Advanced."
+
+
+class RSIBR_PT_preview(InSidebar, bpy.types.Panel):
+    """See objects in a light, with its true reflections"""  # noqa: D400  (a tooltip)
+
+    bl_label = "Preview"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Show light, materials, quality and buttons; what is out of date, and what is being baked."""
+        layout, width, chosen = self.layout, context.region.width, context.scene.rsibr_bake
+        draw_light(layout, context)
+        if not chosen.kind:
+            tell(layout, UNKNOWN_METHOD, width)
+            return
+        settings = STORED[chosen.kind].settings
+        if context.object is not None:
+            if settings.OWN_MATERIALS:
+                draw_materials(layout.column(align=True), context.object, width)
+            else:
+                layout.label(text=_shaded_as(context), icon="MATERIAL")
+        draw_quality(layout, chosen)
+        _draw_request(layout, context)
+        row = layout.row(align=True)
+        row.scale_y = 1.5
+        row.operator("rsibr.bake", text="Preview", icon="SHADING_RENDERED")
+        row.operator("rsibr.preview_scene", text="Preview Scene", icon="SCENE_DATA")
+        if context.object is not None and context.object.rsibr.map_set:
+            _draw_state(layout, context.object, width)
+        draw_bakes(layout, session().bakes.bakes, width)
+
+
+def _shaded_as(context: bpy.types.Context) -> str:
+    """What the objects will look like, for methods that do not take their materials as they are."""
+    chosen, item = context.scene.rsibr_bake, context.object
+    settings, label = getattr(chosen, chosen.kind), STORED[chosen.kind].settings.LABEL
+    if getattr(settings, "source", None) == "OWN":
+        return f"{label} of {item.active_material.name}" if item.active_material else label
+    return label
+
+
+def _draw_request(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    """Show what a bake would cost and lack, or why there can be none."""
+    width = context.region.width
+    try:
+        request = request_for(context.scene.rsibr_bake, context.scene, context.object)
+    except RsibrError as error:
+        tell(layout, str(error), width)
+        return
+    for remark in request.remarks:
+        tell(layout, remark, width, icon="INFO")
+    cost = request.cost
+    takes = f"{amount(cost.memory)} of memory, {amount(cost.disk)} on disk"
+    tell(layout, capital(f"{duration(cost.seconds)}, {takes}"), width, icon="TIME")
+
+
+def _draw_state(layout: bpy.types.UILayout, item: bpy.types.Object, width: int) -> None:
+    """Show whether the active object's map set is there, and up to date."""
+    try:
+        path = written_path(item.rsibr)
+        if not is_picture(path):
+            map_set_header(path)
+            draw_change(layout, item, path, width)
+    except RsibrError as error:
+        tell(layout, str(error), width)
+        draw_remedies(layout)
+    else:
+        _draw_freshness(layout, item, width)
+
+
+def _draw_freshness(layout: bpy.types.UILayout, item: bpy.types.Object, width: int) -> None:
+    """Show whether the active object is up to date, and how many others are not."""
+    freshness = session().freshness
+    stale = freshness.of(item)
+    if stale is not None:
+        _draw_stale(layout, stale, width)
+    elif item.session_uid in freshness.stale:
+        layout.label(text="Up to date", icon="CHECKMARK")
+    others = sum(each is not None for each in freshness.stale.values()) - (stale is not None)
+    if others:
+        row = layout.row()
+        row.label(text=f"{others} other objects out of date" if others > 1 else "Another object out of date")
+        row.operator("rsibr.rebake")
+
+
+def _draw_stale(layout: bpy.types.UILayout, stale: Stale, width: int) -> None:
+    if stale.output is None:
+        tell(layout, f"It cannot be baked anew. {stale.reason}", width)
+    elif session().bakes.unfinished(stale.output) is not None:
+        layout.label(text=f"{stale.reason}, rebaking", icon="TIME")
+    else:
+        row = layout.row()
+        row.label(text=stale.reason, icon="ERROR")
+        row.operator("rsibr.rebake")

@@ -1,0 +1,186 @@
+"""Whether objects are up to date: by the name that a bake would have today."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import bpy
+import pytest
+import rsibr
+from rsibr.rsibr_addon.host.bake_settings import assign
+from rsibr.rsibr_addon.host.world_light import followed_light
+from rsibr.rsibr_addon.tasks.queue.bake_request import output_for, request_for
+from rsibr.rsibr_addon.tasks.queue.freshness import Freshness, Stale
+from rsibr.tests.flat_capture import write_flat_capture
+
+
+@pytest.fixture(autouse=True)
+def _registered(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[None]:
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.queue.bake_request.baked_folder", lambda: tmp_path)
+    # As this version would, `flat_capture` says of its files that tests made them
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.queue.freshness.rsibr", lambda: "tests")
+    rsibr.register()
+    yield
+    rsibr.unregister()
+
+
+def cube() -> bpy.types.Object:
+    return bpy.data.objects["Cube"]
+
+
+def baked(kind: str, light: str, item: bpy.types.Object) -> None:
+    """Have an object be shaded from the file of its bake; what that holds does not matter here."""
+    scene = bpy.context.scene
+    scene.rsibr_bake.kind, scene.rsibr_bake.light = kind, light
+    request = request_for(scene.rsibr_bake, scene, item)
+    path = output_for(request, scene, item)
+    if not path.exists():
+        write_flat_capture(path, (0.5, 0.0, 0.5))
+    assign(item.session_uid, path, request.shown)
+
+
+def staleness(item: bpy.types.Object) -> Stale | None:
+    freshness = Freshness()
+    freshness.look([bpy.context.scene])
+    return freshness.stale[item.session_uid]
+
+
+def painted(level: float) -> bpy.types.Image:
+    image = bpy.data.images.new("Sky", 4, 2, float_buffer=True)
+    image.pixels[0] = level
+    image.pack()
+    return image
+
+
+def environment_texture() -> tuple[bpy.types.Node, bpy.types.Node]:
+    """Give the scene's world an Environment Texture with a Mapping, and its Background."""
+    tree = bpy.context.scene.world.node_tree
+    coordinates, mapping, texture = (
+        tree.nodes.new(f"ShaderNode{name}") for name in ("TexCoord", "Mapping", "TexEnvironment")
+    )
+    tree.links.new(coordinates.outputs["Generated"], mapping.inputs["Vector"])
+    tree.links.new(mapping.outputs["Vector"], texture.inputs["Vector"])
+    tree.links.new(texture.outputs["Color"], tree.nodes["Background"].inputs["Color"])
+    texture.image = painted(0.0)
+    return mapping, tree.nodes["Background"]
+
+
+@pytest.mark.parametrize(("kind", "by_itself"), [("kernel_pyramid", True), ("mip_chain", True)])
+def test_light_of_a_world_is_out_of_date_when_the_world_changes(kind: str, by_itself: bool) -> None:
+    baked(kind, "WORLD", cube())
+    assert staleness(cube()) is None
+    color = bpy.context.scene.world.node_tree.nodes["Background"].inputs["Color"]
+    before = tuple(color.default_value)
+    color.default_value = (0.9, 0.1, 0.1, 1.0)
+    stale = staleness(cube())
+    assert stale is not None
+    assert (stale.reason, stale.by_itself) == ("World changed", by_itself)
+    assert stale.output is not None
+    cube().rsibr.follow_world = False
+    stale = staleness(cube())
+    assert stale is not None
+    assert not stale.by_itself
+    color.default_value = before
+    assert staleness(cube()) is None
+
+
+def test_materials_are_no_part_of_light() -> None:
+    baked("kernel_pyramid", "WORLD", cube())
+    cube().active_material.node_tree.nodes["Principled BSDF"].inputs["Metallic"].default_value = 1.0
+    assert staleness(cube()) is None
+
+
+def test_a_world_that_only_turns_and_scales_is_followed_without_a_bake() -> None:
+    mapping, background = environment_texture()
+    baked("kernel_pyramid", "WORLD", cube())
+    mapping.inputs["Rotation"].default_value[2] = 1.0
+    background.inputs["Strength"].default_value = 3.0
+    assert staleness(cube()) is None
+    followed = followed_light(cube(), bpy.context.scene.world)
+    assert followed is not None
+    assert followed.strength == 3.0
+    bpy.data.images["Sky"].user_remap(painted(1.0))
+    stale = staleness(cube())
+    assert stale is not None
+    assert stale.reason == "World changed"
+
+
+def test_what_does_not_follow_the_world_holds_its_turn_and_strength() -> None:
+    mapping, _ = environment_texture()
+    cube().rsibr.follow_world = False
+    baked("kernel_pyramid", "WORLD", cube())
+    mapping.inputs["Rotation"].default_value[2] = 1.0
+    assert staleness(cube()) is not None
+    mapping.inputs["Rotation"].default_value[2] = 0.0
+    assert staleness(cube()) is None
+    cube().rsibr.follow_world = True
+    assert staleness(cube()) is not None  # it would be baked bare now
+    assert followed_light(cube(), bpy.context.scene.world) is None
+
+
+def test_a_baked_material_is_out_of_date_when_it_changes() -> None:
+    baked("radiance_views", "STUDIO", cube())
+    material = cube().active_material
+    roughness = material.node_tree.nodes["Principled BSDF"].inputs["Roughness"]
+    roughness.default_value = 0.125
+    stale = staleness(cube())
+    assert stale is not None
+    assert (stale.reason, stale.by_itself) == ("Material changed", False)
+    # The same map set in another object's material
+    other = cube().copy()
+    bpy.context.collection.objects.link(other)
+    other.data = other.data.copy()
+    roughness.default_value = 0.5
+    other.data.materials[0] = bpy.data.materials.new("Other")
+    freshness = Freshness()
+    freshness.look([bpy.context.scene])
+    assert freshness.of(cube()) is None
+    assert [items for _, items in freshness.wanted(bpy.context.scene)] == [[other]]
+
+
+def test_a_file_of_another_version_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    baked("kernel_pyramid", "WORLD", cube())
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.queue.bake_request.software", lambda: "rsibr 9")
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.queue.freshness.rsibr", lambda: "rsibr 9")
+    stale = staleness(cube())
+    assert stale is not None
+    assert (stale.reason, stale.by_itself) == ("Baked by another version", False)
+
+
+def test_what_cannot_be_baked_any_more_says_why() -> None:
+    baked("radiance_views", "STUDIO", cube())
+    cube().data.materials.clear()
+    stale = staleness(cube())
+    assert stale is not None
+    assert stale.output is None
+    assert "Cube has no material" in stale.reason
+
+
+def test_another_world_and_another_file_are_noticed() -> None:
+    scene, freshness = bpy.context.scene, Freshness()
+    baked("kernel_pyramid", "WORLD", cube())
+    assert freshness.has_changed(scene, [])
+    freshness.look([scene])
+    assert not freshness.has_changed(scene, [cube()])
+    scene.world = bpy.data.worlds.new("Night")
+    assert freshness.has_changed(scene, [])
+    freshness.look([scene])
+    cube().rsibr.follow_world = False
+    assert freshness.has_changed(scene, [cube()])
+    freshness.look([scene])
+    cube().rsibr.map_set = ""
+    assert not freshness.has_changed(scene, [cube()])
+
+
+def test_rebake_makes_all_that_is_out_of_date(monkeypatch: pytest.MonkeyPatch) -> None:
+    made = []
+    monkeypatch.setattr(
+        "rsibr.operators.rebake.queue_bake", lambda scene, request, items: made.append(items) or "Baking"
+    )
+    baked("mip_chain", "WORLD", cube())
+    other = cube().copy()
+    bpy.context.collection.objects.link(other)
+    assert bpy.ops.rsibr.rebake() == {"FINISHED"}
+    assert made == []
+    bpy.context.scene.world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0.5
+    assert bpy.ops.rsibr.rebake() == {"FINISHED"}
+    assert made == [[cube(), other]]

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 from mathutils import Euler, Matrix
 
-from ..core.materials.principled import Affine, Input, Row, Texture
+from ..core.materials.principled import Affine, Input, Row, Texture, constant
 
 Groups = tuple[bpy.types.Node, ...]
 """The group nodes that a node lies in, the outermost first."""
@@ -25,11 +25,6 @@ class NotFollowedError(Exception):
     def __init__(self, reason: str) -> None:
         super().__init__(reason)
         self.reason = reason
-
-
-def constant(numbers: Sequence[float]) -> Input:
-    """An input without an image."""
-    return Input(tuple((0.0, 0.0, 0.0, 0.0, float(number)) for number in numbers))
 
 
 def source(socket: bpy.types.NodeSocket, groups: Groups) -> tuple[bpy.types.NodeSocket, Groups]:

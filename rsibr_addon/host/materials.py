@@ -70,6 +70,11 @@ def surface_output(material: bpy.types.Material) -> bpy.types.Node | None:
     return output if output and output.inputs["Surface"].is_linked else None
 
 
+def materials_changed(depsgraph: bpy.types.Depsgraph) -> bool:
+    """Whether materials, or what they are made of, may have changed; within a handler of Blender's alone."""
+    return any(map(depsgraph.id_type_updated, ("MATERIAL", "NODETREE", "IMAGE")))
+
+
 def material_name(spec: str) -> str:
     """The name in a text that `load_material` takes."""
     return _parsed(spec)[1]

@@ -75,10 +75,9 @@ def triangle_slots(mesh: bpy.types.Mesh) -> Indices:
     return slots[read_property(mesh.loop_triangle_polygons, "value", np.int32)[:, 0]]
 
 
-def corner_uv(mesh: bpy.types.Mesh, name: str) -> Array | None:
-    """A UV map, shape (corners, 2); the one that the mesh renders with for no name. None if there is none."""
-    maps = [each for each in mesh.uv_layers if (each.name == name if name else each.active_render)]
-    return read_property(maps[0].uv, "vector", np.float32, 2) if maps else None
+def corner_uv(mesh: bpy.types.Mesh, name: str) -> Array:
+    """A UV map that the mesh has, shape (corners, 2)."""
+    return read_property(mesh.uv_layers[name].uv, "vector", np.float32, 2)
 
 
 def triangle_corners(mesh: bpy.types.Mesh) -> Indices:

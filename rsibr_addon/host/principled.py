@@ -5,8 +5,8 @@ from typing import Any
 import bpy
 
 from ..core.errors import SceneError
-from ..core.materials.principled import Baked, Bump, Normal, NormalMap, PrincipledInputs, Shading
-from .input_nodes import Groups, NotFollowedError, constant, read, source
+from ..core.materials.principled import Baked, Bump, Normal, NormalMap, PrincipledInputs, Shading, constant
+from .input_nodes import Groups, NotFollowedError, read, source
 from .materials import surface_output
 
 INPUTS = {

@@ -1,6 +1,7 @@
 """Meshes with what textures need: UV maps, the tangents of normal maps, and the slot of each triangle."""
 
 import hashlib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -52,18 +53,19 @@ class TexturedMesh(TriangleMesh):
     Attributes
     ----------
     uv_maps : tuple of str
-        Those of `MeshNeeds`, by the same names.
+        Names of those of `MeshNeeds` that it has, each once; the one that it renders with, if that is needed,
+        comes first.
     uv : ndarray, shape (V, len(uv_maps), 2), float32
-        0 for a map that the mesh does not have, as in Cycles.
-    tangents : ndarray, shape (V, 4), float32
-        See `core.geometry.tangents`; 0 where none is needed, or the mesh does not have the UV map.
+    tangents : ndarray, shape (V, 4), float32, optional
+        See `core.geometry.tangents`; 0 where a slot needs none, or the mesh does not have the UV map. None
+        where no slot needs any.
     slots : ndarray, shape (T,), int32
         The material slot of each triangle, from 0; it may lie beyond the last one.
     """
 
     uv_maps: tuple[str, ...]
     uv: Array
-    tangents: Array
+    tangents: Array | None
     slots: Indices
 
 
@@ -82,7 +84,10 @@ def textured_mesh(mesh: bpy.types.Mesh, name: str, needs: MeshNeeds) -> Textured
     TexturedMesh
     """
     surface = _Corners(mesh)
-    uv = _uv(mesh, needs.uv_maps, surface.corners)
+    maps = _maps(mesh, needs.uv_maps)
+    uv = np.empty((len(surface.corners), len(maps), 2), np.float32)
+    for number, each in enumerate(maps):
+        uv[:, number] = corner_uv(mesh, each)[surface.corners]
     tangent, groups = _tangents(mesh, needs, surface)
     keys = np.vstack([surface.keys, bits(uv.reshape(len(uv), -1)), groups])
     kept, split = split_vertices(surface.count, surface.vertices, keys)
@@ -91,9 +96,9 @@ def textured_mesh(mesh: bpy.types.Mesh, name: str, needs: MeshNeeds) -> Textured
         surface.positions[kept],
         surface.normals[kept],
         split.reshape(-1, 3),
-        needs.uv_maps,
+        maps,
         uv[kept],
-        tangent[kept],
+        tangent[kept] if needs.tangent_maps else None,
         surface.slots,
     )
 
@@ -102,9 +107,9 @@ def textured_content_of(mesh: bpy.types.Mesh, needs: MeshNeeds) -> bytes:
     """A hash of all data that `textured_mesh` depends on, in a fraction of its time."""
     content = hashlib.sha1(content_of(mesh) + repr(needs).encode(), usedforsecurity=False)
     content.update(triangle_slots(mesh).data)
-    for name in dict.fromkeys([*needs.uv_maps, *needs.tangent_maps]):
-        uv = corner_uv(mesh, name)
-        content.update(b"" if uv is None else uv.data)
+    for name in _maps(mesh, [*needs.uv_maps, *needs.tangent_maps]):
+        content.update(name.encode())
+        content.update(corner_uv(mesh, name).data)
     return content.digest()
 
 
@@ -144,14 +149,17 @@ class _Corners:
         return numbers
 
 
-def _uv(mesh: bpy.types.Mesh, names: tuple[str, ...], corners: Indices) -> Array:
-    """UV maps at corners, shape (corners, len(names), 2)."""
-    uv = np.zeros((len(corners), len(names), 2), np.float32)
-    for number, name in enumerate(names):
-        of_map = corner_uv(mesh, name)
-        if of_map is not None:
-            uv[:, number] = of_map[corners]
-    return uv
+def _maps(mesh: bpy.types.Mesh, names: Sequence[str]) -> tuple[str, ...]:
+    """The UV maps that a mesh has of those that are needed, each once, the one that it renders with first."""
+    found = [_map(mesh, name) for name in sorted(names)]
+    return tuple(dict.fromkeys(each for each in found if each is not None))
+
+
+def _map(mesh: bpy.types.Mesh, name: str) -> str | None:
+    """A UV map by a name that may be empty; None if there is none."""
+    if name:
+        return name if name in mesh.uv_layers else None
+    return next((each.name for each in mesh.uv_layers if each.active_render), None)
 
 
 def _tangents(mesh: bpy.types.Mesh, needs: MeshNeeds, surface: _Corners) -> tuple[Array, Indices]:
@@ -166,10 +174,10 @@ def _tangents(mesh: bpy.types.Mesh, needs: MeshNeeds, surface: _Corners) -> tupl
     found, groups = np.zeros((count, 4), np.float32), np.zeros(count, np.int32)
     of_slots = np.repeat(np.clip(surface.slots, 0, len(needs.tangents) - 1), 3)
     for name in needs.tangent_maps:
-        uv = corner_uv(mesh, name)
-        if uv is None:
+        found_map = _map(mesh, name)
+        if found_map is None:
             continue
-        map_place = uv[surface.corners]
+        map_place = corner_uv(mesh, found_map)[surface.corners]
         keys = np.vstack([surface.keys, bits(map_place)])
         _, welded = split_vertices(surface.count, surface.places, keys)
         of_map, groups_of_map = tangents(

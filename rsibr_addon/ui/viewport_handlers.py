@@ -9,6 +9,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..device.shaders import release_programs
+from ..host.materials import materials_changed
 from ..host.visible_surfaces import current_view
 from ..session.running import Session, session
 
@@ -116,7 +117,7 @@ def _stop_timers() -> None:
 @_guarded
 def _scene_changed(running: Session, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     if depsgraph.mode == "VIEWPORT":  # A render evaluates scenes too, in a thread of its own.
-        running.previews.scene_changed()
+        running.previews.scene_changed(materials_changed(depsgraph))
 
 
 @persistent

@@ -168,13 +168,28 @@ def test_vertices_are_split_only_where_corners_disagree(monkey: bpy.types.Mesh, 
     np.testing.assert_array_equal(ours.positions[ours.triangles.ravel()], places[vertex])
 
 
-def test_a_map_that_is_not_there_is_zero_and_has_no_tangents(monkey: bpy.types.Mesh) -> None:
-    ours = textured_mesh(monkey, "monkey", MeshNeeds(("absent", ""), ("absent",)))
-    assert not ours.uv[:, 0].any()
-    assert ours.uv[:, 1].any()
+def test_a_map_that_is_not_there_is_left_out_and_has_no_tangents(monkey: bpy.types.Mesh) -> None:
+    ours = textured_mesh(monkey, "monkey", MeshNeeds(("absent", "UVMap", ""), ("absent",)))
+    assert ours.uv_maps == ("UVMap",)
+    np.testing.assert_array_equal(ours.uv[ours.triangles.ravel(), 0], get_uv(monkey))
     assert not ours.tangents.any()
     monkey.uv_layers.remove(monkey.uv_layers[0])
-    assert not textured_mesh(monkey, "monkey", RENDERED).uv.any()
+    ours = textured_mesh(monkey, "monkey", RENDERED)
+    assert ours.uv_maps == ()
+    assert not ours.tangents.any()
+
+
+def test_the_map_that_the_mesh_renders_with_comes_first(monkey: bpy.types.Mesh) -> None:
+    set_uv(monkey, 2.0 * get_uv(monkey), "Another")
+    assert textured_mesh(monkey, "monkey", MeshNeeds(("", "Another"), (None,))).uv_maps == (
+        "UVMap",
+        "Another",
+    )
+    monkey.uv_layers["Another"].active_render = True
+    ours = textured_mesh(monkey, "monkey", MeshNeeds(("", "UVMap"), (None,)))
+    assert ours.uv_maps == ("Another", "UVMap")
+    np.testing.assert_array_equal(ours.uv[:, 0], 2.0 * ours.uv[:, 1])
+    assert ours.tangents is None
 
 
 def test_each_slot_has_the_tangents_of_its_own_map(monkey: bpy.types.Mesh) -> None:
@@ -186,10 +201,13 @@ def test_each_slot_has_the_tangents_of_its_own_map(monkey: bpy.types.Mesh) -> No
     ours = textured_mesh(monkey, "monkey", needs)
     np.testing.assert_array_equal(ours.slots, slots)
     assert ours.uv.shape == (len(ours.positions), 0, 2)
-    alone = [textured_mesh(monkey, "monkey", MeshNeeds((), (name,))) for name in ("UVMap", None, "turned")]
-    for slot in range(4):  # the last one is beyond what is needed
-        its, whole = (each.triangles[slots == slot] for each in (ours, alone[min(slot, 2)]))
-        np.testing.assert_array_equal(ours.tangents[its], alone[min(slot, 2)].tangents[whole])
+    for slot, name in enumerate(("UVMap", None, "turned", "turned")):  # the last one is beyond what is needed
+        its = ours.tangents[ours.triangles[slots == slot]]
+        if name is None:
+            assert not its.any()
+        else:
+            alone = textured_mesh(monkey, "monkey", MeshNeeds((), (name,)))
+            np.testing.assert_array_equal(its, alone.tangents[alone.triangles[slots == slot]])
 
 
 def test_content_is_all_that_the_mesh_depends_on(monkey: bpy.types.Mesh) -> None:
@@ -203,7 +221,7 @@ def test_content_is_all_that_the_mesh_depends_on(monkey: bpy.types.Mesh) -> None
     monkey.vertices[0].co.x += 0.1
     contents.append(textured_content_of(monkey, RENDERED))
     monkey.uv_layers["UVMap"].name = "renamed"
-    assert textured_content_of(monkey, RENDERED) == contents[-1]
+    contents.append(textured_content_of(monkey, RENDERED))
     contents.append(textured_content_of(monkey, MeshNeeds(("UVMap",), ("UVMap",))))
     assert len(set(contents)) == len(contents)
 

@@ -3,6 +3,7 @@
 Descriptions are compared by value: equal ones look the same as long as their images do.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -67,6 +68,11 @@ class Input:
     def constant(self) -> tuple[float, ...]:
         """The numbers without the texture's part."""
         return tuple(row[4] for row in self.rows)
+
+
+def constant(numbers: Sequence[float]) -> Input:
+    """An input without an image."""
+    return Input(tuple((0.0, 0.0, 0.0, 0.0, float(number)) for number in numbers))
 
 
 @dataclass(frozen=True)

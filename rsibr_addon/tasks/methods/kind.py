@@ -24,6 +24,8 @@ class Kind:
         What pictures drawn from it are compared with; None for nothing.
     live : bool
         Whether its looks are made while one looks.
+    own : bool
+        Whether its look has `own`, which asks for an object's own materials.
     menu : str
         A menu of Blender that its preview offers beside its look; empty for none.
     """
@@ -32,4 +34,5 @@ class Kind:
     drawable: Callable[..., GpuMapSet]
     truth: Truth | None = None
     live: bool = False
+    own: bool = False
     menu: str = ""

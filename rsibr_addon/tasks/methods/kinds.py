@@ -36,7 +36,7 @@ def _pyramid(pyramid: Pyramid) -> GpuPyramid:
 
 
 KINDS: dict[str, Kind] = {
-    "kernel_pyramid": Kind(kernel_pyramid.from_map_set, _pyramid, kernel_pyramid_truth.TRUTH),
+    "kernel_pyramid": Kind(kernel_pyramid.from_map_set, _pyramid, kernel_pyramid_truth.TRUTH, own=True),
     "radiance_views": Kind(radiance_views.from_map_set, GpuRadianceViews, radiance_views_truth.TRUTH),
     "lobe_stack": Kind(lobe_stack.from_map_set, GpuLobeStack, lobe_stack_truth.TRUTH),
     "reflection_tables": Kind(reflection_tables.from_map_set, GpuReflectionTables),

@@ -1,19 +1,37 @@
 """What view layers show: surfaces with a preview, and those that may hide them."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from ...device.drawing import GpuMesh
+from ...host.textured_meshes import MeshNeeds
 from ...host.visible_surfaces import Layer, Surface, View, is_wanted, map_set_of, shown_layers, surfaces
 from .faults import Faults
 from .meshes import UploadedMeshes
+from .own_materials import Materials, ShownMaterials
 
 
 @dataclass(frozen=True, eq=False)
 class Drawable:
-    """A surface, and what it is drawn with."""
+    """A surface, and what it is drawn with.
+
+    Attributes
+    ----------
+    surface : Surface
+    mesh : GpuMesh
+        A `GpuTexturedMesh` where there are materials.
+    materials : ShownMaterials or None
+        Its own, if they were asked for.
+    """
 
     surface: Surface
     mesh: GpuMesh
+    materials: ShownMaterials | None = None
+
+    @property
+    def needs(self) -> MeshNeeds | None:
+        """What its materials need of its mesh."""
+        return self.materials.needs if self.materials else None
 
     def is_seen(self, view: View) -> bool:
         """Whether a viewport shows it."""
@@ -49,14 +67,30 @@ class Contents:
 
 
 class LayerContents:
-    """What the shown view layers show, and their meshes on the GPU."""
+    """What the shown view layers show, and their meshes on the GPU.
 
-    def __init__(self) -> None:
+    Parameters
+    ----------
+    shows_own : callable
+        Whether a surface is to be drawn with its own materials.
+    """
+
+    def __init__(self, shows_own: Callable[[Surface], bool]) -> None:
         self.layers: dict[Layer, Contents] = {}
         self.meshes = UploadedMeshes()
+        self._materials = Materials()
+        self._shows_own = shows_own
 
-    def scene_changed(self) -> None:
-        """Look at each layer anew when it is drawn next; what is the same stays uploaded."""
+    def scene_changed(self, materials: bool) -> None:
+        """Look at each layer anew when it is drawn next; what is the same stays uploaded.
+
+        Parameters
+        ----------
+        materials : bool
+            Whether materials, or what they are made of, may have changed too.
+        """
+        if materials:
+            self._materials.changed()
         for contents in self.layers.values():
             contents.changed = True
 
@@ -71,12 +105,12 @@ class LayerContents:
         for layer in self.layers.keys() - shown_layers():
             del self.layers[layer]
         shown = [each for layer in self.layers.values() for each in (*layer.previews, *(layer.others or ()))]
-        self.meshes.keep([each.surface for each in shown])
+        self.meshes.keep({(each.surface.mesh, each.needs) for each in shown})
         return contents
 
-    def previewed(self) -> list[Surface]:
-        """The surfaces with a preview, of all layers."""
-        return [each.surface for contents in self.layers.values() for each in contents.previews]
+    def previewed(self) -> list[Drawable]:
+        """What has a preview, of all layers."""
+        return [each for contents in self.layers.values() for each in contents.previews]
 
     def _fill(self, contents: Contents, view: View, faults: Faults) -> None:
         for surface, evaluated in surfaces(view.depsgraph):
@@ -85,6 +119,9 @@ class LayerContents:
             found = contents.previews if surface.path else contents.others
             if found is None:
                 continue
-            mesh = self.meshes.of(surface, evaluated, view.depsgraph)
+            materials = None
+            if surface.path and self._shows_own(surface):
+                materials = self._materials.of(evaluated)
+            mesh = self.meshes.of(surface, evaluated, view.depsgraph, materials.needs if materials else None)
             if mesh is not None:
-                found.append(Drawable(surface, mesh))
+                found.append(Drawable(surface, mesh, materials))

@@ -9,6 +9,11 @@ from ..methods.kinds import KINDS
 from .map_sets import ViewportMapSet
 
 
+def wants_own(item: Any, kind: str) -> bool:
+    """Whether either look of an object asks for its own materials."""
+    return KINDS[kind].own and any(getattr(group, kind).own for group in (item.rsibr, item.rsibr.other))
+
+
 class Looks:
     """Looks of objects; of kinds that are live, those that were asked for since the last that is there.
 

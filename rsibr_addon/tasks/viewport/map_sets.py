@@ -200,6 +200,10 @@ class MapSets:
             self._shown[item] = self.used[path]
         return self._shown.get(item)
 
+    def shown(self, item: Any) -> ViewportMapSet | None:
+        """What an object was shaded from when `shading` was asked last."""
+        return self._shown.get(item.session_uid)
+
     def keep(self, surfaces: Iterable[Surface]) -> None:
         """Let go of what none of these uses any more, of files in a while."""
         shown = {each.item.session_uid: each.path for each in surfaces}

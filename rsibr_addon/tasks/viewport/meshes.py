@@ -3,8 +3,13 @@
 from typing import Any
 
 from ...device.drawing import GpuMesh
+from ...device.textured_mesh import GpuTexturedMesh
 from ...host.meshes import content_of, evaluated_mesh, triangle_mesh
+from ...host.textured_meshes import MeshNeeds, textured_content_of, textured_mesh
 from ...host.visible_surfaces import Surface
+
+Wanted = tuple[int, MeshNeeds | None]
+"""The number of a mesh, and what materials need of it; None where it is drawn without its own."""
 
 
 class UploadedMeshes:
@@ -15,13 +20,13 @@ class UploadedMeshes:
     """
 
     def __init__(self) -> None:
-        self._contents: dict[int, bytes] = {}
+        self._contents: dict[Wanted, bytes] = {}
         self._uploaded: dict[bytes, GpuMesh] = {}
 
     def __len__(self) -> int:
         return len(self._uploaded)
 
-    def of(self, surface: Surface, evaluated: Any, depsgraph: Any) -> GpuMesh | None:
+    def of(self, surface: Surface, evaluated: Any, depsgraph: Any, needs: MeshNeeds | None) -> GpuMesh | None:
         """What a surface is drawn with, uploaded from now on; None if it has no faces.
 
         Parameters
@@ -30,22 +35,37 @@ class UploadedMeshes:
         evaluated : bpy.types.Object
             As `host.visible_surfaces.surfaces` yields it with the surface.
         depsgraph : bpy.types.Depsgraph
+        needs : MeshNeeds or None
+            What its own materials need, if it is drawn with them.
         """
-        if surface.mesh not in self._contents:
+        wanted = surface.mesh, needs
+        if wanted not in self._contents:
             with evaluated_mesh(evaluated, depsgraph) as mesh:
-                content = content_of(mesh)
+                content = textured_content_of(mesh, needs) if needs else content_of(mesh)
                 if content not in self._uploaded and mesh.polygons:
-                    triangles = triangle_mesh(mesh, evaluated.name)
-                    self._uploaded[content] = GpuMesh(
-                        triangles.positions, triangles.normals, triangles.triangles
-                    )
-                self._contents[surface.mesh] = content  # at last: what fails above is tried again
-        uploaded = self._uploaded.get(self._contents[surface.mesh])
+                    self._uploaded[content] = _uploaded(mesh, evaluated.name, needs)
+                self._contents[wanted] = content  # at last: what fails above is tried again
+        uploaded = self._uploaded.get(self._contents[wanted])
         return None if uploaded is None else uploaded.again()
 
-    def keep(self, surfaces: list[Surface]) -> None:
-        """Let go of what none of these surfaces has."""
-        wanted = {surface.mesh for surface in surfaces}
+    def keep(self, wanted: set[Wanted]) -> None:
+        """Let go of all but these."""
         self._contents = {mesh: content for mesh, content in self._contents.items() if mesh in wanted}
         contents = set(self._contents.values())
         self._uploaded = {content: mesh for content, mesh in self._uploaded.items() if content in contents}
+
+
+def _uploaded(mesh: Any, name: str, needs: MeshNeeds | None) -> GpuMesh:
+    if needs is None:
+        plain = triangle_mesh(mesh, name)
+        return GpuMesh(plain.positions, plain.normals, plain.triangles)
+    given = textured_mesh(mesh, name, needs)
+    return GpuTexturedMesh(
+        given.positions,
+        given.normals,
+        given.triangles,
+        given.slots,
+        given.uv,
+        given.tangents,
+        given.uv_maps,
+    )

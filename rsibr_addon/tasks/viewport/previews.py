@@ -10,11 +10,12 @@ from ...device.preview_stage import Stage, current_sight, draw_occluder
 from ...host.live_light import shows_surroundings
 from ...host.visible_surfaces import Surface, View, map_set_of
 from ...host.world_light import AS_IT_IS
+from ..methods.kinds import KINDS
 from ..methods.live_materials import LiveFits
-from .contents import Drawable, LayerContents
+from .contents import Contents, Drawable, LayerContents
 from .displays import Displays
 from .faults import Faults
-from .looks import Looks
+from .looks import Looks, wants_own
 from .map_sets import MapSets, ViewportMapSet
 
 
@@ -67,7 +68,7 @@ class Previews:
     def release(self) -> None:
         """Let go of everything: the file is closed, or the extension leaves."""
         self._stage, self._other_stage = Stage(), Stage()
-        self._layers = LayerContents()
+        self._layers = LayerContents(self._shows_own)
         self._displays = Displays()
         self.reload()
 
@@ -77,9 +78,15 @@ class Previews:
         self._map_sets = MapSets(self._fits, self._reader)
         self._looks, self.faults = Looks(), Faults()
 
-    def scene_changed(self) -> None:
-        """Look at each scene anew when it is drawn next; what is the same stays uploaded."""
-        self._layers.scene_changed()
+    def scene_changed(self, materials: bool = True) -> None:
+        """Look at each scene anew when it is drawn next; what is the same stays uploaded.
+
+        Parameters
+        ----------
+        materials : bool
+            Whether materials, or what they are made of, may have changed too.
+        """
+        self._layers.scene_changed(materials)
         for light in self._map_sets.lights.values():
             light.scene_changed()
 
@@ -111,7 +118,9 @@ class Previews:
         map_set = self._map_sets.used.get(map_set_of(item))
         fault = self.faults.message(item)
         warnings = [*map_set.warnings, *self._looks.warnings(item, map_set)] if map_set and not fault else []
-        return [*filter(None, (fault, self.faults.trouble)), *warnings]
+        shown = next((each for each in self._layers.previewed() if each.surface.item == item), None)
+        of_materials = shown.materials.messages if shown and shown.materials else ()
+        return [*filter(None, (fault, self.faults.trouble)), *warnings, *of_materials]
 
     def draw(self, view: View) -> bool:
         """Draw the previews of a view into the active frame buffer.
@@ -131,16 +140,12 @@ class Previews:
         has_depth, sides = view.has_depth, view.sides
         contents = self._layers.layers.get(view.layer)
         if contents is None or not contents.serves(not has_depth):
-            contents = self._layers.collect(view, not has_depth, self.faults)
-            surfaces = self._layers.previewed()
-            self._looks.keep({each.path for each in surfaces})
-            self._map_sets.keep(surfaces)
+            contents = self._collected(view)
         self._map_sets.begin_frame()
-        seen = [
-            (each, map_set)
-            for each in contents.previews
-            if each.is_seen(view) and (map_set := self._shading(each.surface))
-        ]
+        seen = self._seen(contents, view)
+        if any(each.materials is None and self._shows_own(each.surface) for each, _ in seen):
+            contents = self._collected(view)  # a map set has come that wants its objects' materials
+            seen = self._seen(contents, view)
         if not seen:
             return True
         display, scale = self._displays.of(view.scene)
@@ -150,7 +155,7 @@ class Previews:
         looked = [
             (each, map_set, looks)
             for each, map_set in seen
-            if (looks := self._looks_of(each.surface, map_set, wanted))
+            if (looks := self._looks_of(each, map_set, wanted))
         ]
         lights = [view.light_of(each.surface.item) for each, *_ in looked]
         sight = current_sight()
@@ -211,6 +216,27 @@ class Previews:
         """
         self._displays.learn(scene)
 
+    def _collected(self, view: View) -> Contents:
+        """What a view layer shows, looked at anew; what is used no more is let go."""
+        contents = self._layers.collect(view, not view.has_depth, self.faults)
+        surfaces = [each.surface for each in self._layers.previewed()]
+        self._looks.keep({each.path for each in surfaces})
+        self._map_sets.keep(surfaces)
+        return contents
+
+    def _seen(self, contents: Contents, view: View) -> list[tuple[Drawable, ViewportMapSet]]:
+        """What a view shows with a preview, and what it is shaded from."""
+        return [
+            (each, map_set)
+            for each in contents.previews
+            if each.is_seen(view) and (map_set := self._shading(each.surface))
+        ]
+
+    def _shows_own(self, surface: Surface) -> bool:
+        """Whether an object is to be drawn with its own materials, by what shades it now."""
+        map_set = self._map_sets.shown(surface.item)
+        return map_set is not None and wants_own(surface.item, map_set.kind)
+
     def _shading(self, surface: Surface) -> ViewportMapSet | None:
         """What an object is shaded from; None where that is not there yet, or something has gone wrong."""
         if self.faults.stands(surface.item):
@@ -221,13 +247,16 @@ class Previews:
             self.faults.note(surface.item, error)
             return None
 
-    def _looks_of(self, surface: Surface, map_set: ViewportMapSet, wanted: set[bool]) -> dict[bool, Any]:
+    def _looks_of(self, drawable: Drawable, map_set: ViewportMapSet, wanted: set[bool]) -> dict[bool, Any]:
         """The looks that are wanted of an object, by whether it is the other one; empty after a fault."""
         try:
-            return {other: self._looks.of(surface, map_set, other) for other in wanted}
+            looks = {other: self._looks.of(drawable.surface, map_set, other) for other in wanted}
         except Exception as error:
-            self.faults.note(surface.item, error)
+            self.faults.note(drawable.surface.item, error)
             return {}
+        if not (KINDS[map_set.kind].own and drawable.materials):
+            return looks
+        return {other: drawable.materials.look if look.own else look for other, look in looks.items()}
 
     def _set(
         self, stage: Stage, behind: list[tuple[GpuMesh, Draw]], group: list[_Shown], other: bool

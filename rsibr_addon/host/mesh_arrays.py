@@ -75,9 +75,17 @@ def triangle_slots(mesh: bpy.types.Mesh) -> Indices:
     return slots[read_property(mesh.loop_triangle_polygons, "value", np.int32)[:, 0]]
 
 
-def corner_uv(mesh: bpy.types.Mesh, name: str) -> Array:
-    """A UV map that the mesh has, shape (corners, 2)."""
-    return read_property(mesh.uv_layers[name].uv, "vector", np.float32, 2)
+def uv_map_named(mesh: bpy.types.Mesh, name: str) -> Any:
+    """A UV map; the one that the mesh renders with for no name. None if there is none."""
+    if name:
+        return mesh.uv_layers.get(name)
+    return next((each for each in mesh.uv_layers if each.active_render), None)
+
+
+def corner_uv(mesh: bpy.types.Mesh, name: str) -> Array | None:
+    """The places of `uv_map_named`, shape (corners, 2)."""
+    uv_map = uv_map_named(mesh, name)
+    return None if uv_map is None else read_property(uv_map.uv, "vector", np.float32, 2)
 
 
 def triangle_corners(mesh: bpy.types.Mesh) -> Indices:

@@ -19,6 +19,7 @@ from .mesh_arrays import (
     split_vertices,
     triangle_corners,
     triangle_slots,
+    uv_map_named,
     vertex_positions,
 )
 from .meshes import TriangleMesh, content_of
@@ -84,10 +85,10 @@ def textured_mesh(mesh: bpy.types.Mesh, name: str, needs: MeshNeeds) -> Textured
     TexturedMesh
     """
     surface = _Corners(mesh)
-    maps = _maps(mesh, needs.uv_maps)
+    maps = _uv_maps(mesh, needs.uv_maps)
     uv = np.empty((len(surface.corners), len(maps), 2), np.float32)
-    for number, each in enumerate(maps):
-        uv[:, number] = corner_uv(mesh, each)[surface.corners]
+    for number, at_corners in enumerate(maps.values()):
+        uv[:, number] = at_corners[surface.corners]
     tangent, groups = _tangents(mesh, needs, surface)
     keys = np.vstack([surface.keys, bits(uv.reshape(len(uv), -1)), groups])
     kept, split = split_vertices(surface.count, surface.vertices, keys)
@@ -96,7 +97,7 @@ def textured_mesh(mesh: bpy.types.Mesh, name: str, needs: MeshNeeds) -> Textured
         surface.positions[kept],
         surface.normals[kept],
         split.reshape(-1, 3),
-        maps,
+        tuple(maps),
         uv[kept],
         tangent[kept] if needs.tangent_maps else None,
         surface.slots,
@@ -107,9 +108,9 @@ def textured_content_of(mesh: bpy.types.Mesh, needs: MeshNeeds) -> bytes:
     """A hash of all data that `textured_mesh` depends on, in a fraction of its time."""
     content = hashlib.sha1(content_of(mesh) + repr(needs).encode(), usedforsecurity=False)
     content.update(triangle_slots(mesh).data)
-    for name in _maps(mesh, [*needs.uv_maps, *needs.tangent_maps]):
+    for name, at_corners in _uv_maps(mesh, [*needs.uv_maps, *needs.tangent_maps]).items():
         content.update(name.encode())
-        content.update(corner_uv(mesh, name).data)
+        content.update(at_corners.data)
     return content.digest()
 
 
@@ -149,17 +150,14 @@ class _Corners:
         return numbers
 
 
-def _maps(mesh: bpy.types.Mesh, names: Sequence[str]) -> tuple[str, ...]:
-    """The UV maps that a mesh has of those that are needed, each once, the one that it renders with first."""
-    found = [_map(mesh, name) for name in sorted(names)]
-    return tuple(dict.fromkeys(each for each in found if each is not None))
-
-
-def _map(mesh: bpy.types.Mesh, name: str) -> str | None:
-    """A UV map by a name that may be empty; None if there is none."""
-    if name:
-        return name if name in mesh.uv_layers else None
-    return next((each.name for each in mesh.uv_layers if each.active_render), None)
+def _uv_maps(mesh: bpy.types.Mesh, names: Sequence[str]) -> dict[str, Array]:
+    """Name -> places, of the UV maps that a mesh has of these, the one that it renders with by "" first."""
+    found = {}
+    for name in sorted(names):
+        uv_map, at_corners = uv_map_named(mesh, name), corner_uv(mesh, name)
+        if at_corners is not None:
+            found[uv_map.name] = at_corners
+    return found
 
 
 def _tangents(mesh: bpy.types.Mesh, needs: MeshNeeds, surface: _Corners) -> tuple[Array, Indices]:
@@ -174,10 +172,10 @@ def _tangents(mesh: bpy.types.Mesh, needs: MeshNeeds, surface: _Corners) -> tupl
     found, groups = np.zeros((count, 4), np.float32), np.zeros(count, np.int32)
     of_slots = np.repeat(np.clip(surface.slots, 0, len(needs.tangents) - 1), 3)
     for name in needs.tangent_maps:
-        found_map = _map(mesh, name)
-        if found_map is None:
+        uv = corner_uv(mesh, name)
+        if uv is None:
             continue
-        map_place = corner_uv(mesh, found_map)[surface.corners]
+        map_place = uv[surface.corners]
         keys = np.vstack([surface.keys, bits(map_place)])
         _, welded = split_vertices(surface.count, surface.places, keys)
         of_map, groups_of_map = tangents(

@@ -12,7 +12,7 @@ from ...device.own_materials import MOST_TEXTURES, MOST_UV_MAPS, DrawnMaterial, 
 from ...device.textured_materials import textures_of
 from ...host.images import has_pixels, image_of
 from ...host.materials import surface_output
-from ...host.principled import INPUTS, principled
+from ...host.principled import INPUTS, NORMAL_INPUTS, principled
 from ...host.textured_meshes import MeshNeeds
 
 
@@ -101,7 +101,7 @@ class Materials:
 
 NO_MATERIAL = ShownMaterial("", DrawnMaterial(UNASSIGNED))
 
-LABELS = {**INPUTS, "normal": "Normal", "coat_normal": "Coat Normal"}
+LABELS = {**INPUTS, **NORMAL_INPUTS}
 """Field of `PrincipledInputs` -> input of Blender's node."""
 
 

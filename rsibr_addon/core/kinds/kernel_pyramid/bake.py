@@ -46,8 +46,7 @@ class FilterErrors:
     Attributes
     ----------
     bound : ndarray, shape (3,)
-        No texel is further than this from the sum over all texels of the environment, and rounding to
-        float32.
+        No texel is further than this from the sum over all texels of the environment, and rounding.
     interpolation : float
         Relative root-mean-square error that bilinear lookups are expected to cost.
     """

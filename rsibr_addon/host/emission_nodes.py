@@ -1,11 +1,13 @@
 """A material's inputs as the light that it gives off, so that Cycles bakes them."""
 
-import bpy
+from collections.abc import Mapping, Sequence
 
-from ..core.materials.packing import COLORS, NORMALS, Picture
-from .input_nodes import source
+import bpy
+import numpy as np
+
+from ..core.materials.packing import Picture
 from .materials import surface_output
-from .principled import INPUTS, NORMAL_INPUTS
+from .surfaces import NORMAL_INPUTS, Leaf, MixedValue, Origin, Surface, Value, leaves, origins, surface_of
 
 
 def emitting(material: bpy.types.Material, picture: Picture, uv_map: str) -> bpy.types.Material:
@@ -21,8 +23,8 @@ def emitting(material: bpy.types.Material, picture: Picture, uv_map: str) -> bpy
 
     Notes
     -----
-    The emission stands where the Principled BSDF stood, also within a group, so all that feeds the one feeds
-    the other.
+    Emissions stand where the shaders stood, also within groups, so all that feeds the ones feeds the others,
+    and mixes of shaders mix their inputs.
     """
     copy = material.copy()
     _own_groups(copy.node_tree)
@@ -31,21 +33,52 @@ def emitting(material: bpy.types.Material, picture: Picture, uv_map: str) -> bpy
     for name in ("Displacement", "Volume"):
         for link in list(output.inputs[name].links):
             copy.node_tree.links.remove(link)
-    end, _ = source(output.inputs["Surface"], ())
-    tree = end.node.id_data
-    emission = tree.nodes.new("ShaderNodeEmission")
-    if picture[0] in NORMALS:
-        _feed_normal(end.node.inputs[NORMAL_INPUTS[picture[0]]], emission.inputs["Color"], uv_map)
-    elif picture[0] in COLORS:
-        _feed(end.node.inputs[INPUTS[picture[0]]], emission.inputs["Color"])
-    else:
-        joined = tree.nodes.new("ShaderNodeCombineColor")
-        for name, channel in zip(picture, joined.inputs, strict=False):
-            _feed(end.node.inputs[INPUTS[name]], channel)
-        tree.links.new(joined.outputs[0], emission.inputs["Color"])
-    for link in list(end.links):
-        tree.links.new(emission.outputs[0], link.to_socket)
+    surface = surface_of(copy)
+    found = origins(surface)
+    _emit(surface, {name: found[name] for name in picture}, uv_map)
     return copy
+
+
+def _emit(surface: Surface, values: Mapping[str, Origin], uv_map: str) -> None:
+    """Put emissions in the place of shaders. Of a mixture there is one value."""
+    if isinstance(surface, Leaf):
+        _emit_leaf(surface, values, uv_map)
+        return
+    ((name, origin),) = values.items()
+    if isinstance(origin, MixedValue) and origin.mixture == surface:
+        _emit(surface.first, {name: origin.first}, uv_map)
+        _emit(surface.second, {name: origin.second}, uv_map)
+        return
+    # One of both decides alone
+    number = 0 if _first_leaf(origin) in leaves(surface.first) else 1
+    shader = [each for each in surface.node.inputs if each.type == "SHADER"][number].links[0].from_socket
+    for link in list(surface.node.outputs[0].links):
+        surface.node.id_data.links.new(shader, link.to_socket)
+    _emit((surface.first, surface.second)[number], values, uv_map)
+
+
+def _first_leaf(origin: Origin) -> Leaf:
+    return origin.leaf if isinstance(origin, Value) else _first_leaf(origin.first)
+
+
+def _emit_leaf(leaf: Leaf, values: Mapping[str, Origin], uv_map: str) -> None:
+    tree = leaf.node.id_data
+    emission = tree.nodes.new("ShaderNodeEmission")
+    ends = [emission.inputs["Color"]]
+    if len(values) > 1:
+        joined = tree.nodes.new("ShaderNodeCombineColor")
+        tree.links.new(joined.outputs[0], ends[0])
+        ends = list(joined.inputs)
+    for (name, value), end in zip(values.items(), ends, strict=False):
+        assert isinstance(value, Value)
+        if not value.name:
+            _set(end, value.numbers)
+        elif name in NORMAL_INPUTS:
+            _feed_normal(value.socket, end, uv_map)
+        else:
+            _feed(value.socket, end)
+    for link in list(leaf.node.outputs[0].links):
+        tree.links.new(emission.outputs[0], link.to_socket)
 
 
 def _own_groups(tree: bpy.types.NodeTree) -> None:
@@ -62,7 +95,16 @@ def _feed(socket: bpy.types.NodeSocket, end: bpy.types.NodeSocket) -> None:
     if link:
         socket.id_data.links.new(link.from_socket, end)
     else:
-        end.default_value = socket.default_value
+        value = socket.default_value
+        _set(end, (value,) if isinstance(value, float) else value[:3])
+
+
+def _set(end: bpy.types.NodeSocket, numbers: Sequence[float]) -> None:
+    """Give an input numbers; a value stands for all three of a colour."""
+    if isinstance(end.default_value, float):
+        end.default_value = numbers[0]
+    else:
+        end.default_value = (*np.broadcast_to(numbers, 3).tolist(), 1.0)
 
 
 def _feed_normal(socket: bpy.types.NodeSocket, end: bpy.types.NodeSocket, uv_map: str) -> None:
@@ -72,6 +114,9 @@ def _feed_normal(socket: bpy.types.NodeSocket, end: bpy.types.NodeSocket, uv_map
     angles: n's numbers are those of the dual axes.
     """
     tree = socket.id_data
+    if not socket.is_linked:
+        _set(end, (0.5, 0.5, 1.0))
+        return
     axes = [_axis(tree, color, uv_map) for color in ((1.0, 0.5, 0.5), (0.5, 1.0, 0.5), (0.5, 0.5, 1.0))]
     normal = socket.links[0].from_socket
     joined = tree.nodes.new("ShaderNodeCombineXYZ")

@@ -15,6 +15,9 @@ Groups = tuple[bpy.types.Node, ...]
 LUMINANCE = (0.2126, 0.7152, 0.0722)
 """Rec. 709's, by which Cycles makes a value of a colour, in a file that works in Rec. 709."""
 
+ROUNDING = 1e-4
+"""Weights of channels sum up to 1 but for so much, as LUMINANCE is rounded."""
+
 NO_IMAGE = (1.0, 0.0, 1.0)
 """What Cycles shows for an image that is not there."""
 
@@ -143,6 +146,26 @@ def _product(first: Input, second: Input) -> Input:
         raise NotFollowedError("a product of images")
     scaled, factors = (second, first) if second.texture else (first, second)
     return _combined(scaled, constant([0.0] * len(scaled.rows)), factors.constant, factors.constant)
+
+
+def mixed(first: Input, second: Input, factor: Input) -> Input:
+    """Two inputs, mixed as shaders are.
+
+    Raises
+    ------
+    NotFollowedError
+        That is affine in no image, or the factor has to be kept within 0 and 1.
+    """
+    if not factor.texture:
+        return _mixed(first, second, factor.constant[0])
+    (*of_texel, added) = factor.rows[0]
+    low, high = (added + sum(end(each, 0.0) for each in of_texel) for end in (min, max))
+    if low < -ROUNDING or high > 1.0 + ROUNDING:
+        raise NotFollowedError("a mix beyond its ends")
+    count = len(first.rows)
+    difference = _combined(second, first, [1.0] * count, [-1.0] * count)
+    share = _product(difference, Input(factor.rows * count, factor.texture))
+    return _combined(first, share, [1.0] * count, [1.0] * count)
 
 
 def _mixed(first: Input, second: Input, factor: float) -> Input:

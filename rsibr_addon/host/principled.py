@@ -1,45 +1,47 @@
 """Principled materials described: what of their nodes is a constant or an image, and what is not shown."""
 
+from dataclasses import replace
 from typing import Any
 
 import bpy
 
-from ..core.errors import SceneError
-from ..core.materials.principled import Baked, Bump, Normal, NormalMap, PrincipledInputs, Shading, constant
-from .input_nodes import Groups, NotFollowedError, read, source
+from ..core.materials.principled import (
+    Baked,
+    Bump,
+    Input,
+    Normal,
+    NormalMap,
+    PrincipledInputs,
+    Shading,
+    constant,
+)
+from ..core.materials.stand_ins import PLAIN
+from .input_nodes import Groups, NotFollowedError, mixed, read, source
 from .materials import surface_output
+from .surfaces import (
+    MISSING,
+    NORMAL_INPUTS,
+    MixedValue,
+    Mixture,
+    Origin,
+    Surface,
+    leaves,
+    origins,
+    surface_of,
+)
 
-INPUTS = {
-    "base_color": "Base Color",
-    "metallic": "Metallic",
-    "roughness": "Roughness",
-    "ior": "IOR",
-    "specular_level": "Specular IOR Level",
-    "specular_tint": "Specular Tint",
-    "diffuse_roughness": "Diffuse Roughness",
-    "coat_weight": "Coat Weight",
-    "coat_roughness": "Coat Roughness",
-    "coat_ior": "Coat IOR",
-    "coat_tint": "Coat Tint",
-    "sheen_weight": "Sheen Weight",
-    "sheen_roughness": "Sheen Roughness",
-    "sheen_tint": "Sheen Tint",
-    "emission_color": "Emission Color",
-    "emission_strength": "Emission Strength",
-    "alpha": "Alpha",
-}
-"""Field of `PrincipledInputs`, and of `core.brdf.principled.Principled` -> input of Blender's node."""
+SHAPES = (
+    "roughness",
+    "diffuse_roughness",
+    "coat_roughness",
+    "specular_level",
+    "ior",
+    "normal",
+    "coat_normal",
+)
+"""Fields that reflection is not linear in."""
 
-NORMAL_INPUTS = {"normal": "Normal", "coat_normal": "Coat Normal"}
-"""The same for normals."""
-
-MISSING = {
-    "Transmission Weight": "transmission",
-    "Subsurface Weight": "subsurface scattering",
-    "Anisotropic": "anisotropy",
-    "Thin Film Thickness": "thin film",
-}
-"""Input -> what is not shown, where it is not 0."""
+SEPARATE = "the highlights of mixed shaders, but for one highlight between them"
 
 
 def principled(material: bpy.types.Material) -> PrincipledInputs:
@@ -52,32 +54,87 @@ def principled(material: bpy.types.Material) -> PrincipledInputs:
     Returns
     -------
     PrincipledInputs
+        Of the Principled BSDF that is its surface, or that stands for it: see `surfaces.origins`.
 
     Raises
     ------
     SceneError
-        The material has no surface, or one that is not a single Principled BSDF.
+        The material has no surface, or one that no Principled BSDF can stand for.
     """
+    surface = surface_of(material)
+    reading = _Reading()
+    found: dict[str, Any] = {field: reading.of(field, each) for field, each in origins(surface).items()}
+    if isinstance(surface, Mixture):  # Cycles bakes what shaders have by their mix, which has one value
+        found = {
+            field: replace(value, apart=True) if isinstance(value, Baked) else value
+            for field, value in found.items()
+        }
+    missing = [*_missing(material, surface), *([SEPARATE] if reading.is_between else [])]
+    return replace(PLAIN, **found, missing=tuple(dict.fromkeys(missing)))
+
+
+class _Reading:
+    """Reads fields from where they come from.
+
+    Attributes
+    ----------
+    is_between : bool
+        Whether shaders are mixed that reflect otherwise than one between them.
+    """
+
+    def __init__(self) -> None:
+        self._halves: set[str] = set()
+
+    @property
+    def is_between(self) -> bool:
+        """See the class: a mix of metallic is exact if its base colour is one."""
+        return bool(self._halves.intersection(SHAPES)) or {"metallic", "base_color"} <= self._halves
+
+    def of(self, field: str, origin: Origin) -> Shading | Normal:
+        """What a field is."""
+        if isinstance(origin, MixedValue):
+            return self._mixed(field, origin)
+        if not origin.name:
+            return constant(origin.numbers)
+        read_one = _normal if field in NORMAL_INPUTS else _shading
+        return read_one(origin.socket, origin.leaf.groups)
+
+    def _mixed(self, field: str, origin: MixedValue) -> Shading | Normal:
+        first, second = self.of(field, origin.first), self.of(field, origin.second)
+        if first == second and not isinstance(first, Baked):
+            return first
+        factor = _shading(origin.mixture.node.inputs[0], origin.mixture.groups)
+        if isinstance(factor, Input) and not factor.texture:
+            if factor.constant[0] <= 0.0:
+                return first
+            if factor.constant[0] >= 1.0:
+                return second
+            self._halves.add(field)
+        if not (isinstance(first, Input) and isinstance(second, Input) and isinstance(factor, Input)):
+            return Baked("a mix of shaders")
+        try:
+            return mixed(first, second, factor)
+        except NotFollowedError as stop:
+            return Baked(stop.reason)
+
+
+def _missing(material: bpy.types.Material, surface: Surface) -> list[str]:
+    """What is not shown of a material's shaders and outputs."""
+    nothing = constant((0.0,))
+    missing = []
+    for leaf in leaves(surface):
+        named = {name: words for name, words in MISSING.items() if name in leaf.node.inputs}
+        missing += [
+            words for name, words in named.items() if _shading(leaf.node.inputs[name], leaf.groups) != nothing
+        ]
+        if leaf.node.bl_idname == "ShaderNodeBsdfTransparent":
+            color = _shading(leaf.node.inputs["Color"], leaf.groups)
+            missing += ["tinted transparency"] if color != constant((1.0, 1.0, 1.0)) else []
     output = surface_output(material)
-    if output is None:
-        raise SceneError(
-            f"Material {material.name} has no surface: link a shader to the Surface of its Material Output."
-        )
-    end, groups = source(output.inputs["Surface"], ())
-    node = end.node
-    if not end.is_output or node.bl_idname != "ShaderNodeBsdfPrincipled":
-        raise SceneError(
-            f"The surface of material {material.name} is made by {node.name}: link a Principled BSDF alone."
-        )
-    shading: dict[str, Any] = {field: _shading(node.inputs[name], groups) for field, name in INPUTS.items()}
-    normals: dict[str, Any] = {
-        field: _normal(node.inputs[name], groups) for field, name in NORMAL_INPUTS.items()
-    }
-    return PrincipledInputs(
-        **shading,
-        **normals,
-        missing=_missing(output, node, groups),
-    )
+    missing += [
+        name.lower() for name in ("Volume", "Displacement") if output and output.inputs[name].is_linked
+    ]
+    return missing
 
 
 def _shading(socket: bpy.types.NodeSocket, groups: Groups) -> Shading:
@@ -85,13 +142,6 @@ def _shading(socket: bpy.types.NodeSocket, groups: Groups) -> Shading:
         return read(socket, groups)
     except NotFollowedError as stop:
         return Baked(stop.reason)
-
-
-def _missing(output: bpy.types.Node, node: bpy.types.Node, groups: Groups) -> tuple[str, ...]:
-    nothing = constant((0.0,))
-    of_inputs = [words for name, words in MISSING.items() if _shading(node.inputs[name], groups) != nothing]
-    of_outputs = [name.lower() for name in ("Volume", "Displacement") if output.inputs[name].is_linked]
-    return (*of_inputs, *of_outputs)
 
 
 def _normal(socket: bpy.types.NodeSocket, groups: Groups) -> Normal:

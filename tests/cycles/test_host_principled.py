@@ -53,6 +53,15 @@ def nodes() -> Iterator[Nodes]:
 
 def baked(nodes: Nodes, name: str) -> Array:
     """An input as Cycles bakes it on the unit square, shape (SIZE, SIZE, 3)."""
+    emission = nodes.add("Emission")
+    nodes.link(nodes.bsdf.inputs[name].links[0].from_socket, emission.inputs["Color"])
+    output = nodes.tree.get_output_node("CYCLES")
+    nodes.link(emission.outputs[0], output.inputs["Surface"])
+    return baked_surface(nodes)
+
+
+def baked_surface(nodes: Nodes) -> Array:
+    """What the surface gives off, as Cycles bakes it on the unit square, shape (SIZE, SIZE, 3)."""
     scene = bpy.data.scenes.new("bake")
     configure_cycles(scene, SIZE, SIZE, 1)
     mesh = bpy.data.meshes.new("square")
@@ -61,10 +70,6 @@ def baked(nodes: Nodes, name: str) -> Array:
     mesh.materials.append(nodes.material)
     item = bpy.data.objects.new("square", mesh)
     scene.collection.objects.link(item)
-    emission = nodes.add("Emission")
-    nodes.link(nodes.bsdf.inputs[name].links[0].from_socket, emission.inputs["Color"])
-    output = nodes.tree.get_output_node("CYCLES")
-    nodes.link(emission.outputs[0], output.inputs["Surface"])
     target = nodes.add("TexImage", image=bpy.data.images.new("target", SIZE, SIZE, float_buffer=True))
     nodes.tree.nodes.active = target
     layer = scene.view_layers[0]
@@ -229,8 +234,8 @@ def test_what_is_not_shown_is_listed(nodes: Nodes) -> None:
 
 def test_a_material_without_a_principled_surface_is_refused(nodes: Nodes) -> None:
     output = nodes.tree.get_output_node("CYCLES")
-    nodes.link(nodes.add("BsdfDiffuse").outputs[0], output.inputs["Surface"])
-    with pytest.raises(SceneError, match="made by Diffuse BSDF"):
+    nodes.link(nodes.add("BsdfGlass").outputs[0], output.inputs["Surface"])
+    with pytest.raises(SceneError, match="made by Glass BSDF"):
         principled(nodes.material)
     nodes.tree.nodes.remove(output)
     with pytest.raises(SceneError, match="no surface"):

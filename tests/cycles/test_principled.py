@@ -8,8 +8,8 @@ import pytest
 from rsibr.rsibr_addon.core.brdf.albedo import directional_albedo as integrated
 from rsibr.rsibr_addon.core.brdf.principled import Principled
 from rsibr.rsibr_addon.host.furnace import COSINES, directional_albedo
-from rsibr.rsibr_addon.host.principled import INPUTS
 from rsibr.rsibr_addon.host.scenes import temporary_scene
+from rsibr.rsibr_addon.host.surfaces import INPUTS
 
 pytestmark = pytest.mark.needs("cycles")
 

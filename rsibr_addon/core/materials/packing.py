@@ -1,4 +1,4 @@
-"""Baked inputs and the pictures that hold them: a colour or normal fills one, values go three together."""
+"""Baked inputs, and the pictures that hold them: a colour or normal fills one, three values share one."""
 
 from collections.abc import Iterable
 from dataclasses import fields, replace
@@ -22,9 +22,10 @@ CHANNELS: tuple[Row, ...] = (
 
 def pictures_of(inputs: PrincipledInputs) -> tuple[Picture, ...]:
     """The pictures that hold all inputs that are `Baked`."""
-    baked = [field.name for field in fields(inputs) if isinstance(getattr(inputs, field.name), Baked)]
-    alone = [(name,) for name in baked if name in COLORS + NORMALS]
-    values = [name for name in baked if name not in COLORS + NORMALS]
+    found = {field.name: getattr(inputs, field.name) for field in fields(inputs)}
+    baked = {name: value for name, value in found.items() if isinstance(value, Baked)}
+    alone = [(name,) for name, value in baked.items() if value.apart or name in COLORS + NORMALS]
+    values = [name for name in baked if (name,) not in alone]
     return (*alone, *(tuple(values[first : first + 3]) for first in range(0, len(values), 3)))
 
 

@@ -83,9 +83,12 @@ class Baked:
     ----------
     reason : str
         What cannot be followed, as the part of a sentence: "Noise Texture".
+    apart : bool
+        Whether Cycles evaluates it apart from others, as it does where shaders are mixed.
     """
 
     reason: str
+    apart: bool = False
 
 
 @dataclass(frozen=True)

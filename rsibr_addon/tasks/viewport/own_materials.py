@@ -12,7 +12,8 @@ from ...device.own_materials import MOST_TEXTURES, MOST_UV_MAPS, DrawnMaterial, 
 from ...device.textured_materials import textures_of
 from ...host.images import has_pixels, image_of
 from ...host.materials import surface_output
-from ...host.principled import INPUTS, NORMAL_INPUTS, principled
+from ...host.principled import principled
+from ...host.surfaces import INPUTS, NORMAL_INPUTS
 from ...host.textured_meshes import MeshNeeds
 
 

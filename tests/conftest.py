@@ -1,8 +1,8 @@
 """What tests need: a test's folder says it, and here it is looked for and prepared.
 
 A dependency that is missing skips its tests, and the run's summary says which and why. Named in the
-environment variable RSIBR_REQUIRE (comma-separated: gl, bpy, cycles, gui), it fails them instead. Named in
-RSIBR_WITHOUT, it is not looked for, and its tests are not collected.
+environment variable RSIBR_REQUIRE (comma-separated: gl, bpy, cycles, gui, web), it fails them instead.
+Named in RSIBR_WITHOUT, it is not looked for, and its tests are not collected.
 """
 
 import functools
@@ -18,7 +18,10 @@ TESTS = Path(__file__).parent
 BLENDER_WINDOW = TESTS.parent / ".ci" / "window" / "blender"
 """A Blender of the tests' own: the file says how to call it."""
 
-NEEDS = {"glsl": ("gl",), "blender": ("bpy",), "cycles": ("bpy", "cycles"), "gui": ("gui",)}
+WEB_ENGINES = TESTS.parent / ".ci" / "web" / "engines"
+"""A browser, and engines to load in it."""
+
+NEEDS = {"glsl": ("gl",), "blender": ("bpy",), "cycles": ("bpy", "cycles"), "gui": ("gui",), "web": ("web",)}
 """Folder of tests -> what its tests need; the other folders need numpy and OpenEXR only."""
 
 
@@ -51,11 +54,18 @@ def _start_gui() -> None:
         run("run", folder, "--window", "--python-expr", "import os; os._exit(0)")
 
 
+def _start_web() -> None:
+    process = subprocess.run([WEB_ENGINES, "check"], capture_output=True, text=True, check=False)
+    if process.returncode:
+        raise OSError(process.stderr.strip())
+
+
 START: dict[str, Callable[[], None]] = {
     "bpy": _start_bpy,
     "gl": _start_gl,
     "cycles": _start_cycles,
     "gui": _start_gui,
+    "web": _start_web,
 }
 
 

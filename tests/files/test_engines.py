@@ -15,6 +15,7 @@ from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.tasks.export.engines.engines import ENGINES
 from rsibr.rsibr_addon.tasks.export.engines.export import export_for_engine
 from rsibr.rsibr_addon.tasks.export.engines.settings import CubeSettings
+from rsibr.tests.core.test_bc6h import decoded
 from rsibr.tests.engine_light import cube_directions, diffuse_truth, from_y_up, sky, sky_file, truth
 from rsibr.tests.files.test_export import read as read_ktx2
 
@@ -153,6 +154,47 @@ def test_bevy_shows_the_light_upright(tmp_path: Path) -> None:
     np.testing.assert_allclose(level[..., :3], wanted, rtol=HALF, atol=SUM * wanted.max())
     for path in (specular, diffuse):
         assert read_ktx2(path).notes.keys() == {"KTXorientation", "KTXwriter"}
+
+
+def three_world(direction: np.ndarray) -> np.ndarray:
+    """What three.js looks up by (-x, y, z)."""
+    return from_y_up(direction * (-1.0, 1.0, 1.0))
+
+
+# The shader looks up at last (2 r - r^2), down to 8 texels
+THREE_ROUGHNESS = [1.0 - np.sqrt(1.0 - mip / 3) for mip in range(4)]
+
+
+def test_three_takes_half_floats(tmp_path: Path) -> None:
+    (path,) = exported(tmp_path, "three", ".ktx2")
+    texture = read_ktx2(path)
+    assert (texture.faces, texture.format) == (6, 97)
+    check_cube([level[..., :3] for level in texture.levels], THREE_ROUGHNESS, three_world, HALF)
+
+
+def test_three_takes_bc6h(tmp_path: Path) -> None:
+    (path,) = exported(tmp_path, "three", ".dds")
+    data = path.read_bytes()
+    magic, size, flags, height, width, length, _, mips = struct.unpack_from("<4s7I", data)
+    assert (magic, size, height, width, length, mips) == (b"DDS ", 124, 64, 64, 16 * 16 * 16, 4)
+    # Caps, height, width, format, mips and the length of the first; the cube with all faces
+    assert flags == 0x1 | 0x2 | 0x4 | 0x1000 | 0x20000 | 0x80000
+    assert struct.unpack_from("<2I4s", data, 76) == (32, 4, b"DX10")
+    assert struct.unpack_from("<2I", data, 108) == (0x1000 | 0x400000 | 0x8, 0x200 | 0xFC00)
+    assert struct.unpack_from("<5I", data, 128) == (95, 3, 4, 1, 0)
+    blocks, at = {}, 148
+    for face in range(6):
+        for mip in range(4):
+            count = 16 >> mip
+            blocks[face, mip] = np.frombuffer(data, np.uint8, 16 * count**2, at).reshape(count, count, 16)
+            at += 16 * count**2
+    assert at == len(data)
+    for mip, rough in enumerate(THREE_ROUGHNESS):
+        found = np.stack([decoded(blocks[face, mip], False, tmp_path) for face in range(6)])
+        at_texels = some(64 >> mip)
+        wanted = truth(three_world(cube_directions(64 >> mip)[*at_texels]), rough)
+        # Two per cent in the median is what blocks of so few texels lose
+        assert np.median(np.abs(found[*at_texels] - wanted) / wanted) < 0.02
 
 
 @pytest.mark.parametrize("name", ENGINES)

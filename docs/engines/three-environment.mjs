@@ -1,0 +1,33 @@
+// Light that `rsibr export --for three` wrote: scene.environment = await loadCompressed("court.dds").
+import * as THREE from "three";
+import { DDSLoader } from "three/addons/loaders/DDSLoader.js";
+import { read } from "three/addons/libs/ktx-parse.module.js";
+
+function environment(faces, format, type) {
+    const texture = new THREE.CompressedCubeTexture(faces, format, type);
+    texture.minFilter = THREE.LinearMipmapLinearFilter;
+    texture.isPMREMTexture = true;
+    texture.needsUpdate = true;
+    return texture;
+}
+
+// NAME.dds: BC6H, a byte a texel, for graphics cards with EXT_texture_compression_bptc, as of desktops
+export async function loadCompressed(url) {
+    const { image, format } = await new DDSLoader().loadAsync(url);
+    return environment(image, format);
+}
+
+// NAME.ktx2: half floats, or floats where the light needs them, for all graphics cards
+export async function loadUncompressed(url) {
+    const { levels, pixelWidth, typeSize } = read(new Uint8Array(await (await fetch(url)).arrayBuffer()));
+    const [Numbers, type] = typeSize === 2 ? [Uint16Array, THREE.HalfFloatType] : [Float32Array, THREE.FloatType];
+    const faces = [0, 1, 2, 3, 4, 5].map((face) => {
+        const mipmaps = levels.map(({ levelData }, mip) => {
+            const width = pixelWidth >> mip, length = 4 * width * width;
+            const data = new Numbers(levelData.slice().buffer, face * length * typeSize, length);
+            return { data, width, height: width };
+        });
+        return { mipmaps, width: pixelWidth, height: pixelWidth };
+    });
+    return environment(faces, THREE.RGBAFormat, type);
+}

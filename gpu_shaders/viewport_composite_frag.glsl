@@ -8,7 +8,7 @@
 // differ in their last bits from those that it hands out, and depths by up to six.
 const float DEPTH_TOLERANCE = 8.0 / 16777216.0;
 
-// The scale of differences: its corner beside the line, and its size, in pixels.
+// The scale of differences: its corner beside the line, and its size, in pixels; numbers are written above it.
 const vec2 SCALE_PLACE = vec2(24.0, 24.0);
 const vec2 SCALE_SIZE = vec2(192.0, 12.0);
 
@@ -33,7 +33,7 @@ void main()
   gl_FragDepth = max(texelFetch(depths, pixel, 0).r - DEPTH_TOLERANCE, 0.0);
   vec3 shown = displayed(display, scale * seen.rgb);
   if (full > 0.0) {
-    vec3 apart = abs(displayed(display, scale * texelFetch(others, pixel, 0).rgb) - shown);
+    vec3 apart = abs(displayed(display, others_scale * texelFetch(others, pixel, 0).rgb) - shown);
     shown = heat(max(apart.r, max(apart.g, apart.b)) / full);
   }
   colour = vec4(linear_from_srgb(shown), 1.0);

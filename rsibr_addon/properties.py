@@ -113,11 +113,15 @@ class RSIBR_PG_view(bpy.types.PropertyGroup):
         items=[
             ("blender", "Blender's Shading", "What the viewport shows without previews"),
             ("other", "Another Look", "The same map sets, shaded in another way"),
-            (
-                "difference",
-                "Difference",
-                "How far this look and the other are apart, from black over red to white",
-            ),
+            ("difference", "Difference", "From black over red to white; the scale has numbers"),
+        ],
+    )
+    compared = bpy.props.EnumProperty(
+        name="Difference From",
+        update=_notice,
+        items=[
+            ("blender", "Blender's Shading", "What the viewport shows without previews"),
+            ("other", "Another Look", "The same map sets, shaded in another way"),
         ],
     )
     difference = bpy.props.FloatProperty(

@@ -38,7 +38,7 @@ THIRD_PARTY: dict[str, set[str]] = {
     "job": set(),
     "files": {"numpy", "OpenEXR", "OpenImageIO"},
     "host": {"numpy", "bpy", "bmesh", "mathutils"},
-    "device": {"numpy", "bpy", "gpu", "gpu_extras", "mathutils"},
+    "device": {"numpy", "bpy", "blf", "gpu", "gpu_extras", "mathutils"},
     "tasks": {"numpy"},
     "command_line": {"numpy"},
     "session": {"bpy"},

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
+import blf
 import gpu
 import numpy as np
 
@@ -16,6 +17,11 @@ from ..core.conventions import Array
 from .drawing import Draw, GpuMesh
 from .passes import screen_triangle
 from .stage_shaders import composite_shader, occluder_shader
+
+SCALE_PLACE, SCALE_SIZE = (24, 24), (192, 12)
+"""The scale of differences: its corner beside the line, and its size, in pixels, as the shader has them."""
+
+_FONT, _LETTERS = 0, 12.0
 
 
 @dataclass(frozen=True)
@@ -62,6 +68,45 @@ def draw_occluder(mesh: GpuMesh, draw: Draw) -> None:
     mesh.draw(shader, draw)
 
 
+@dataclass(frozen=True)
+class Difference:
+    """What a stage is compared with: the largest of the channels' differences on the display, as heat.
+
+    Attributes
+    ----------
+    radiance : GPUTexture
+        Of the view's pixels.
+    scale : float
+        Factor of that radiance.
+    full : float
+        Difference that is white, as a share of the display's range.
+    """
+
+    radiance: gpu.types.GPUTexture
+    scale: float
+    full: float
+
+
+def draw_scale_numbers(left: float, full: float) -> None:
+    """Write the numbers of a difference's scale above it, which `viewport_composite_frag.glsl` draws.
+
+    Parameters
+    ----------
+    left : float
+        Where the difference begins, from 0 to 1 of the viewport's width.
+    full : float
+        See `Difference`.
+    """
+    _, _, width, _ = gpu.state.viewport_get()
+    blf.size(_FONT, _LETTERS)
+    blf.color(_FONT, 1.0, 1.0, 1.0, 1.0)
+    for share in (0.0, 0.5, 1.0):
+        text = f"{100.0 * share * full:.3g}%"
+        x = left * width + SCALE_PLACE[0] + share * SCALE_SIZE[0]
+        blf.position(_FONT, x - 0.5 * blf.dimensions(_FONT, text)[0], SCALE_PLACE[1] + SCALE_SIZE[1] + 6, 0.0)
+        blf.draw(_FONT, text)
+
+
 class Stage:
     """The target of previews before they are shown; kept from frame to frame, for all viewports."""
 
@@ -85,7 +130,7 @@ class Stage:
         scale: float,
         span: tuple[float, float],
         among_others: bool,
-        difference: "tuple[Stage, float] | None" = None,
+        difference: Difference | None = None,
     ) -> None:
         """Show the stage in the active frame buffer.
 
@@ -99,11 +144,10 @@ class Stage:
             The part of the width that is shown, from 0 to 1; lines mark its begin and end.
         among_others : bool
             Whether the frame buffer holds the depths of other surfaces.
-        difference : (Stage, float), optional
-            Shows the difference from another stage instead: the largest of the channels' differences on the
-            display, as heat, white at that number; with a scale.
+        difference : Difference, optional
+            Shows a difference instead, with a scale.
         """
-        others, full = difference or (self, 0.0)
+        compared = difference or Difference(self.radiance, scale, 0.0)
         shader = composite_shader()
         shader.bind()
         x, _, width, _ = gpu.state.active_framebuffer_get().viewport_get()
@@ -111,11 +155,12 @@ class Stage:
         left, right = span
         shader.uniform_float("left", x + left * width if left > 0.0 else -np.inf)
         shader.uniform_float("right", x + right * width if right < 1.0 else np.inf)
-        shader.uniform_sampler("previews", self._radiance)
+        shader.uniform_sampler("previews", self.radiance)
         shader.uniform_sampler("depths", self._depth)
-        shader.uniform_float("full", full)
+        shader.uniform_float("full", compared.full)
+        shader.uniform_float("others_scale", compared.scale)
         shader.uniform_sampler("display", display)
-        shader.uniform_sampler("others", others._radiance)
+        shader.uniform_sampler("others", compared.radiance)
         with _depth_test("LESS_EQUAL" if among_others else "ALWAYS"):
             self._screen.draw(shader)
 
@@ -124,9 +169,9 @@ class Stage:
         if width <= self._size[0] and height <= self._size[1]:
             return
         size = (max(width, self._size[0]), max(height, self._size[1]))
-        self._radiance = gpu.types.GPUTexture(size, format="RGBA32F")
+        self.radiance = gpu.types.GPUTexture(size, format="RGBA32F")
         self._depth = gpu.types.GPUTexture(size, format="DEPTH_COMPONENT32F")
-        self._target = gpu.types.GPUFrameBuffer(depth_slot=self._depth, color_slots=(self._radiance,))
+        self._target = gpu.types.GPUFrameBuffer(depth_slot=self._depth, color_slots=(self.radiance,))
         self._screen = screen_triangle(composite_shader())
         self._size = size  # last, so that a failure above is tried again
 

@@ -23,6 +23,7 @@ def composite_shader() -> gpu.types.GPUShader:
     info.push_constant("FLOAT", "left")
     info.push_constant("FLOAT", "right")
     info.push_constant("FLOAT", "full")
+    info.push_constant("FLOAT", "others_scale")
     info.sampler(0, "FLOAT_2D", "previews")
     info.sampler(1, "DEPTH_2D", "depths")
     info.sampler(2, "FLOAT_3D", "display")

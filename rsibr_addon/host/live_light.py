@@ -75,6 +75,11 @@ def shows_surroundings(space: bpy.types.SpaceView3D, layer: tuple[int, str]) -> 
     return _nearness(space) >= 0 and max(spaces, key=_nearness) == space
 
 
+def is_readable(space: bpy.types.SpaceView3D) -> bool:
+    """Whether what a viewport shows can be rendered once more: Cycles' pictures and other engines' cannot."""
+    return _nearness(space) >= 0
+
+
 def appearance_of(space: bpy.types.SpaceView3D) -> tuple[object, ...]:
     """All settings of a viewport's shading, for comparison with earlier ones."""
     shading = space.shading

@@ -54,13 +54,16 @@ class Side:
     left, right : float
         Begin and end, as parts of the width.
     difference : float
-        If it is not 0, the difference of both looks is shown, brightest at this number.
+        If it is not 0, a difference is shown, brightest at this number: that of both looks, or
+    from_blender : bool
+        that of the first look from Blender's own shading.
     """
 
     other: bool
     left: float
     right: float
     difference: float = 0.0
+    from_blender: bool = False
 
 
 @dataclass(frozen=True)
@@ -100,8 +103,25 @@ class View:
             return (Side(other=False, left=0.0, right=1.0),)
         first = Side(other=False, left=0.0, right=settings.line)
         difference = settings.difference if settings.beyond == "difference" else 0.0
-        second = Side(other=True, left=settings.line, right=1.0, difference=difference)
+        from_blender = difference > 0.0 and settings.compared == "blender"
+        second = Side(not from_blender, settings.line, 1.0, difference, from_blender)
         return (first,) if settings.beyond == "blender" else (first, second)
+
+    @property
+    def matrices(self) -> tuple[Array, Array]:
+        """From world to eye coordinates, and on to the picture's, each of shape (4, 4)."""
+        seen = bpy.context.region_data
+        return np.array(seen.view_matrix), np.array(seen.window_matrix)
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height in pixels."""
+        return bpy.context.region.width, bpy.context.region.height
+
+    @property
+    def number(self) -> int:
+        """Tells viewports apart."""
+        return int(bpy.context.region.as_pointer())
 
     def light_of(self, item: bpy.types.Object) -> WorldLight:
         """The world's turn and strength for an object's map set; none unless the object follows the world."""

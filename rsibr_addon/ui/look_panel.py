@@ -4,6 +4,7 @@ import bpy
 
 from ..core.options import Declared, declared_options
 from ..files.kinds.registry import look_types
+from ..host.live_light import is_readable
 from ..host.option_properties import property_name, said_by
 from ..host.world_light import has_environment, holds_world, world_light
 from ..session.running import session
@@ -14,6 +15,11 @@ from .sidebar import InSidebar
 NOT_FOLLOWED = (
     "The world is more than a Background and an Environment Texture with a Mapping that rotates: bake in "
     "the world itself instead of following it."
+)
+
+NOT_READABLE = (
+    "What Cycles renders in a viewport cannot be read, so it is shown itself. Choose Material Preview or "
+    "EEVEE for a difference; Compare, below Advanced, measures against Cycles."
 )
 
 EQUAL_LOOKS = "Both looks are the same, and so nothing differs: change the other look below."
@@ -59,11 +65,16 @@ class RSIBR_PT_look(InSidebar, bpy.types.Panel):
         row.prop(view, "split", text="")
         row.prop(view, "line", text="", slider=True)
         row.operator("rsibr.drag_split", text="", icon="ARROW_LEFTRIGHT")
-        if view.split:
-            layout.prop(view, "beyond")
-        if view.split and view.beyond == "difference":
+        if not view.split:
+            return
+        layout.prop(view, "beyond")
+        if view.beyond == "difference":
+            layout.prop(view, "compared")
             layout.prop(view, "difference")
-        if view.split and view.beyond != "blender":
+        if view.beyond == "difference" and view.compared == "blender":
+            if not is_readable(context.space_data):
+                tell(layout, NOT_READABLE, context.region.width)
+        elif view.beyond != "blender":
             layout.label(text="Other look")
             if _looks_are_equal(item, kind):
                 tell(layout, EQUAL_LOOKS, context.region.width, icon="INFO")

@@ -70,8 +70,9 @@ def _draw(running: Session) -> None:
 @_guarded
 def _render_surroundings(running: Session) -> None:
     """Blender renders no view while it draws another, but when it comes to what lies over it."""
-    changed = running.previews.render_surroundings(current_view())
-    if changed and not bpy.app.timers.is_registered(_draw_again):
+    view = current_view()
+    changed = running.previews.render_surroundings(view), running.previews.render_compared(view)
+    if any(changed) and not bpy.app.timers.is_registered(_draw_again):
         bpy.app.timers.register(_draw_again, first_interval=0.0)
 
 

@@ -16,7 +16,7 @@ from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.drawing import GpuMesh
 from rsibr.rsibr_addon.device.kinds.radiance_views import GpuRadianceViews
-from rsibr.rsibr_addon.device.preview_stage import Stage, current_sight, draw_occluder
+from rsibr.rsibr_addon.device.preview_stage import Difference, Stage, current_sight, draw_occluder
 from rsibr.tests.synthetic_views import smooth_views, visible_points
 
 SIZE = 64
@@ -146,7 +146,9 @@ def test_a_difference_is_that_on_the_display() -> None:
         for stage, turn in ((first, STRAIGHT), (second, QUARTER)):
             with stage.drawing():
                 subject.draw(GpuMesh(*sphere()), sight.on(np.eye(4), turn), LOOK)
-        first.show(buffers.table_texture(table()), 1.0, (0.0, 1.0), True, (second, 0.25))
+        first.show(
+            buffers.table_texture(table()), 1.0, (0.0, 1.0), True, Difference(second.radiance, 1.0, 0.25)
+        )
         picture = buffers.pixels(target, SIZE)
     _, inside = expected(STRAIGHT, 1.0)
     # The scale lies over the lower part.

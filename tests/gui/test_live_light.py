@@ -143,8 +143,8 @@ def scenario(told):
         return seen(*arguments)
 
     clock = types.SimpleNamespace(now=0.0, perf_counter=lambda: clock.now)
-    live_light.time, seen = clock, live_light.SurroundingsCamera.see
-    live_light.SurroundingsCamera.see = see
+    live_light.time, seen = clock, live_light.ViewportCamera.see
+    live_light.ViewportCamera.see = see
     cube.rsibr.live.budget = 1
     cube.rsibr.live.on = True
     yield from drawn()

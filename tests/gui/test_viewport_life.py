@@ -253,11 +253,20 @@ def scenario(told):
     shown = like(pixels(), (188, 0, 188))
     told["missing"] = int((whole & ~shown).any(axis=0).sum())
     # How far both are apart: not at all, so black, above a scale that ends white
-    settings.beyond = "difference"
+    settings.beyond, settings.compared = "difference", "other"
     yield from drawn()
     picture, line = pixels(), round(settings.line * part.width)
     told["difference"] = int(picture[whole & (np.arange(part.width) > line + 2)].max())
     told["scale"] = picture[30, [line + 25, line + 24 + 64, line + 24 + 128, line + 24 + 190]].tolist()
+    told["numbers"] = int((picture[40:56, line + 10 : line + 230].min(axis=-1) > 120).sum())
+    # How far the preview is from Blender's own shading
+    settings.compared, cube = "blender", bpy.data.objects["Cube"]
+    for name, green in (("alike", 0.0), ("unlike", 0.5)):
+        cube.color = (0.5, green, 0.5, 1.0)
+        yield from drawn()
+        yield from drawn()
+        inside = whole & (np.arange(part.width) > line + 6)
+        told[name] = float(np.median(pixels()[inside].max(axis=-1)))
 """
 
 
@@ -274,6 +283,9 @@ def test_a_line_parts_previews_from_blender_s_shading(told: Told) -> None:
     # Columns of the line, of which each side draws its two
     assert 2 <= answer["missing"] <= 4
     assert answer["difference"] <= 9  # black, as Mesa encodes it
+    assert answer["numbers"] > 50
+    assert answer["alike"] <= 9
+    assert answer["unlike"] > 240
     black, red, yellow, white = np.array(answer["scale"])
     assert black.max() < 30
     np.testing.assert_allclose(red, (255, 0, 0), atol=15)

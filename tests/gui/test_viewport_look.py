@@ -142,7 +142,7 @@ def scenario(told):
     def coverage():
         stage = session().previews._stage
         part = region(view())
-        seen = np.array(stage._radiance.read()).reshape(*stage._size[::-1], 4)[: part.height, : part.width]
+        seen = np.array(stage.radiance.read()).reshape(*stage._size[::-1], 4)[: part.height, : part.width]
         return seen[..., 3] == 1.0
 
     whole, solid = coverage(), pixels()

@@ -14,7 +14,7 @@ from ...core.kinds.live_environment import (
     near_distances,
 )
 from ...device.kinds.live_environment import GpuLiveEnvironment
-from ...device.surroundings import SurroundingsCamera
+from ...device.viewport_camera import ViewportCamera
 from ...host.live_light import appearance_of, bare, points_of
 from ...host.visible_surfaces import Surface, View
 
@@ -38,7 +38,7 @@ class LiveLight:
 
     def __init__(self, size: int) -> None:
         self.gpu_map_set = GpuLiveEnvironment(size)
-        self._camera = SurroundingsCamera(size)
+        self._camera = ViewportCamera(size, size)
         self._missing = FACE_COUNT
         self._due = FACE_COUNT
         self._next_face = 0

@@ -6,12 +6,13 @@ from itertools import product
 from typing import Any
 
 from ...device.drawing import Draw, GpuMesh
-from ...device.preview_stage import Stage, current_sight, draw_occluder
-from ...host.live_light import shows_surroundings
-from ...host.visible_surfaces import Surface, View, map_set_of
+from ...device.preview_stage import Difference, Stage, current_sight, draw_occluder, draw_scale_numbers
+from ...host.live_light import is_readable, shows_surroundings
+from ...host.visible_surfaces import Side, Surface, View, map_set_of
 from ...host.world_light import AS_IT_IS
 from ..methods.kinds import KINDS
 from ..methods.live_materials import LiveFits
+from .blender_pictures import BlenderPictures
 from .contents import Contents, Drawable, LayerContents
 from .displays import Displays
 from .faults import Faults
@@ -70,6 +71,7 @@ class Previews:
         self._stage, self._other_stage = Stage(), Stage()
         self._layers = LayerContents(self._shows_own)
         self._displays = Displays()
+        self._blender_pictures = BlenderPictures()
         self.reload()
 
     def reload(self) -> None:
@@ -87,6 +89,7 @@ class Previews:
             Whether materials, or what they are made of, may have changed too.
         """
         self._layers.scene_changed(materials)
+        self._blender_pictures.scene_changed()
         for light in self._map_sets.lights.values():
             light.scene_changed()
 
@@ -151,7 +154,9 @@ class Previews:
         display, scale = self._displays.of(view.scene)
         if display is None:
             return False
-        wanted = {side.other for side in sides} | {not side.other for side in sides if side.difference}
+        wanted = {side.other for side in sides} | {
+            not side.other for side in sides if side.difference and not side.from_blender
+        }
         looked = [
             (each, map_set, looks)
             for each, map_set in seen
@@ -173,9 +178,11 @@ class Previews:
             others = [(each.drawable.mesh, each.placed) for each in shown if each.strength != strength]
             behind = [] if has_depth else hiding + others
             self._set(self._stage, behind, group, side.other)
-            difference = (self._other_stage, side.difference) if side.difference else None
-            if difference:
+            if side.difference and not side.from_blender:
                 self._set(self._other_stage, behind, group, not side.other)
+            difference = self._difference(view, side, strength * scale, scale)
+            if side.from_blender and difference is None:  # Blender's own shading stays in sight
+                continue
             self._stage.show(display, strength * scale, (side.left, side.right), has_depth, difference)
         return True
 
@@ -207,6 +214,28 @@ class Previews:
                 self.faults.note(surface.item, error)
         return changed
 
+    def render_compared(self, view: View) -> bool:
+        """Render Blender's own shading of a view, if a difference from it is shown; and the scale's numbers.
+
+        Parameters
+        ----------
+        view : View
+            The one whose pixels Blender is drawing.
+
+        Returns
+        -------
+        bool
+            Whether the view has to be drawn again.
+        """
+        changed = False
+        for side in view.sides if view.shaded and not self.faults.trouble else ():
+            if not side.difference or (side.from_blender and not is_readable(view.space)):
+                continue
+            if side.from_blender:
+                changed |= self._blender_pictures.render(view)
+            draw_scale_numbers(side.left, side.difference)
+        return changed
+
     def add_display(self, scene: Any) -> None:
         """Learn how a scene shows radiance; not while a view is being drawn, as data come and go for it.
 
@@ -236,6 +265,15 @@ class Previews:
         """Whether an object is to be drawn with its own materials, by what shades it now."""
         map_set = self._map_sets.shown(surface.item)
         return map_set is not None and wants_own(surface.item, map_set.kind)
+
+    def _difference(self, view: View, side: Side, scale: float, of_blender: float) -> Difference | None:
+        """What a side is compared with, if it shows a difference."""
+        if not side.difference:
+            return None
+        if not side.from_blender:
+            return Difference(self._other_stage.radiance, scale, side.difference)
+        picture = self._blender_pictures.of(view) if is_readable(view.space) else None
+        return None if picture is None else Difference(picture, of_blender, side.difference)
 
     def _shading(self, surface: Surface) -> ViewportMapSet | None:
         """What an object is shaded from; None where that is not there yet, or something has gone wrong."""

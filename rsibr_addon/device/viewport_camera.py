@@ -1,4 +1,4 @@
-"""The surroundings of a point, rendered by Blender's own viewport into a texture."""
+"""What Blender's own viewport shows, rendered into a texture."""
 
 import bpy
 import gpu
@@ -7,22 +7,22 @@ from mathutils import Matrix
 from ..core.conventions import Array
 
 
-class SurroundingsCamera:
-    """Renders square views; one camera serves all views of its size, as Blender keeps an engine for each.
+class ViewportCamera:
+    """Renders views; one camera serves all views of its size, as Blender keeps an engine for each.
 
     Parameters
     ----------
-    size : int
-        Width and height in pixels.
+    width, height : int
+        In pixels.
     """
 
-    def __init__(self, size: int) -> None:
-        self._target = gpu.types.GPUOffScreen(size, size, format="RGBA16F")
+    def __init__(self, width: int, height: int) -> None:
+        self._target = gpu.types.GPUOffScreen(width, height, format="RGBA16F")
 
     def see(
         self, scene: bpy.types.Scene, layer: str, space: bpy.types.SpaceView3D, view: Array, projection: Array
     ) -> gpu.types.GPUTexture:
-        """Render one view with a viewport's shading; only while a viewport's pixels are drawn.
+        """Render one view with a viewport's shading, without previews; only while its pixels are drawn.
 
         Parameters
         ----------
@@ -32,7 +32,7 @@ class SurroundingsCamera:
         space : bpy.types.SpaceView3D
             The viewport that is being drawn.
         view, projection : ndarray, shape (4, 4)
-            See `core.kinds.live_environment.face_view` and `face_projection`.
+            From world to eye coordinates, and on to the picture's.
 
         Returns
         -------

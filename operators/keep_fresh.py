@@ -9,15 +9,13 @@ from bpy.app.handlers import persistent
 
 from ..rsibr_addon.core.errors import RsibrError
 from ..rsibr_addon.core.warned import recorded_warnings
+from ..rsibr_addon.host.materials import materials_changed
 from ..rsibr_addon.host.sidebars import redraw_sidebars
 from ..rsibr_addon.session.running import session
 from .bake_in_background import queue_bake
 
 SECONDS = 0.4
 """After the last edit; while a slider is being moved, nothing is looked at."""
-
-WATCHED = (bpy.types.World, bpy.types.Material, bpy.types.Image, bpy.types.NodeTree)
-"""What a bake may depend on, besides its settings."""
 
 
 def start(undo: ExitStack) -> None:
@@ -41,13 +39,13 @@ def start(undo: ExitStack) -> None:
 def _edited(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     if depsgraph.mode != "VIEWPORT":  # A render evaluates scenes too, in a thread of its own
         return
-    changed = [update.id.original for update in depsgraph.updates]
-    if any(isinstance(each, WATCHED) for each in changed):
+    of_materials = materials_changed(depsgraph)
+    if of_materials:
         session().material_notes.forget()
-        _look_soon()
-        return
+    changed = (update.id.original for update in depsgraph.updates)
     objects = [each for each in changed if isinstance(each, bpy.types.Object)]
-    if session().freshness.has_changed(scene, objects):
+    of_world = depsgraph.id_type_updated("WORLD")
+    if of_materials or of_world or session().freshness.has_changed(scene, objects):
         _look_soon()
 
 

@@ -3,8 +3,8 @@
 import bpy
 
 from ..rsibr_addon.core.errors import RsibrError, SceneError
-from ..rsibr_addon.files.kinds.registry import own_materials_kind
 from ..rsibr_addon.host.bake_settings import SHAPED
+from ..rsibr_addon.tasks.methods.kinds import own_materials_kind
 from ..rsibr_addon.tasks.queue.bake_request import request_for
 from .at_once import Undoable
 from .bake_in_background import queue_bakes

@@ -2,39 +2,30 @@
 
 from typing import Any
 
-from ..core.errors import RsibrError
-from ..host.principled import principled
+from ..tasks.viewport.own_materials import shown_material
 
 
 class MaterialNotes:
     """Sentences about materials, for panels, which are drawn too often to read nodes each time."""
 
     def __init__(self) -> None:
-        self._read: dict[int, str] = {}
+        self._read: dict[int, tuple[str, ...]] = {}
 
-    def of(self, material: Any) -> str:
-        """What an object in its own materials will not show of one; empty if it shows all.
+    def of_object(self, item: Any) -> list[str]:
+        """What an object in its own materials will not show of them; nothing if it shows all.
 
         Parameters
         ----------
-        material : bpy.types.Material
+        item : bpy.types.Object
         """
-        if material.session_uid not in self._read:
-            self._read[material.session_uid] = _note(material)
-        return self._read[material.session_uid]
+        materials = dict.fromkeys(slot.material for slot in item.material_slots if slot.material)
+        return [note for material in materials for note in self._of(material)]
 
     def forget(self) -> None:
         """Read all again: materials have changed."""
         self._read.clear()
 
-
-def _note(material: Any) -> str:
-    try:
-        missing = principled(material).missing
-    except RsibrError as error:
-        return str(error)
-    return f"{material.name} is shown without {_listed(missing)}." if missing else ""
-
-
-def _listed(words: tuple[str, ...]) -> str:
-    return " and ".join(filter(None, (", ".join(words[:-1]), words[-1])))
+    def _of(self, material: Any) -> tuple[str, ...]:
+        if material.session_uid not in self._read:
+            self._read[material.session_uid] = shown_material(material).messages
+        return self._read[material.session_uid]

@@ -15,7 +15,6 @@ class KernelPyramidSettings(MethodSettings):
 
     KIND: ClassVar = "kernel_pyramid"
     LABEL: ClassVar = "Own Materials"
-    OWN_MATERIALS: ClassVar = True
     SUMMARY: ClassVar = "Light alone: each object keeps its own Principled materials, textures and all"
     REMARK: ClassVar = "Each object keeps its own Principled materials; nothing of them is baked."
 

@@ -16,12 +16,9 @@ class MethodSettings(Options):
         The method in a menu, and what it is for, as a phrase without a full stop.
     REMARK : str
         What to know where there is no material to choose; else empty.
-    OWN_MATERIALS : bool
-        Whether objects are shaded with their own materials, all of them.
     """
 
     KIND: ClassVar[str]
     LABEL: ClassVar[str]
     SUMMARY: ClassVar[str]
     REMARK: ClassVar[str] = ""
-    OWN_MATERIALS: ClassVar[bool] = False

@@ -50,8 +50,12 @@ class RSIBR_PT_look(InSidebar, bpy.types.Panel):
             if item.rsibr.follow_world and has_environment(world) and world_light(world) is None:
                 tell(layout, NOT_FOLLOWED, context.region.width)
         previews = session().previews
+        chosen = context.scene.rsibr_bake.kind
+        # What the list of materials tells is not told twice
+        told = session().material_notes.of_object(item) if chosen and KINDS[chosen].own else ()
         for message in previews.messages(item):
-            tell(layout, message, context.region.width)
+            if message not in told:
+                tell(layout, message, context.region.width)
         if previews.is_loading(item):
             layout.label(text="Loading...", icon="TIME")
         kind = previews.kind(item)

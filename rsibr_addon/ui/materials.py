@@ -26,6 +26,5 @@ def draw_materials(layout: bpy.types.UILayout, item: bpy.types.Object, width: in
         layout.label(text=material.name, icon_value=bpy.types.UILayout.icon(material))
     if len(materials) > SLOTS_SHOWN:
         layout.label(text=f"and {len(materials) - SLOTS_SHOWN} more", icon="BLANK1")
-    for material in materials:
-        if note := session().material_notes.of(material):
-            tell(layout, note, width, icon="INFO")
+    for note in session().material_notes.of_object(item):
+        tell(layout, note, width, icon="INFO")

@@ -6,6 +6,7 @@ from ..core.errors import RsibrError
 from ..files.kinds.registry import STORED
 from ..host.map_sets import written_path
 from ..session.running import session
+from ..tasks.methods.kinds import KINDS
 from ..tasks.queue.bake_request import request_for
 from ..tasks.queue.freshness import Stale
 from ..tasks.report.facts import is_picture, map_set_header
@@ -32,9 +33,8 @@ class RSIBR_PT_preview(InSidebar, bpy.types.Panel):
         if not chosen.kind:
             tell(layout, UNKNOWN_METHOD, width)
             return
-        settings = STORED[chosen.kind].settings
         if context.object is not None:
-            if settings.OWN_MATERIALS:
+            if KINDS[chosen.kind].own:
                 draw_materials(layout.column(align=True), context.object, width)
             else:
                 layout.label(text=_shaded_as(context), icon="MATERIAL")

@@ -17,11 +17,6 @@ STORED = LazyTable[StoredKind](
 menus."""
 
 
-def own_materials_kind() -> str:
-    """The kind that shades objects with their own materials."""
-    return next(kind for kind, stored in STORED.items() if stored.settings.OWN_MATERIALS)
-
-
 def look_types() -> dict[str, type[Options]]:
     """Kind, a picture of an environment included -> how it is shaded, as options."""
     from ...core.kinds.environment import EnvironmentLook

@@ -47,6 +47,11 @@ KINDS: dict[str, Kind] = {
 """Kind of map sets, or `environment` for a picture -> what can be done with it."""
 
 
+def own_materials_kind() -> str:
+    """The kind that shades objects with their own materials."""
+    return next(name for name, kind in KINDS.items() if kind.own)
+
+
 @dataclass(frozen=True)
 class OpenedMapSet:
     """A map set as tasks use it.

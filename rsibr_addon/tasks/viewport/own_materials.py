@@ -119,6 +119,9 @@ def shown_material(material: Any) -> ShownMaterial:
     except SceneError as error:
         inputs = BLACK if surface_output(material) is None else PLAIN
         return ShownMaterial(name, DrawnMaterial(inputs), (str(error),))
+    except RecursionError:
+        told = f"Material {name} has chains of nodes that are too long to follow: bake them to images."
+        return ShownMaterial(name, DrawnMaterial(PLAIN), (told,))
     reader = _Reader()
     inputs = readable(inputs, reader.read)
     drawn = DrawnMaterial(inputs, ImageTextures(textures_of(inputs), image_of))

@@ -1,5 +1,6 @@
 """Light for engines, read back as their loaders do, by nothing of ours, against the sum over all texels."""
 
+import json
 import shutil
 import struct
 import subprocess
@@ -7,9 +8,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import OpenImageIO
 import pytest
 from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError, RsibrWarning
 from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.core.rgbd import rgbd_from_radiance
 from rsibr.rsibr_addon.files.radiance_hdr import write_hdr
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.tasks.export.engines.engines import ENGINES
@@ -220,3 +223,57 @@ def test_light_beyond_an_encoding_is_cut_and_told(tmp_path: Path) -> None:
         lit, _ = drain(export_for_engine(tmp_path / "sun.exr", tmp_path / "sun.ktx", "filament"))
     levels, _, _ = read_ktx1(lit)
     assert max(level.max() for level in levels) == 64512.0
+
+
+def pngs_of(data: bytes, places: list[dict[str, int]], folder: Path) -> list[np.ndarray]:
+    """Radiance of RGBD pictures, row 0 on top, as Babylon.js decodes it."""
+    made = []
+    for place in places:
+        path = folder / "face.png"
+        path.write_bytes(data[place["position"] : place["position"] + place["length"]])
+        picture = OpenImageIO.ImageInput.open(str(path), _unassociated())
+        rgbd = picture.read_image(0, 0, 0, 4, "uint8") / 255.0
+        picture.close()
+        made.append(rgbd[..., :3] ** 2.2 / rgbd[..., 3:])
+    return made
+
+
+def _unassociated() -> OpenImageIO.ImageSpec:
+    """Colours as they are in the file, not times alpha."""
+    spec = OpenImageIO.ImageSpec()
+    spec.attribute("oiio:UnassociatedAlpha", 1)
+    return spec
+
+
+def test_babylon_takes_its_own_format(tmp_path: Path) -> None:
+    (path,) = exported(tmp_path, "babylon", ".env")
+    data = path.read_bytes()
+    assert data[:8] == bytes.fromhex("86168796f6d69636")
+    text, _, pictures = data[8:].partition(b"\0")
+    manifest = json.loads(text)
+    assert (manifest["version"], manifest["width"]) == (1, 64)
+    places = manifest["specular"]["mipmaps"]
+    assert len(places) == 6 * 7
+    assert places[-1]["position"] + places[-1]["length"] == len(pictures)
+    faces = pngs_of(pictures, places, tmp_path)
+    # It uploads pictures upside down, and looks up at 0.8 log2(alpha width)
+    levels = [np.stack(faces[6 * mip : 6 * mip + 6])[:, ::-1] for mip in range(7)]
+    alpha = [0.0, *(min(2.0 ** (mip / 0.8) / 64, 1.0) for mip in range(1, 7))]
+    # A byte of gamma 2.2 is 1 % of a tenth, the darkest here
+    check_cube(levels, [each**0.5 for each in alpha], three_world, 0.01)
+
+
+def test_babylons_divisor_beats_the_largest() -> None:
+    radiance = np.exp2(RNG.uniform(-6.0, 7.0, (4000, 3)))
+    rgbd = rgbd_from_radiance(radiance) / 255.0
+    # What Babylon.js's own encoder does
+    largest = (
+        np.floor(np.minimum(255.0 / np.maximum(radiance.max(axis=-1, keepdims=True), 1.0), 255.0)) / 255.0
+    )
+    colour = np.rint(255.0 * (radiance * largest) ** (1 / 2.2)) / 255.0
+    ours, theirs = (
+        np.abs(colours**2.2 / divisors - radiance) / radiance
+        for colours, divisors in ((rgbd[:, :3], rgbd[:, 3:]), (colour, largest))
+    )
+    assert np.median(ours) < 0.75 * np.median(theirs)
+    assert np.all(rgbd[:, 3] >= 1 / 255)

@@ -1,7 +1,12 @@
 """The engines that light is written for."""
 
-from . import bevy, filament, three
+from . import babylon, bevy, filament, three
 from .engine import Engine
 
-ENGINES: dict[str, Engine] = {"three": three.ENGINE, "filament": filament.ENGINE, "bevy": bevy.ENGINE}
+ENGINES: dict[str, Engine] = {
+    "three": three.ENGINE,
+    "babylon": babylon.ENGINE,
+    "filament": filament.ENGINE,
+    "bevy": bevy.ENGINE,
+}
 """Name, a word, -> the engine."""

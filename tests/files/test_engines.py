@@ -1,5 +1,6 @@
 """Light for engines, read back as their loaders do, by nothing of ours, against the sum over all texels."""
 
+import base64
 import json
 import shutil
 import struct
@@ -11,6 +12,7 @@ import numpy as np
 import OpenImageIO
 import pytest
 from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError, RsibrWarning
+from rsibr.rsibr_addon.core.filtering.irradiance import real_harmonics
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.core.rgbd import rgbd_from_radiance
 from rsibr.rsibr_addon.files.radiance_hdr import write_hdr
@@ -261,6 +263,36 @@ def test_babylon_takes_its_own_format(tmp_path: Path) -> None:
     alpha = [0.0, *(min(2.0 ** (mip / 0.8) / 64, 1.0) for mip in range(1, 7))]
     # A byte of gamma 2.2 is 1 % of a tenth, the darkest here
     check_cube(levels, [each**0.5 for each in alpha], three_world, 0.01)
+
+
+@pytest.mark.parametrize("ending", [".glb", ".gltf"])
+def test_gltf_takes_its_extension(ending: str, tmp_path: Path) -> None:
+    (path,) = exported(tmp_path, "gltf", ending)
+    data = path.read_bytes()
+    if ending == ".glb":
+        magic, version, length, text, kind = struct.unpack_from("<4s3I4s", data)
+        assert (magic, version, length, kind) == (b"glTF", 2, len(data), b"JSON")
+        described = json.loads(data[20 : 20 + text])
+        binary, kind = struct.unpack_from("<I4s", data, 20 + text)
+        pictures = data[28 + text :]
+        assert (binary, kind) == (len(pictures), b"BIN\0")
+    else:
+        described = json.loads(data)
+        pictures = base64.b64decode(described["buffers"][0]["uri"].partition(",")[2])
+    assert described["buffers"][0]["byteLength"] == len(pictures)
+    assert described["extensionsUsed"] == ["EXT_lights_image_based"]
+    assert described["scenes"][described["scene"]]["extensions"] == {"EXT_lights_image_based": {"light": 0}}
+    (light,) = described["extensions"]["EXT_lights_image_based"]["lights"]
+    views = [described["bufferViews"][described["images"][each]["bufferView"]] for each in range(18)]
+    places = [{"position": view["byteOffset"], "length": view["byteLength"]} for view in views]
+    faces = pngs_of(pictures, places, tmp_path)
+    levels = [np.stack([faces[face] for face in mip])[:, ::-1] for mip in light["specularImages"]]
+    assert light["specularImageSize"] == 64
+    check_cube(levels, [0.0, 0.5, 1.0], three_world, 0.01)
+    # Their sum over the nine harmonics of the specification's sources, of which odd orders are negative
+    basis = real_harmonics(cube_directions(8), 2) * [1, -1, 1, -1, 1, -1, 1, -1, 1]
+    wanted = diffuse_truth(three_world(cube_directions(8)))
+    assert np.abs(basis @ light["irradianceCoefficients"] / np.pi - wanted).max() < 0.06 * wanted.mean()
 
 
 def test_babylons_divisor_beats_the_largest() -> None:

@@ -29,7 +29,7 @@ def check_shown(
 ) -> None:
     """Hold radiance by roughness and direction to the mips; the median, and eight times looser all.
 
-    `relative` is what the encoding may lose, and `between` what a lookup between texels may miss of the light.
+    `relative` is what the encoding may lose, `between` what a lookup between texels may miss of the light.
     """
     normal = from_y_up(directions())
     mips = ggx_mips(sky(), SIZE, roughness)

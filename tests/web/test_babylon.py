@@ -38,6 +38,18 @@ def test_babylon_shows_the_light_of_every_mip(
     check_diffuse(said["diffuse"])
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("ending", [".glb", ".gltf"])
+def test_babylon_shows_the_light_of_gltf(ending: str, tmp_path: Path) -> None:
+    drain(export_for_engine(sky_file(tmp_path), tmp_path / f"sky{ending}", "gltf", CubeSettings(size=SIZE)))
+    at = (directions() * (-1.0, 1.0, 1.0)).tolist()
+    roughness = [0.0, 0.5, 1.0]
+    question = {"roughness": roughness, "linear": True, "rightHanded": False, "directions": at}
+    said = asked("babylon.html", {**question, "file": f"/files/sky{ending}"}, tmp_path)
+    check_shown(said["radiance"], roughness, 5e-3)
+    check_diffuse(said["diffuse"])
+
+
 def check_diffuse(shown: list[list[float]]) -> None:
     wanted = diffuse_truth(from_y_up(directions()))
     # Degree 2 leaves at most a few per cent of the mean [Ramamoorthi2001]

@@ -92,6 +92,24 @@ def irradiance_from_harmonics(coefficients: ArrayLike, normal: ArrayLike) -> Arr
     return irradiance
 
 
+def irradiance_coefficients(coefficients: ArrayLike) -> Array:
+    """Coefficients of the irradiance from those of the radiance, up to degree 2.
+
+    Parameters
+    ----------
+    coefficients : array_like, shape (9, channels)
+        Coefficients of `real_harmonics`.
+
+    Returns
+    -------
+    ndarray, shape (9, channels), float64
+        A_l L_lm of [Ramamoorthi2001] Eq. 5: of the irradiance itself, not divided by pi.
+    """
+    a = np.repeat(zonal_coefficients(cosine_lobe(), 2), [1, 3, 5])
+    convolved: Array = a[:, None] * np.asarray(coefficients, dtype=np.float64)
+    return convolved
+
+
 def diffuse_terms(coefficients: ArrayLike) -> Array:
     """The nine coefficients of degree 2 as factors of products of the normal's components.
 
@@ -113,8 +131,7 @@ def diffuse_terms(coefficients: ArrayLike) -> Array:
     )
     product = np.array([1.0, 1.0, 1.0, 1.0, 0.5, 0.5, 2.0, 0.5, 1.0])
     basis = np.einsum("kk->k", real_harmonics(where, 2)) / product
-    a = np.repeat(zonal_coefficients(cosine_lobe(), 2), [1, 3, 5]) / np.pi
-    terms: Array = (a * basis)[:, None] * np.asarray(coefficients, dtype=np.float64)
+    terms: Array = basis[:, None] * irradiance_coefficients(coefficients) / np.pi
     return terms
 
 

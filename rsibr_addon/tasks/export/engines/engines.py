@@ -1,6 +1,6 @@
 """The engines that light is written for."""
 
-from . import babylon, bevy, filament, three
+from . import babylon, bevy, filament, gltf, three
 from .engine import Engine
 
 ENGINES: dict[str, Engine] = {
@@ -8,5 +8,6 @@ ENGINES: dict[str, Engine] = {
     "babylon": babylon.ENGINE,
     "filament": filament.ENGINE,
     "bevy": bevy.ENGINE,
+    "gltf": gltf.ENGINE,
 }
 """Name, a word, -> the engine."""

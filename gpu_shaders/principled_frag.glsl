@@ -1,20 +1,22 @@
 // Twin of core/kinds/kernel_pyramid/shading.py `principled_radiance`, of one material.
 #include "lib/principled_radiance_lib.glsl"
 #include "lib/sides_lib.glsl"
+#include "lib/spread_lib.glsl"
 
 void main()
 {
   Seen seen = seen_surface(draw.eye, draw.model, world_position, world_normal, gl_FrontFacing);
+  float spread = look.coating.z * pixel_spread(dFdx(seen.normal), dFdy(seen.normal));
   Surface surface = Surface(look.base.rgb,
                             look.base.a,
-                            look.boundary.x,
+                            widened_roughness(look.boundary.x, spread),
                             look.boundary.y,
                             look.emission.a,
                             look.boundary.z,
                             look.specular.a,
                             look.specular.rgb,
                             look.coat.a,
-                            look.coating.x,
+                            widened_roughness(look.coating.x, spread),
                             look.coating.y,
                             look.coat.rgb,
                             look.emission.rgb);
@@ -26,6 +28,7 @@ void main()
                                      rises,
                                      surface,
                                      seen.normal,
+                                     seen.mirror_normal,
                                      seen.mirror_normal,
                                      seen.view_dir);
   radiance.a = clamp(surface.alpha, 0.0, 1.0);

@@ -1,27 +1,212 @@
-// Twin of core/kinds/kernel_pyramid/shading.py `principled_radiance`, of a material whose inputs are textures:
-// core/materials.
+// Twin of rsibr_addon/core/materials and of core/kinds/kernel_pyramid/shading.py `principled_radiance`: a material
+// whose inputs are affine in the texels of textures. The uniform block `material` and the textures `image_0` to
+// `image_7` are those of device/textured_materials.py.
 #include "lib/principled_radiance_lib.glsl"
+#include "lib/shading_normal_lib.glsl"
 #include "lib/sides_lib.glsl"
-#include "lib/textured_material_lib.glsl"
+#include "lib/spread_lib.glsl"
+
+// Bits of what changes the normal.
+const int NORMAL_MAPPED = 1;
+const int BUMPED = 2;
+const int COAT_LIKE_BASE = 4;
+const int COAT_NORMAL_MAPPED = 8;
+
+// Places of inputs among the numbers, in the order of device/textured_materials.py `INPUTS`.
+const int BASE_COLOR = 0;
+const int METALLIC = 3;
+const int ROUGHNESS = 4;
+const int IOR = 5;
+const int SPECULAR_LEVEL = 6;
+const int SPECULAR_TINT = 7;
+const int DIFFUSE_ROUGHNESS = 10;
+const int COAT_WEIGHT = 11;
+const int COAT_ROUGHNESS = 12;
+const int COAT_IOR = 13;
+const int COAT_TINT = 14;
+const int EMISSION_COLOR = 17;
+const int EMISSION_STRENGTH = 20;
+const int ALPHA = 21;
+const int NORMAL_COLOR = 22;
+const int NORMAL_STRENGTH = 25;
+const int BUMP_STRENGTH = 26;
+const int BUMP_DISTANCE = 27;
+const int COAT_NORMAL_COLOR = 28;
+const int COAT_NORMAL_STRENGTH = 31;
+const int NUMBERS = 32;
+
+float numbers[NUMBERS];
+
+// Where a texture is looked up; its lower left corner is (0, 0), its upper right one (1, 1).
+vec2 texture_place(int number)
+{
+  vec4 first = material.mapping[2 * number];
+  vec4 second = material.mapping[2 * number + 1];
+  int uv_map = int(first.w);
+  vec4 pair = (uv_map < 2) ? uv_01 : uv_23;
+  vec3 uv = vec3((uv_map % 2 == 0) ? pair.xy : pair.zw, 1.0);
+  // A UV map that the mesh does not have is 0 everywhere, as in Cycles
+  uv.xy = (uv_map < 0) ? vec2(0.0) : uv.xy;
+  return vec2(dot(first.xyz, uv), dot(second.xyz, uv));
+}
+
+// Adds what a texture gives to the numbers that are affine in its texels.
+void add_texels(int number, vec4 texel)
+{
+  vec4 range = material.ranges[number];
+  for (int row = int(range.x); row < int(range.y); row++) {
+    numbers[int(material.targets[row].x)] += dot(material.rows[row], texel);
+  }
+}
+
+// Makes the numbers of all inputs. Each texture is sampled once; `count` is the same for all fragments, so that
+// derivatives exist.
+void evaluate_inputs()
+{
+  for (int number = 0; number < NUMBERS; number++) {
+    numbers[number] = material.constants[number / 4][number % 4];
+  }
+  int count = int(material.counts.x);
+  if (count > 0) {
+    add_texels(0, texture(image_0, texture_place(0)));
+  }
+  if (count > 1) {
+    add_texels(1, texture(image_1, texture_place(1)));
+  }
+  if (count > 2) {
+    add_texels(2, texture(image_2, texture_place(2)));
+  }
+  if (count > 3) {
+    add_texels(3, texture(image_3, texture_place(3)));
+  }
+  if (count > 4) {
+    add_texels(4, texture(image_4, texture_place(4)));
+  }
+  if (count > 5) {
+    add_texels(5, texture(image_5, texture_place(5)));
+  }
+  if (count > 6) {
+    add_texels(6, texture(image_6, texture_place(6)));
+  }
+  if (count > 7) {
+    add_texels(7, texture(image_7, texture_place(7)));
+  }
+}
+
+vec3 color_of(int number)
+{
+  return vec3(numbers[number], numbers[number + 1], numbers[number + 2]);
+}
+
+// How much higher a pixel's neighbours on the right and above are, by the slope of the first texture's texels: of
+// the four around a point where that is magnified, else of four a texel of its mip apart.
+vec2 height_rises()
+{
+  vec2 place = texture_place(0);
+  vec2 size = vec2(textureSize(image_0, 0));
+  vec2 right = dFdx(place);
+  vec2 above = dFdy(place);
+  float span = max(max(length(right * size), length(above * size)), 1.0);
+  vec2 texel = place * size - 0.5;
+  vec2 low = (span > 1.0) ? texel - 0.5 * span : floor(texel);
+  vec2 share = (texel - low) / span;
+  float level = log2(span);
+  vec4 row = material.height;
+  vec2 near = (low + 0.5) / size;
+  vec2 far = (low + 0.5 + span) / size;
+  float h00 = dot(row, textureLod(image_0, near, level));
+  float h10 = dot(row, textureLod(image_0, vec2(far.x, near.y), level));
+  float h01 = dot(row, textureLod(image_0, vec2(near.x, far.y), level));
+  float h11 = dot(row, textureLod(image_0, far, level));
+  vec2 slope = vec2(mix(h10 - h00, h11 - h01, share.y), mix(h01 - h00, h11 - h10, share.x)) * size / span;
+  return vec2(dot(slope, right), dot(slope, above));
+}
+
+// A unit normal of a normal map, in the map set's world.
+vec3 world_mapped_normal(vec3 color, float strength)
+{
+  vec3 mapped = mapped_normal(color, strength, object_normal, object_tangent);
+  return normalize(mat3(draw.turn) * transformed_normal(mat3(draw.model), mapped));
+}
+
+// The unit normal that the material is shaded with, in the map set's world.
+vec3 shading_normal()
+{
+  int changes = int(material.counts.y);
+  vec3 normal = normalize(world_normal);
+  if ((changes & NORMAL_MAPPED) != 0) {
+    normal = world_mapped_normal(color_of(NORMAL_COLOR), numbers[NORMAL_STRENGTH]);
+  }
+  if ((changes & BUMPED) != 0) {
+    vec3 right = dFdx(world_position);
+    vec3 above = dFdy(world_position);
+    // Steps near 1: squares of those of a close view would vanish in single precision
+    float scale = 1.0 / max(max(length(right), length(above)), 1e-30);
+    vec2 rises = scale * numbers[BUMP_DISTANCE] * height_rises();
+    normal = bumped_normal(normal, scale * right, scale * above, rises, numbers[BUMP_STRENGTH]);
+  }
+  return normal;
+}
+
+// That of the coat: the surface's own where the material has none for it.
+vec3 coat_shading_normal(vec3 normal)
+{
+  int changes = int(material.counts.y);
+  if ((changes & COAT_LIKE_BASE) != 0) {
+    return normal;
+  }
+  if ((changes & COAT_NORMAL_MAPPED) != 0) {
+    return world_mapped_normal(color_of(COAT_NORMAL_COLOR), numbers[COAT_NORMAL_STRENGTH]);
+  }
+  return normalize(world_normal);
+}
+
+// Spread of the normals of a normal map within a pixel that holds several texels: its texture is one of the first
+// two. What is magnified has texels that differ, but one normal everywhere.
+float map_spread()
+{
+  int number = int(material.antialiasing.z);
+  if (number < 0) {
+    return 0.0;
+  }
+  vec2 texel = texture_place(number) * vec2((number == 0) ? textureSize(image_0, 0) : textureSize(image_1, 0));
+  float level = log2(max(max(length(dFdx(texel)), length(dFdy(texel))), 1.0));
+  float strength = numbers[NORMAL_STRENGTH];
+  vec3 mean = 2.0 * color_of(NORMAL_COLOR) - 1.0;
+  return min(level, 1.0) * strength * strength * mean_spread(mean, material.antialiasing.y);
+}
+
+// Half a step of 8 bits: what covers less is not there, and hides nothing.
+const float LEAST_ALPHA = 0.5 / 255.0;
 
 void main()
 {
-  sample_textures();
-  Seen seen = seen_surface(draw.eye, draw.model, world_position, shading_normal(), gl_FrontFacing);
-  float alpha = clamp(number_of(ALPHA), 0.0, 1.0);
+  evaluate_inputs();
+  vec3 base_normal = shading_normal();
+  vec3 coat_normal = coat_shading_normal(base_normal);
+  Seen seen = seen_surface(draw.eye, draw.model, world_position, base_normal, gl_FrontFacing);
+  Seen seen_coat = seen_surface(draw.eye, draw.model, world_position, coat_normal, gl_FrontFacing);
+  float antialiased = material.antialiasing.x;
+  float spread = antialiased * (pixel_spread(dFdx(seen.normal), dFdy(seen.normal)) + map_spread());
+  float coat_spread = antialiased * pixel_spread(dFdx(seen_coat.normal), dFdy(seen_coat.normal));
+  float alpha = clamp(numbers[ALPHA], 0.0, 1.0);
+  // Behind all that needs neighbours
+  if (alpha < LEAST_ALPHA) {
+    discard;
+  }
   Surface surface = Surface(color_of(BASE_COLOR),
-                            number_of(METALLIC),
-                            clamp(number_of(ROUGHNESS), 0.0, 1.0),
-                            number_of(IOR),
+                            numbers[METALLIC],
+                            widened_roughness(clamp(numbers[ROUGHNESS], 0.0, 1.0), spread),
+                            numbers[IOR],
                             alpha,
-                            clamp(number_of(DIFFUSE_ROUGHNESS), 0.0, 1.0),
-                            number_of(SPECULAR_LEVEL),
+                            clamp(numbers[DIFFUSE_ROUGHNESS], 0.0, 1.0),
+                            numbers[SPECULAR_LEVEL],
                             color_of(SPECULAR_TINT),
-                            number_of(COAT_WEIGHT),
-                            clamp(number_of(COAT_ROUGHNESS), 0.0, 1.0),
-                            number_of(COAT_IOR),
+                            numbers[COAT_WEIGHT],
+                            widened_roughness(clamp(numbers[COAT_ROUGHNESS], 0.0, 1.0), coat_spread),
+                            numbers[COAT_IOR],
                             color_of(COAT_TINT),
-                            color_of(EMISSION_COLOR) * number_of(EMISSION_STRENGTH));
+                            color_of(EMISSION_COLOR) * numbers[EMISSION_STRENGTH]);
   radiance.rgb = principled_radiance(atlas,
                                      places,
                                      ggx,
@@ -31,6 +216,7 @@ void main()
                                      surface,
                                      seen.normal,
                                      seen.mirror_normal,
+                                     seen_coat.mirror_normal,
                                      seen.view_dir);
   radiance.a = alpha;
 }

@@ -106,13 +106,14 @@ Powers plastic_of(Surface surface, Albedo albedo, sampler2D rises, out vec3 refl
   return bounced(boundary, tinted + (1.0 - tinted) * risen, albedo, reflected);
 }
 
-Layers layers_of(Surface surface, float mu, sampler2DArray albedos, sampler2D rises)
+// coat_mu: the cosine of the view to the coat's normal.
+Layers layers_of(Surface surface, float mu, float coat_mu, sampler2DArray albedos, sampler2D rises)
 {
   float covered = clamp(surface.alpha, 0.0, 1.0);
   float metallic = clamp(surface.metallic, 0.0, 1.0);
   Albedo albedo = ggx_albedo(albedos, surface.roughness * surface.roughness, mu);
   vec3 below, reflected;
-  Powers coat = coat_of(surface, mu, albedos, rises, below);
+  Powers coat = coat_of(surface, coat_mu, albedos, rises, below);
   below *= covered;
   Powers plastic = coloured((1.0 - metallic) * below, plastic_of(surface, albedo, rises, reflected));
   Powers metal = coloured(metallic * below, metal_of(surface, albedo));

@@ -10,6 +10,21 @@
 const int GGX_LOBES = 4;
 const int LEANING_LOBES = 2;
 
+// Rising powers of glass, of an index of 1.5, over the first of them: device/kinds/kernel_pyramid.py `GLASS`.
+const vec4 GLASS = vec4(1.0, 22.052702, -36.772641, 24.508813);
+
+// Coefficients of less are not looked up, beside others of the same lobes: roundings of `GLASS`.
+const float LEAST_COEFFICIENT = 1e-3;
+
+// Kernels below the first whose lobes of a width have no weight: concentrations end at (16 / alpha)^2, of the
+// width's narrower neighbour.
+int kernels_of(sampler2D places, float alpha)
+{
+  float octaves = 8.5 - 2.0 * log2(max(alpha, 1e-4));
+  float number = (octaves <= 4.0) ? octaves + 1.0 : 3.0 + 0.5 * octaves;
+  return min(int(number) + 1, kernel_count(places));
+}
+
 // The sum of a family's lobes, GGX_LOBES at most, whose functions are the first of the powers.
 vec3 lobes_radiance(sampler2D atlas,
                     sampler2D places,
@@ -28,19 +43,36 @@ vec3 lobes_radiance(sampler2D atlas,
   for (int lobe = 0; lobe < lobes; lobe++) {
     uv[lobe] = octahedral_uv(lobe_axis(normal, mirror_dir, vec2(tilts[lobe], 0.0)));
   }
+  // What is left beside glass, of which the first of the rising functions is made
+  vec3 glass = coefficients.rising[0];
+  mat4x3 rest = coefficients.rising - outerProduct(glass, GLASS);
+  const vec3 LEAST = vec3(LEAST_COEFFICIENT);
+  bvec3 counts = bvec3(any(greaterThan(abs(rest[1]), LEAST)),
+                       any(greaterThan(abs(rest[2]), LEAST)),
+                       any(greaterThan(abs(rest[3]), LEAST)));
   vec3 radiance = vec3(0.0);
-  int kernels = kernel_count(places);
+  int kernels = kernels_of(places, alpha);
   for (int kernel = 0; kernel < kernels; kernel++) {
     float layer = float(1 + kernel * functions);
     mat4x3 weights = outerProduct(coefficients.zeroth, textureLod(family, vec3(place, layer), 0.0));
-    for (int power = 1; power < functions; power++) {
-      weights += outerProduct(coefficients.rising[power - 1],
-                              textureLod(family, vec3(place, layer + float(power)), 0.0));
+    if (functions > 1 && glass != vec3(0.0)) {
+      weights += outerProduct(glass, textureLod(family, vec3(place, layer + 1.0), 0.0));
+    }
+    if (functions > 1 && counts.x) {
+      weights += outerProduct(rest[1], textureLod(family, vec3(place, layer + 2.0), 0.0));
+    }
+    if (functions > 1 && counts.y) {
+      weights += outerProduct(rest[2], textureLod(family, vec3(place, layer + 3.0), 0.0));
+    }
+    if (functions > 1 && counts.z) {
+      weights += outerProduct(rest[3], textureLod(family, vec3(place, layer + 4.0), 0.0));
     }
     // Broad lobes have no sharp kernels: what has no weight is not looked up
     if (weights != mat4x3(0.0)) {
+      // As pyramid_radiance, with one place for all
+      vec4 map = texelFetch(places, ivec2(kernel, 0), 0);
       for (int lobe = 0; lobe < lobes; lobe++) {
-        radiance += weights[lobe] * pyramid_radiance(atlas, places, kernel, uv[lobe]);
+        radiance += weights[lobe] * textureLod(atlas, map.xy + uv[lobe] * map.zw, 0.0).rgb;
       }
     }
   }
@@ -97,7 +129,8 @@ vec3 diffuse_radiance(sampler2D atlas,
   return color * max(radiance, 0.0);
 }
 
-// Covered by the surface's alpha. The normals are those of `Seen`: for diffuse light, and for the rest.
+// Covered by the surface's alpha. The normals are those of `Seen`: for diffuse light, and for the rest; and that
+// of the coat's own.
 vec3 principled_radiance(sampler2D atlas,
                          sampler2D places,
                          sampler2DArray ggx,
@@ -107,11 +140,12 @@ vec3 principled_radiance(sampler2D atlas,
                          Surface surface,
                          vec3 normal,
                          vec3 mirror_normal,
+                         vec3 coat_normal,
                          vec3 view_dir)
 {
-  vec3 mirror_dir = reflect_dir(view_dir, mirror_normal);
   float mu = clamp(dot(mirror_normal, view_dir), 1e-4, 1.0);
-  Layers layers = layers_of(surface, mu, albedos, rises);
+  float coat_mu = clamp(dot(coat_normal, view_dir), 1e-4, 1.0);
+  Layers layers = layers_of(surface, mu, coat_mu, albedos, rises);
   vec3 radiance = layers.emission;
   if (layers.diffuse != vec3(0.0)) {
     radiance += layers.diffuse * diffuse_radiance(atlas,
@@ -127,9 +161,17 @@ vec3 principled_radiance(sampler2D atlas,
   for (int coat = 0; coat < 2; coat++) {
     Powers coefficients = (coat == 1) ? layers.coat : layers.base;
     float roughness = (coat == 1) ? surface.coat_roughness : surface.roughness;
+    vec3 layer_normal = (coat == 1) ? coat_normal : mirror_normal;
+    float layer_mu = (coat == 1) ? coat_mu : mu;
     if (coefficients.zeroth != vec3(0.0) || coefficients.rising != mat4x3(0.0)) {
-      radiance += ggx_radiance(
-          atlas, places, ggx, roughness * roughness, mu, coefficients, mirror_normal, mirror_dir);
+      radiance += ggx_radiance(atlas,
+                               places,
+                               ggx,
+                               roughness * roughness,
+                               layer_mu,
+                               coefficients,
+                               layer_normal,
+                               reflect_dir(view_dir, layer_normal));
     }
   }
   return radiance;

@@ -1,6 +1,7 @@
 """The program that draws a material whose inputs are textures, and what it reads of one."""
 
 from collections.abc import Iterator, Mapping
+from typing import Any
 from weakref import WeakKeyDictionary
 
 import gpu
@@ -8,7 +9,16 @@ import numpy as np
 
 from ..core.conventions import Array
 from ..core.errors import ShapeError
-from ..core.materials.principled import Bump, Extension, Input, NormalMap, PrincipledInputs, Texture
+from ..core.materials.principled import (
+    Baked,
+    Bump,
+    Extension,
+    Input,
+    Normal,
+    NormalMap,
+    PrincipledInputs,
+    Texture,
+)
 from . import buffers
 from .own_materials import MOST_TEXTURES, DrawnMaterial
 from .shaders import build, mesh_interface
@@ -29,10 +39,11 @@ INPUTS = (
     "emission_strength",
     "alpha",
 )
-"""Inputs whose numbers come first, as in gpu_shaders/lib/textured_material_lib.glsl."""
+"""Inputs whose numbers come first, as in gpu_shaders/principled_textured_frag.glsl."""
 
-NUMBERS = 29
-"""Numbers of all inputs, with the color and the strength of a normal map, and a bump's three."""
+NUMBERS = 32
+"""Numbers of all inputs: after `INPUTS` a normal map's color and strength, a bump's strength and distance,
+and color and strength of the coat's normal map."""
 
 EXTENSIONS: dict[Extension, str] = {
     "REPEAT": "REPEAT",
@@ -42,8 +53,8 @@ EXTENSIONS: dict[Extension, str] = {
 }
 """What lies outside of an image -> the same in the words of textures."""
 
-NORMAL_MAPPED, BUMPED = 1, 2
-"""Bits of what changes the normal."""
+NORMAL_MAPPED, BUMPED, COAT_LIKE_BASE, COAT_NORMAL_MAPPED = 1, 2, 4, 8
+"""Bits of what changes the normal, and the coat's."""
 
 _BLACK = Input(((0.0,) * 5,) * 3)
 _ZERO = Input(((0.0,) * 5,))
@@ -55,7 +66,7 @@ def textured_program(fragment: str, samplers: Mapping[str, str]) -> gpu.types.GP
     Parameters
     ----------
     fragment : str
-        The source, which includes lib/textured_material_lib.glsl, without its ending _frag.glsl.
+        The source, without its ending _frag.glsl.
     samplers : mapping of str to str
         Textures of what lights the material, as `mesh_program` takes them.
 
@@ -65,8 +76,9 @@ def textured_program(fragment: str, samplers: Mapping[str, str]) -> gpu.types.GP
         The driver refuses it.
     """
     info = mesh_interface(
-        f"struct Material {{ vec4 counts; vec4 rows[{NUMBERS}]; vec4 constants[{NUMBERS}]; "
-        f"vec4 mapping[{2 * MOST_TEXTURES}]; }};"
+        f"struct Material {{ vec4 counts; vec4 antialiasing; vec4 height; vec4 constants[{NUMBERS // 4}]; "
+        f"vec4 rows[{NUMBERS}]; vec4 targets[{NUMBERS}]; "
+        f"vec4 ranges[{MOST_TEXTURES}]; vec4 mapping[{2 * MOST_TEXTURES}]; }};"
     )
     info.uniform_buf(1, "Material", "material")
     info.vertex_in(2, "VEC4", "tangent")
@@ -89,11 +101,17 @@ class MaterialBinding:
 
     def __init__(self) -> None:
         self._blocks: WeakKeyDictionary[
-            DrawnMaterial, dict[tuple[str, ...], tuple[gpu.types.GPUUniformBuf, tuple[Texture, ...]]]
+            DrawnMaterial, dict[tuple[Any, ...], tuple[gpu.types.GPUUniformBuf, tuple[Texture, ...]]]
         ] = WeakKeyDictionary()
         self._nothing: gpu.types.GPUTexture | None = None
 
-    def bind(self, shader: gpu.types.GPUShader, material: DrawnMaterial, uv_maps: tuple[str, ...]) -> None:
+    def bind(
+        self,
+        shader: gpu.types.GPUShader,
+        material: DrawnMaterial,
+        uv_maps: tuple[str, ...],
+        antialiased: bool,
+    ) -> None:
         """Set a material's block and images.
 
         Parameters
@@ -103,18 +121,21 @@ class MaterialBinding:
         material : DrawnMaterial
         uv_maps : tuple of str
             Those of the mesh that is drawn.
+        antialiased : bool
+            See `OwnMaterials`.
 
         Raises
         ------
         ShapeError
             It has more than `MOST_TEXTURES` textures.
         """
-        made = self._blocks.setdefault(material, {})
-        if uv_maps not in made:
+        made, key = self._blocks.setdefault(material, {}), (uv_maps, antialiased)
+        if key not in made:
             textures = textures_of(material.inputs)
             rows = material_rows(material.inputs, textures, uv_maps)
-            made[uv_maps] = gpu.types.GPUUniformBuf(rows.tobytes()), textures
-        block, textures = made[uv_maps]
+            rows[1] = _antialiasing(material, textures, antialiased)
+            made[key] = gpu.types.GPUUniformBuf(rows.tobytes()), textures
+        block, textures = made[key]
         shader.uniform_block("material", block)
         if self._nothing is None:
             self._nothing = buffers.texture(np.zeros((1, 1, 4), np.float32))
@@ -135,14 +156,14 @@ def _placed(image: gpu.types.GPUTexture, texture: Texture) -> gpu.types.GPUTextu
 
 
 def textures_of(inputs: PrincipledInputs) -> tuple[Texture, ...]:
-    """The textures that a material samples, each once; a bump's height, which is sampled around, first."""
-    used = (each.texture for each in _inputs(inputs) if each.texture)
-    height = _bump(inputs).height.texture if isinstance(inputs.normal, Bump) else None
-    return tuple(dict.fromkeys([*filter(None, [height]), *used]))
+    """The textures that a material samples, each once: a bump's height first, then a normal map's color."""
+    normal = _normal_map(inputs.normal)
+    first = [_bump(inputs).height, *([normal.color] if normal else [])]
+    return tuple(dict.fromkeys(each.texture for each in [*first, *_inputs(inputs)] if each.texture))
 
 
 def material_rows(inputs: PrincipledInputs, textures: tuple[Texture, ...], uv_maps: tuple[str, ...]) -> Array:
-    """A material as gpu_shaders/lib/textured_material_lib.glsl reads it.
+    """A material as gpu_shaders/principled_textured_frag.glsl reads it.
 
     Parameters
     ----------
@@ -155,9 +176,10 @@ def material_rows(inputs: PrincipledInputs, textures: tuple[Texture, ...], uv_ma
     Returns
     -------
     ndarray, shape (n, 4), float32
-        The number of textures, and what changes the normal; of each number the factors of a texel; its
-        constant, and its texture's number or -1; of each texture two rows of its mapping, the first with the
-        number of its UV map or -1.
+        The number of textures, and what changes the normal; a row for antialiasing; the factors of a texel in
+        a bump's height; the constants of all numbers; the factors of those that have a texture, texture by
+        texture, and which numbers these are; the ranges of textures in these rows; of each texture two rows
+        of its mapping, the first with the number of its UV map or -1.
 
     Raises
     ------
@@ -169,30 +191,72 @@ def material_rows(inputs: PrincipledInputs, textures: tuple[Texture, ...], uv_ma
             f"A material samples {len(textures)} textures, and previews take {MOST_TEXTURES}: "
             f"bake some of its inputs."
         )
-    factors, constants = np.zeros((2, NUMBERS, 4), np.float32)
-    row = 0
-    for value in _inputs(inputs):
-        number = textures.index(value.texture) if value.texture else -1
-        for *of_texel, added in value.rows:
-            factors[row], constants[row, :2] = of_texel, (added, number)
-            row += 1
+    numbered = [(row, value.texture) for value in _inputs(inputs) for row in value.rows]
+    constants = np.array([row[4] for row, _ in numbered], np.float32)
+    factors, targets = np.zeros((2, NUMBERS, 4), np.float32)
+    ranges = np.zeros((MOST_TEXTURES, 4), np.float32)
+    end = 0
+    for texture, begin_and_end in zip(textures, ranges, strict=False):
+        begin_and_end[0] = end
+        for number, (row, of_row) in enumerate(numbered):
+            if of_row == texture:
+                factors[end], targets[end, 0] = row[:4], number
+                end += 1
+        begin_and_end[1] = end
     mapping = np.zeros((MOST_TEXTURES, 2, 4), np.float32)
     for texture, rows in zip(textures, mapping, strict=False):
         rows[:, :3] = np.reshape(texture.mapping, (2, 3))
         named = texture.uv_map or next(iter(uv_maps), "")
         rows[0, 3] = uv_maps.index(named) if named in uv_maps else -1
-    bump = isinstance(inputs.normal, Bump)
-    mapped = isinstance(inputs.normal, NormalMap) or (bump and _bump(inputs).normal is not None)
-    counts = np.array([[len(textures), mapped * NORMAL_MAPPED + bump * BUMPED, 0.0, 0.0]], np.float32)
-    return np.concatenate([counts, factors, constants, mapping.reshape(-1, 4)])
+    counts = np.array([len(textures), _changes(inputs), 0.0, 0.0], np.float32)
+    parts = (
+        counts,
+        np.zeros(4, np.float32),
+        _height_factors(_bump(inputs)),
+        constants,
+        factors,
+        targets,
+        ranges,
+        mapping,
+    )
+    return np.concatenate([part.reshape(-1, 4) for part in parts])
+
+
+def _changes(inputs: PrincipledInputs) -> int:
+    """What changes the normals, as bits."""
+    changes = NORMAL_MAPPED if _normal_map(inputs.normal) else 0
+    changes |= BUMPED if isinstance(inputs.normal, Bump) else 0
+    if inputs.coat_normal is not None and inputs.coat_normal == inputs.normal:
+        return changes | COAT_LIKE_BASE
+    return changes | (COAT_NORMAL_MAPPED if _normal_map(inputs.coat_normal) else 0)
+
+
+def _antialiasing(material: DrawnMaterial, textures: tuple[Texture, ...], antialiased: bool) -> Array:
+    """Whether there is any; of a normal map the error of a texel's length, and its texture's number or -1."""
+    normal = _normal_map(material.inputs.normal)
+    texture = normal.color.texture if normal else None
+    if texture is None:
+        return np.array([antialiased, 0.0, -1.0, 0.0])
+    is_coarse = material.textures[texture].format in ("RGBA8", "SRGB8_A8", "R8", "RG8")
+    return np.array([antialiased, is_coarse / 255.0, textures.index(texture), 0.0])
+
+
+def _height_factors(bump: Bump) -> Array:
+    """Factors of a texel in a bump's height; 0 where it is flat within a texel."""
+    texture = bump.height.texture
+    is_flat = texture is None or texture.closest
+    return np.zeros(4, np.float32) if is_flat else np.array(bump.height.rows[0][:4], np.float32)
 
 
 def _bump(inputs: PrincipledInputs) -> Bump:
     """A material's bump; a flat one where it has none."""
-    if isinstance(inputs.normal, Bump):
-        return inputs.normal
-    below = inputs.normal if isinstance(inputs.normal, NormalMap) else None
-    return Bump(_ZERO, _ZERO, _ZERO, normal=below)
+    return inputs.normal if isinstance(inputs.normal, Bump) else Bump(_ZERO, _ZERO, _ZERO)
+
+
+def _normal_map(normal: Normal) -> NormalMap | None:
+    """A normal's map, or that which a bump lies on."""
+    below = normal.normal if isinstance(normal, Bump) else normal
+    return below if isinstance(below, NormalMap) else None
 
 
 def _inputs(inputs: PrincipledInputs) -> Iterator[Input]:
@@ -203,12 +267,12 @@ def _inputs(inputs: PrincipledInputs) -> Iterator[Input]:
     ShapeError
         One is still to be baked.
     """
-    bump = _bump(inputs)
-    flat = bump.normal or NormalMap(_BLACK, _ZERO)
-    steps = bump.height.texture is not None and bump.height.texture.closest
-    height = _ZERO if steps else bump.height  # within a texel it is flat
+    bump, none = _bump(inputs), NormalMap(_BLACK, _ZERO)
+    base, coat = (_normal_map(each) or none for each in (inputs.normal, inputs.coat_normal))
+    of_normals = base.color, base.strength, bump.strength, _signed_distance(bump), coat.color, coat.strength
     values = (getattr(inputs, name) for name in INPUTS)
-    for value in (*values, flat.color, flat.strength, height, bump.strength, _signed_distance(bump)):
+    stand_ins = (each for each in (inputs.normal, inputs.coat_normal) if isinstance(each, Baked))
+    for value in (*stand_ins, *values, *of_normals):
         if not isinstance(value, Input):
             raise ShapeError(
                 f"An input of the material is still to be baked ({value.reason}): bake it first."

@@ -7,6 +7,7 @@ import numpy as np
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.shader_source import shader_source
+from rsibr.rsibr_addon.device.shaders import kept_until_exit
 from rsibr.rsibr_addon.device.textures import GpuTexture
 
 WIDTH = 512
@@ -84,4 +85,12 @@ def _shader(library: str, code: str, arguments: int, results: int, samplers: Sam
     body = "\n".join([*fetches, *zeros, code])
     info.vertex_source(shader_source("screen_vert.glsl"))
     info.fragment_source(f"{shader_source(f'lib/{library}')}\nvoid main()\n{{\n{body}\n}}\n")
-    return gpu.shader.create_from_info(info)
+    program = gpu.shader.create_from_info(info)
+    _programs().append(program)
+    return program
+
+
+@kept_until_exit
+def _programs() -> list[gpu.types.GPUShader]:
+    """All that were made: Blender goes back to the last one when it has filled an image's mips."""
+    return []

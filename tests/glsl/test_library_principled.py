@@ -321,18 +321,18 @@ TWINS = {
         6,
     ),
     "layers_of base": layer_twin(
-        f"Layers found = layers_of(surface, mu, albedos, rises); {written('found.base')}",
+        f"Layers found = layers_of(surface, mu, mu, albedos, rises); {written('found.base')}",
         lambda surface, mu, albedos: layers_of(surface, mu, albedos).base,
         5,
     ),
     "layers_of diffuse and emission": layer_twin(
-        "Layers found = layers_of(surface, mu, albedos, rises);"
+        "Layers found = layers_of(surface, mu, mu, albedos, rises);"
         "result_0.rgb = found.diffuse; result_1.rgb = found.emission;",
         lambda surface, mu, albedos: beside_lobes(layers_of(surface, mu, albedos)),
         2,
     ),
     "layers_of coat": layer_twin(
-        f"Layers found = layers_of(surface, mu, albedos, rises); {written('found.coat')}",
+        f"Layers found = layers_of(surface, mu, mu, albedos, rises); {written('found.coat')}",
         lambda surface, mu, albedos: layers_of(surface, mu, albedos).coat,
         5,
     ),
@@ -399,7 +399,7 @@ def assert_near(found: np.ndarray, expected: np.ndarray, peak: float) -> None:
 def shaded(light: Pyramid, normal: np.ndarray, view_dir: np.ndarray, inputs: list[np.ndarray]) -> np.ndarray:
     code = SURFACE + (
         "result_0.rgb = principled_radiance(atlas, places, ggx, leaning, albedos, rises, surface, in_6.xyz, "
-        "in_6.xyz, in_7.xyz);"
+        "in_6.xyz, in_6.xyz, in_7.xyz);"
     )
     facing = seen_surface(normal, view_dir).normal
     return evaluate(LIBRARY, code, [*inputs, facing, view_dir], 1, samplers_of(light))[:, 0, :3]
@@ -432,6 +432,21 @@ def directions() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     normal, view_dir, _ = points()
     view_dir = np.where(dot(normal, view_dir)[:, None] < 0.0, -view_dir, view_dir)
     return normal, single(reflect(view_dir, normal)), single(dot(normal, view_dir)[:, None])
+
+
+def test_kernels_of() -> None:
+    """Kernels beyond have no weight, and few below have none."""
+    ggx, alpha = families().ggx, np.clip(2.0 ** numbers(47, -8.0, 0.5), None, 1.0)
+    found = evaluate(LIBRARY, "result_0.x = float(kernels_of(places, in_0.x));", [alpha], 1, samplers())
+    weighs = np.any(ggx.weights, axis=(1, 2, 4))
+    below = np.searchsorted(ggx.alpha, alpha[:, 0], side="right") - 1
+    last = KERNEL_COUNT - np.argmax(weighs[np.maximum(below, 0), ::-1], axis=1)
+    assert np.all(found[:, 0, 0] >= last)
+    assert np.mean(found[:, 0, 0] - last) < 0.5
+    assert (
+        np.count_nonzero(np.any(families().leaning.weights, axis=(0, 1, 2, 4)))
+        <= found[alpha[:, 0] == 1.0, 0, 0].min()
+    )
 
 
 def test_lobes_radiance() -> None:

@@ -83,7 +83,7 @@ class Layers:
     emission: Array
 
 
-def layers_of(surface: Surface, mu: ArrayLike, albedos: Albedos) -> Layers:
+def layers_of(surface: Surface, mu: ArrayLike, albedos: Albedos, coat_mu: ArrayLike | None = None) -> Layers:
     """Shares of a surface's layers towards a view.
 
     Parameters
@@ -92,9 +92,11 @@ def layers_of(surface: Surface, mu: ArrayLike, albedos: Albedos) -> Layers:
     mu : array_like, shape (...,)
         n.v, in (0, 1].
     albedos : Albedos
+    coat_mu : array_like, shape (...,), optional
+        n.v of a coat that has a normal of its own.
     """
     mu = np.asarray(mu, dtype=np.float64)
-    coat, below = _coat(surface, mu, albedos)
+    coat, below = _coat(surface, mu if coat_mu is None else np.asarray(coat_mu, np.float64), albedos)
     metallic = np.clip(np.asarray(surface.metallic, np.float64), 0.0, 1.0)[..., None]
     plastic, reflected = _plastic(surface, mu, albedos)
     base = metallic[..., None] * _metal(surface, mu, albedos) + (1.0 - metallic[..., None]) * plastic

@@ -6,7 +6,7 @@ Blender's `gpu` module cannot fill the mips of a texture, so the pyramid's maps 
 import gpu
 import numpy as np
 
-from ...core.brdf.fresnel_powers import rise_table
+from ...core.brdf.fresnel_powers import rise, rise_table
 from ...core.brdf.principled import Surface
 from ...core.conventions import Array
 from ...core.errors import ShapeError
@@ -25,6 +25,13 @@ from ..textures import GpuTexture
 
 GGX_LOBES, LEANING_LOBES = 4, 2
 """Lobes of families, as gpu_shaders/lib/principled_radiance_lib.glsl has them; a texel has four numbers."""
+
+GLASS = rise(0.2)[1:] / rise(0.2)[1]
+"""Rising powers of glass, of an index of 1.5, over the first of them.
+
+Most coats and plastics are glass: their weights are a function of their own, in the place of the first rising
+one, which metals do not have. So glass costs two lookups of weights, as does a metal without tinted edges.
+"""
 
 _WIDTHS_AN_OCTAVE = 4
 """As gpu_shaders/lib/family_lib.glsl has it."""
@@ -83,14 +90,15 @@ class GpuPyramid:
         self._materials = MaterialBinding()
 
     def draw(self, mesh: GpuMesh, draw: Draw, look: PrincipledLook | Surface | OwnMaterials) -> None:
-        """See `GpuMapSet.draw`. Reference: core/kinds/kernel_pyramid/shading.py."""
+        """See `GpuMapSet.draw`; a `Surface` is shaded at points. Reference: core/kinds/kernel_pyramid."""
         if isinstance(look, OwnMaterials):
             self._draw_slots(mesh, draw, look)
             return
+        is_antialiased = isinstance(look, PrincipledLook) and look.antialiased
         surface = look.surface if isinstance(look, PrincipledLook) else look
         shader = principled_shader()
         shader.bind()
-        shader.uniform_block("look", self._block.filled(*look_fields(surface)))
+        shader.uniform_block("look", self._block.filled(*look_fields(surface, is_antialiased)))
         self._light(shader)
         mesh.draw(shader, draw)
 
@@ -110,7 +118,7 @@ class GpuPyramid:
         shader.bind()
         self._light(shader)
         for slot, material in enumerate(look.slots):
-            self._materials.bind(shader, material, mesh.uv_maps)
+            self._materials.bind(shader, material, mesh.uv_maps, look.antialiased)
             mesh.draw_slot(shader, draw, slot, last=slot == len(look.slots) - 1)
 
     def _light(self, shader: gpu.types.GPUShader) -> None:
@@ -118,7 +126,7 @@ class GpuPyramid:
             shader.uniform_sampler(name, texture.whole())
 
 
-def look_fields(look: Surface) -> tuple[Array, ...]:
+def look_fields(look: Surface, antialiased: bool) -> tuple[Array, ...]:
     """One material as the block of gpu_shaders/principled_frag.glsl."""
     return (
         np.append(look.base_color, look.metallic),
@@ -126,7 +134,7 @@ def look_fields(look: Surface) -> tuple[Array, ...]:
         np.append(look.coat_tint, look.coat_weight),
         np.append(look.emission, look.alpha),
         np.array([look.roughness, look.ior, look.diffuse_roughness]),
-        np.array([look.coat_roughness, look.coat_ior]),
+        np.array([look.coat_roughness, look.coat_ior, antialiased]),
     )
 
 
@@ -189,7 +197,8 @@ def family_texels(family: Family, lobes: int) -> Array:
     Returns
     -------
     ndarray, shape (1 + K * C, S, A, 4), float32
-        The tilts of the lobes; for each kernel and function, their weights.
+        The tilts of the lobes; for each kernel and function, their weights: of GGX, `GLASS` in the place of
+        the first rising power.
 
     Raises
     ------
@@ -207,7 +216,10 @@ def family_texels(family: Family, lobes: int) -> Array:
         )
     texels = np.zeros((1 + len(KERNELS) * functions, rows, count, 4), dtype=np.float32)
     texels[0, ..., :lobes] = family.tilts.swapaxes(0, 1)
-    texels[1:, ..., :lobes] = family.weights.transpose(3, 4, 1, 0, 2).reshape(-1, rows, count, lobes)
+    weights = family.weights.transpose(3, 4, 1, 0, 2).astype(np.float64)
+    if functions > 1:
+        weights[:, 1] = np.einsum("kcrwl,c->krwl", weights[:, 1:], GLASS)
+    texels[1:, ..., :lobes] = weights.reshape(-1, rows, count, lobes)
     return texels
 
 

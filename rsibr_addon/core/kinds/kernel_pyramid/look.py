@@ -7,6 +7,7 @@ import numpy as np
 
 from ...brdf.principled import Principled, Surface
 from ...options import Options, declared_options, option
+from ..look_options import antialiased_option
 
 
 def _share(default: float, label: str, help: str, **more: Any) -> Any:
@@ -100,3 +101,4 @@ class PrincipledLook(PrincipledMaterial):
         label="Own Materials",
         help="Shade an object with the materials of its slots; what has none is shaded with the one below",
     )
+    antialiased: bool = antialiased_option("gloss")

@@ -64,6 +64,7 @@ def principled_radiance(
     normal: ArrayLike,
     view_dir: ArrayLike,
     facet: ArrayLike | None = None,
+    coat_normal: ArrayLike | None = None,
 ) -> Array:
     """Radiance of surface points of Principled materials.
 
@@ -77,6 +78,8 @@ def principled_radiance(
         Unit vectors in world coordinates.
     facet : array_like, shape (N, 3), optional
         Unit normals of the facets: see `core.kinds`.
+    coat_normal : array_like, shape (N, 3), optional
+        Unit vectors; the coat's normals where they are not `normal`.
 
     Returns
     -------
@@ -91,18 +94,24 @@ def principled_radiance(
     normal, view_dir = np.asarray(normal, np.float64), np.asarray(view_dir, np.float64)
     seen = seen_surface(normal, view_dir, facet)
     mu = np.clip(dot(seen.mirror_normal, view_dir), _GRAZING, 1.0)
-    layers = layers_of(surface, mu, families)
+    coat_normal = (
+        seen.mirror_normal
+        if coat_normal is None
+        else seen_surface(coat_normal, view_dir, facet).mirror_normal
+    )
+    coat_mu = np.clip(dot(coat_normal, view_dir), _GRAZING, 1.0)
+    layers = layers_of(surface, mu, families, coat_mu)
     own_mu = np.clip(dot(seen.normal, view_dir), _GRAZING, 1.0)
     diffuse = _diffuse(pyramid, families.leaning, surface, layers, seen.normal, view_dir, own_mu)
     radiance = layers.emission + diffuse
-    for roughness, coefficients in (
-        (surface.roughness, layers.base),
-        (surface.coat_roughness, layers.coat),
+    for roughness, coefficients, layer_normal in (
+        (surface.roughness, layers.base, seen.mirror_normal),
+        (surface.coat_roughness, layers.coat, coat_normal),
     ):
         reflects = np.any(coefficients, axis=(-2, -1))
         alpha = np.broadcast_to(np.square(roughness), mu.shape)[reflects]
         radiance[reflects] += _glossy(
-            pyramid, families, alpha, coefficients[reflects], seen.mirror_normal[reflects], view_dir[reflects]
+            pyramid, families, alpha, coefficients[reflects], layer_normal[reflects], view_dir[reflects]
         )
     return radiance
 

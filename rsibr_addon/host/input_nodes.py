@@ -61,7 +61,9 @@ def step(socket: bpy.types.NodeSocket, groups: Groups) -> tuple[bpy.types.NodeSo
     """The socket that this one's value is passed on from; None where `source` ends."""
     node = socket.node
     if not socket.is_output:
-        link = next((link for link in socket.links if link.is_valid and not link.is_muted), None)
+        # Asked for its links, Blender looks through those of the whole tree
+        links = socket.links if socket.is_linked else ()
+        link = next((link for link in links if link.is_valid and not link.is_muted), None)
         return (link.from_socket, groups) if link else None
     if node.mute:
         passed = next((link for link in node.internal_links if link.to_socket == socket), None)

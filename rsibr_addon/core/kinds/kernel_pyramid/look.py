@@ -99,6 +99,6 @@ class PrincipledLook(PrincipledMaterial):
     own: bool = option(
         True,
         label="Own Materials",
-        help="Shade an object with the materials of its slots; what has none is shaded with the one below",
+        help="Shade an object with the materials of its slots instead of the one below",
     )
     antialiased: bool = antialiased_option("gloss")

@@ -67,6 +67,22 @@ def lookup(image: Array, direction: ArrayLike, representation: Representation) -
     continuous as the map's content.
     """
     height, width = image.shape[1:3]
+    columns, rows, sheets, weights = texels_around(direction, representation, width, height)
+    return _weighted_sum(weights, image[sheets, rows, columns])
+
+
+def texels_around(
+    direction: ArrayLike, representation: Representation, width: int, height: int
+) -> tuple[Indices, Indices, Indices, Array]:
+    """Columns, rows, sheets and weights of the four texels that `lookup` takes, each of shape (4, ...).
+
+    Parameters
+    ----------
+    direction : array_like, shape (..., 3)
+    representation : Representation
+    width, height : int
+        Of a sheet in texels.
+    """
     uv, sheet = representation.uv_from_direction(direction)
     columns, rows, weights = _four_texels(uv, width, height)
     columns, rows, sheets = representation.wrap(
@@ -74,7 +90,7 @@ def lookup(image: Array, direction: ArrayLike, representation: Representation) -
     )
     missing = sheets < 0
     shared = np.sum(weights * missing, axis=0) / 3.0
-    return _weighted_sum(np.where(missing, 0.0, weights + shared), image[sheets, rows, columns])
+    return columns, rows, sheets, np.where(missing, 0.0, weights + shared)
 
 
 def resample(

@@ -127,7 +127,8 @@ def test_emission_is_added_and_all_is_covered_by_alpha(pyramid: Pyramid, familie
 def test_kernels_are_as_large_as_they_need_and_follow_the_sum(pyramid: Pyramid, radiance: Array) -> None:
     assert pyramid.bank.concentrations == KERNELS.concentrations[: len(pyramid.bank)]
     for kappa, sheets in zip(pyramid.bank.concentrations, pyramid.maps, strict=True):
-        assert sheets.shape == (1, width_of(kappa, SIZE), width_of(kappa, SIZE), 3)
+        width = width_of(kappa, 2 * HEIGHT)
+        assert sheets.shape == (1, width, width, 3)
         exact = prefilter_exact(radiance, [von_mises_fisher_lobe(kappa)], NORMAL)[0]
         error = np.linalg.norm(pyramid.kernel(kappa, NORMAL) - exact)
         # A kernel of concentration kappa has second derivatives of kappa times its peak, and texels are about

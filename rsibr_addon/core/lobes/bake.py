@@ -9,13 +9,7 @@ from ..conventions import Array
 from ..errors import RangeError
 from ..filtering.harmonics.analysis import analyse_environment
 from ..filtering.harmonics.coefficients import EnvironmentHarmonics
-from ..filtering.lookup_error import (
-    curvature,
-    interpolation_error,
-    laplacian,
-    power_by_degree,
-    root_of_share,
-)
+from ..filtering.lookup_error import BilinearLookups, filtered_power, light_power
 from ..filtering.prefilter import analysis_degree, bytes_needed, prefilter, resolved_width
 from ..filtering.zonal import TOLERANCE, ZonalSeries, expand
 from ..kinds.kernel_bank.filtered_bank import FilteredBank, bound_from_bank, stack_from_bank
@@ -144,7 +138,8 @@ def bake_bank(radiance: Array, layout: str, size: int, afford: Afford = _at_any_
     bank = octaves(min(_SHARPEST_BY_TEXELS * size**2, sharpest_resolved(len(radiance))))
     series = _expanded(bank)
     harmonics = analyse_environment(radiance, analysis_degree(series))
-    costs = [interpolation_error(curvature(lobe, harmonics), sheets, size) for lobe in series]
+    lookups = BilinearLookups(sheets, size)
+    costs = [lookups.error(filtered_power(lobe, harmonics)) for lobe in series]
     count = max(sum(cost <= ALLOWED_OF_A_KERNEL for cost in costs), 1)
     afford(_bytes(count, layout, size), size)
     yield Progress(1, 2, f"filtering {count} maps of {size} texels")
@@ -174,23 +169,23 @@ def bake_stack(
     if size is not None:
         stack_representation(layout, size)
 
-    def lookups(width: int) -> float:
-        return interpolation_error(bent, stack_representation(layout, width), width)
+    def cost(width: int) -> float:
+        return BilinearLookups(stack_representation(layout, width), width).error(*power)
 
     yield Progress(0, 2, "analysing the environment")
     bank = KernelBank(tuple(fit.bank.concentrations[kernel] for kernel in fit.used))
     series = _expanded(bank)
     harmonics = analyse_environment(radiance, analysis_degree(series))
-    bent = _curvature(fit, fit.weights[:, :, fit.used], series, harmonics)
+    power = _power(fit, fit.weights[:, :, fit.used], series, harmonics)
     if size is None:
-        size = next((n for n in SIZES if lookups(n) <= ALLOWED_INTERPOLATION), SIZES[-1])
+        size = next((n for n in SIZES if cost(n) <= ALLOWED_INTERPOLATION), SIZES[-1])
     afford(_bytes(len(bank), layout, size), size)
     yield Progress(1, 2, f"filtering {fit.weights.shape[0] * fit.weights.shape[1]} maps of {size} texels")
     try:
         filtered = _filtered(harmonics, bank, series, layout, size)
     except RangeError as error:
         raise RangeError(f"This environment is too coarse for some lobes of the fit. {error}") from error
-    return BakedStack(filtered, fit, lookups(size))
+    return BakedStack(filtered, fit, cost(size))
 
 
 def _bytes(kernels: int, layout: str, size: int) -> float:
@@ -210,8 +205,10 @@ def _filtered(
     return FilteredBank(layout, bank, filtered.radiance, filtered.bound)
 
 
-def _curvature(fit: Fit, weights: Array, series: list[ZonalSeries], harmonics: EnvironmentHarmonics) -> float:
-    """Root mean square of the maps' Laplacians over that of the radiance, on a sphere seen from afar.
+def _power(
+    fit: Fit, weights: Array, series: list[ZonalSeries], harmonics: EnvironmentHarmonics
+) -> tuple[Array, float]:
+    """Power by degree of all that is looked up on a sphere seen from afar, and power of its radiance.
 
     A sphere's rings count by mu. Errors of several lookups are taken as independent, and radiance as if all
     lobes of a view had one axis.
@@ -220,10 +217,10 @@ def _curvature(fit: Fit, weights: Array, series: list[ZonalSeries], harmonics: E
     gains = np.zeros((len(series), degree + 1))
     for row, lobe in zip(gains, series, strict=True):
         row[: lobe.degree + 1] = lobe.coefficients
-    light = power_by_degree(harmonics, degree)
+    light = light_power(harmonics, degree)
     # Power of every lobe and elevation, degree by degree
     amplitude = fit.scale[:, :, None] * np.einsum("lpkc,kd->lpdc", weights, gains)
     lookups = np.sum(fit.taps**2, axis=2)
-    bent = np.einsum("s,ls,lsdc,dc->", fit.mu, lookups, amplitude**2, light * laplacian(degree) ** 2)
+    looked_up = np.einsum("s,ls,lsdc,dc->dc", fit.mu, lookups, amplitude**2, light)
     together = np.einsum("ls,lsdc->sdc", fit.taps.sum(axis=2), amplitude)
-    return root_of_share(bent, np.einsum("s,sdc,dc->", fit.mu, together**2, light))
+    return looked_up, float(np.einsum("s,sdc,dc->", fit.mu, together**2, light))

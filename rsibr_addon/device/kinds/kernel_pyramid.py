@@ -178,10 +178,14 @@ def _shelves(widths: list[int]) -> tuple[list[tuple[int, int]], int]:
 
 def _bordered(sheet: Array) -> Array:
     """A map within what continues it on the sphere, shape (n + 2, n + 2, 3)."""
-    beyond = np.arange(-1, len(sheet) + 1)
-    row, column = np.meshgrid(beyond, beyond, indexing="ij")
-    columns, rows, _ = OCTAHEDRAL.wrap(column, row, np.zeros_like(row), len(sheet), len(sheet))
-    bordered: Array = sheet[rows, columns]
+    size = len(sheet)
+    bordered = np.empty((size + 2, size + 2, 3), sheet.dtype)
+    bordered[1:-1, 1:-1] = sheet
+    along = np.arange(-1, size + 1)
+    for edge in (np.full_like(along, -1), np.full_like(along, size)):
+        for column, row in ((edge, along), (along, edge)):
+            columns, rows, _ = OCTAHEDRAL.wrap(column, row, np.zeros_like(row), size, size)
+            bordered[row + 1, column + 1] = sheet[rows, columns]
     return bordered
 
 

@@ -10,7 +10,7 @@ from ...conventions import Array
 from ...errors import RangeError
 from ...filtering.harmonics.analysis import analyse_environment
 from ...filtering.harmonics.coefficients import EnvironmentHarmonics
-from ...filtering.lookup_error import curvature, interpolation_error
+from ...filtering.lookup_error import BilinearLookups, filtered_power
 from ...filtering.prefilter import analysis_degree, prefilter, resolved_width
 from ...filtering.radial_lobes import cosine_lobe
 from ...filtering.zonal import ZonalLobe, ZonalSeries, expand
@@ -87,23 +87,23 @@ def bake_pyramid(radiance: Array, size: int) -> Steps[BakedPyramid]:
     radiance : ndarray, shape (height, 2 * height, 3)
         Latitude-longitude map, not negative.
     size : int
-        Width of the largest maps in texels, at least `SMALLEST`.
+        Width of the largest maps in texels, at least `SMALLEST`; none is wider than the environment.
 
     Returns
     -------
     BakedPyramid
-        With those of `family.KERNELS` that environment and maps resolve; the mirror's map is not wider than
-        the environment.
+        With those of `family.KERNELS` that environment and maps resolve.
 
     Raises
     ------
     RangeError
-        The environment resolves no kernel.
+        The environment resolves no kernel, or no diffuse light.
     """
     yield Progress(0, len(KERNELS) + 1, "analysing the environment")
-    series = _resolved(len(radiance), size)
-    bank = KernelBank(KERNELS.concentrations[: len(series)])
+    size = max(min(size, radiance.shape[1]), SMALLEST)
     diffuse = [expand(lobe, _TOLERANCE_AT_HORIZON) for lobe in (cosine_lobe(), leaning_lobe())]
+    series = _resolved(len(radiance), size, diffuse)
+    bank = KernelBank(KERNELS.concentrations[: len(series)])
     harmonics = analyse_environment(radiance, analysis_degree([*series, *diffuse]))
     (white, leant), diffuse_errors = _filtered(harmonics, diffuse, SMALLEST)
     maps: list[Array] = []
@@ -115,14 +115,14 @@ def bake_pyramid(radiance: Array, size: int) -> Steps[BakedPyramid]:
         found, found_errors = _filtered(harmonics, [lobe for _, lobe in kernels], width)
         maps += [sheet[None] for sheet in found]
         errors += found_errors
-    mirror = resample(radiance[None], EQUIRECT, OCTAHEDRAL, min(size, 2 * len(radiance)), np.float32)
+    mirror = resample(radiance[None], EQUIRECT, OCTAHEDRAL, size, np.float32)
     pyramid = Pyramid(bank, mirror, tuple(maps), np.stack([white / np.float32(np.pi), leant]))
     diffuse_errors[0] = replace(diffuse_errors[0], bound=diffuse_errors[0].bound / np.pi)
     return BakedPyramid(pyramid, tuple(errors), tuple(diffuse_errors))
 
 
-def _resolved(height: int, size: int) -> list[ZonalSeries]:
-    """The kernels that an environment of so many rows resolves, and maps of so many texels."""
+def _resolved(height: int, size: int, diffuse: list[ZonalSeries]) -> list[ZonalSeries]:
+    """The kernels that an environment resolves, and maps of so many texels."""
     least = (1.0 - TIE) * resolved_width(height)
     expanded = [expand(kernel, TOLERANCE) for kernel in KERNELS.lobes()]
     resolved = [
@@ -130,8 +130,8 @@ def _resolved(height: int, size: int) -> list[ZonalSeries]:
         for kappa, lobe in zip(KERNELS.concentrations, expanded, strict=True)
         if lobe.width >= least and TEXELS_BY_SHARPNESS * np.sqrt(kappa) <= MOST_MISSING * size
     ]
-    if not resolved:
-        raise RangeError(f"An environment of {height} rows resolves no kernel: use a larger one.")
+    if not resolved or any(lobe.width < least for lobe in diffuse):
+        raise RangeError(f"An environment of {height} rows resolves no diffuse light: use a larger one.")
     return resolved
 
 
@@ -140,9 +140,8 @@ def _filtered(
 ) -> tuple[Array, list[FilterErrors]]:
     """Maps of some lobes, shape (lobes, size, size, 3), and their errors."""
     found = prefilter(harmonics, lobes, OCTAHEDRAL.texel_directions(size)[0])
-    # Larger maps have texels of the same shapes
-    of_small = [interpolation_error(curvature(lobe, harmonics), OCTAHEDRAL, SMALLEST) for lobe in lobes]
-    interpolation = [error * (SMALLEST / size) ** 2 for error in of_small]
+    lookups = BilinearLookups(OCTAHEDRAL, size)
+    interpolation = [lookups.error(filtered_power(lobe, harmonics)) for lobe in lobes]
     errors = [FilterErrors(*pair) for pair in zip(found.bound, interpolation, strict=True)]
     return found.radiance.astype(np.float32), errors
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ..core.kinds.kernel_pyramid.look import PrincipledMaterial
+from ..core.kinds.principled_material import PrincipledMaterial
 from ..core.options import option
 from .comparison import ExactComparison
 from .method import MethodSettings

@@ -2,6 +2,7 @@
 
 import bpy
 
+from ..core.kinds.principled_material import PrincipledMaterial
 from ..core.options import Declared, declared_options
 from ..files.kinds.registry import look_types
 from ..host.live_light import is_readable
@@ -21,6 +22,9 @@ NOT_READABLE = (
     "What Cycles renders in a viewport cannot be read, so it is shown itself. Choose Material Preview or "
     "EEVEE for a difference; Compare, below Advanced, measures against Cycles."
 )
+
+SLIDERS = {each.name for each in declared_options(PrincipledMaterial)} - {"roughness"}
+"""Options of a material by sliders that say nothing of a model by its text."""
 
 EQUAL_LOOKS = "Both looks are the same, and so nothing differs: change the other look below."
 
@@ -62,7 +66,7 @@ class RSIBR_PT_look(InSidebar, bpy.types.Panel):
         if kind is None:
             return
         if KINDS[kind].menu:
-            layout.menu(KINDS[kind].menu, text="Choose...", icon="MATERIAL")
+            layout.menu(KINDS[kind].menu, text="Choose a Material", icon="MATERIAL")
         _show_look(layout, item, kind, other=False)
         view = context.window_manager.rsibr_view
         row = layout.row(heading="Split Screen")
@@ -96,9 +100,13 @@ def _show_look(layout: bpy.types.UILayout, item: bpy.types.Object, kind: str, ot
     options = list(declared_options(look_types()[kind]))
     if hasattr(group, "own"):
         layout.prop(group, "own")
-        options = [each for each in options if each.name != "own"]
-        if group.own and _has_materials(item):
-            return
+        unused = {"own", "roughness", *SLIDERS} if group.own else {"own"}
+        options = [each for each in options if each.name not in unused]
+    if getattr(group, "brdf", ""):  # a model by its text, instead of sliders
+        for each in options:
+            if each.name not in SLIDERS:
+                _show_option(layout, group, each)
+        return
     for each in options:
         if not each.option.advanced:
             _show_option(layout, group, each)
@@ -109,16 +117,15 @@ def _show_look(layout: bpy.types.UILayout, item: bpy.types.Object, kind: str, ot
             _show_option(opened, group, each)
 
 
-def _has_materials(item: bpy.types.Object) -> bool:
-    slots = item.material_slots
-    return bool(slots) and all(slot.material for slot in slots)
-
-
 def _show_option(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, declared: Declared) -> None:
     name = property_name(declared)
     if declared.option.switch is not None:
-        layout.prop(group, f"use_{name}")
-    if isinstance(getattr(group, name), set):
+        row = layout.row(heading=declared.option.label)
+        row.prop(group, f"use_{name}", text="")
+        value = row.row()
+        value.active = getattr(group, f"use_{name}")
+        value.prop(group, name, text="")
+    elif isinstance(getattr(group, name), set):
         # In a row there would be room for one letter of each
         layout.label(text=declared.option.label)
         flow = layout.column_flow(columns=2, align=True)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.brdf.model import Brdf
+from rsibr.rsibr_addon.core.brdf.principled import Principled
 from rsibr.rsibr_addon.core.brdf.spec import brdf_from_spec, with_alpha
 from rsibr.rsibr_addon.core.conventions import Array, texel_centres
 from rsibr.rsibr_addon.core.errors import RangeError, ShapeError
@@ -131,11 +132,19 @@ def test_shapes_that_do_not_fit_are_refused() -> None:
 def test_a_roughness_is_every_layer_s() -> None:
     lacquer = "layered:coat=(ggx:alpha=0.1,eta=1.5),base=(ward:ks=0.5, alpha = 0.3)"
     assert model(with_alpha(lacquer, 0.25)) == model(lacquer.replace("0.1", "0.25").replace("0.3", "0.25"))
-    assert BankLook(lacquer, roughness=0.5).spec == with_alpha(lacquer, 0.25)
-    assert BankLook(lacquer).spec == lacquer
+    assert BankLook(brdf=lacquer, roughness=0.5).spec == with_alpha(lacquer, 0.25)
+    assert BankLook(brdf=lacquer).spec == lacquer
     with pytest.raises(RangeError, match=r'"lambert:kd=0\.5" has no alpha to set'):
-        BankLook("lambert:kd=0.5", roughness=0.5)
+        BankLook(brdf="lambert:kd=0.5", roughness=0.5)
     with pytest.raises(RangeError, match="Roughness cannot be 0: choose"):
         BankLook(roughness=0.0)
     with pytest.raises(RangeError, match="Lobes cannot be 13: choose 1 to 12"):
         BankLook(lobe_count=13)
+
+
+def test_a_look_without_a_model_is_the_principled_material_of_its_options() -> None:
+    assert BankLook().spec == "principled"
+    look = BankLook(base_color=(0.8, 0.5, 0.25), metallic=1.0, roughness=0.25, coat_weight=0.5)
+    assert model(look.spec) == Principled(
+        base_color=(0.8, 0.5, 0.25), metallic=1.0, roughness=0.25, coat_weight=0.5
+    )

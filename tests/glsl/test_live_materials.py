@@ -27,7 +27,7 @@ from rsibr.tests.glsl.test_preview_renderer import SPHERE
 
 CAMERA = Camera((0.4, -1.0, 0.5))
 PIXELS = 64
-LOOK = BankLook("ggx:alpha=0.4,f0=0.3/0.6/0.9", lobe_count=2)
+LOOK = BankLook(brdf="ggx:alpha=0.4,f0=0.3/0.6/0.9", lobe_count=2)
 LIGHT = 0.2 + np.random.default_rng(7).random((64, 128, 3)) ** 6
 
 
@@ -61,7 +61,7 @@ def test_a_look_is_drawn_as_the_stack_that_a_bake_makes(filtered: FilteredBank) 
 
 def test_going_back_fits_nothing(filtered: FilteredBank, monkeypatch: pytest.MonkeyPatch) -> None:
     fits = LiveFits()
-    materials, other = LiveMaterials(filtered, fits), BankLook("ward:alpha=0.5,ks=0.7", lobe_count=1)
+    materials, other = LiveMaterials(filtered, fits), BankLook(brdf="ward:alpha=0.5,ks=0.7", lobe_count=1)
     first = picture(materials, LOOK)
     assert not np.array_equal(picture(materials, other), first)
     monkeypatch.setattr(live_materials, "layered_fit", lambda *_, **__: pytest.fail("fitted again"))
@@ -72,7 +72,7 @@ def test_going_back_fits_nothing(filtered: FilteredBank, monkeypatch: pytest.Mon
 
 def test_stacks_that_are_not_drawn_any_more_are_let_go(filtered: FilteredBank) -> None:
     materials = LiveMaterials(filtered)
-    looks = [BankLook(f"lambert:kd={0.1 + 0.05 * n:g}", lobe_count=1) for n in range(KEPT + 4)]
+    looks = [BankLook(brdf=f"lambert:kd={0.1 + 0.05 * n:g}", lobe_count=1) for n in range(KEPT + 4)]
     for look in looks:
         assert materials.is_ready(look)
         assert materials.is_ready(looks[0])  # always in sight
@@ -85,20 +85,20 @@ def test_what_is_no_model_is_told_every_time(filtered: FilteredBank) -> None:
     materials = LiveMaterials(filtered)
     for _ in range(2):
         with pytest.raises(RangeError, match='There is no BRDF model "gold"'):
-            picture(materials, BankLook("gold"))
+            picture(materials, BankLook(brdf="gold"))
 
 
 def test_a_lobe_too_sharp_for_the_maps_is_told(filtered: FilteredBank) -> None:
     with pytest.warns(
         RsibrWarning, match=r"Maps of 32 texels blur ggx:alpha=0\.02.*bake a larger kernel bank"
     ):
-        LiveMaterials(filtered).is_ready(BankLook("ggx:alpha=0.02,f0=0.5", lobe_count=1))
+        LiveMaterials(filtered).is_ready(BankLook(brdf="ggx:alpha=0.02,f0=0.5", lobe_count=1))
 
 
 def test_in_a_worker_a_draft_comes_first(filtered: FilteredBank, worker: LatestRequestWorker) -> None:
     materials, look = (
         LiveMaterials(filtered, LiveFits(worker)),
-        BankLook("ward:alpha=0.45,ks=0.6", lobe_count=2),
+        BankLook(brdf="ward:alpha=0.45,ks=0.6", lobe_count=2),
     )
     empty = picture(materials, look)
     assert not empty.any()
@@ -118,7 +118,7 @@ def test_until_a_look_is_there_the_one_before_it_is_shown(
     filtered: FilteredBank, worker: LatestRequestWorker
 ) -> None:
     materials = LiveMaterials(filtered, LiveFits(worker))
-    looks = [BankLook(f"ward:alpha={0.3 + 0.1 * n:g},ks=0.5", lobe_count=1) for n in range(4)]
+    looks = [BankLook(brdf=f"ward:alpha={0.3 + 0.1 * n:g},ks=0.5", lobe_count=1) for n in range(4)]
     assert materials.newest(looks[:1]) is None
     while materials.newest(looks[:1]) is None:
         wait_until_idle(worker)
@@ -128,7 +128,7 @@ def test_until_a_look_is_there_the_one_before_it_is_shown(
     wait_until_idle(worker)
     assert materials.newest(looks) == looks[3]
     assert looks[1] not in materials._shown
-    wrong = BankLook("gold")
+    wrong = BankLook(brdf="gold")
     assert materials.newest([*looks, wrong]) == looks[3]
     wait_until_idle(worker)
     with pytest.raises(RangeError, match="no BRDF model"):
@@ -137,7 +137,7 @@ def test_until_a_look_is_there_the_one_before_it_is_shown(
 
 
 def test_errors_come_out_of_the_worker(filtered: FilteredBank, worker: LatestRequestWorker) -> None:
-    materials, look = LiveMaterials(filtered, LiveFits(worker)), BankLook("gold")
+    materials, look = LiveMaterials(filtered, LiveFits(worker)), BankLook(brdf="gold")
     assert not materials.is_ready(look)
     wait_until_idle(worker)
     with pytest.raises(RangeError, match='There is no BRDF model "gold"'):
@@ -153,7 +153,10 @@ def test_warnings_come_out_of_the_worker(
 
     monkeypatch.setattr(live_materials, "read_measured", read)
     materials = LiveMaterials(filtered, LiveFits(worker))
-    odd, sharp = BankLook("merl:path=odd", lobe_count=1), BankLook("ggx:alpha=0.02,f0=0.5", lobe_count=1)
+    odd, sharp = (
+        BankLook(brdf="merl:path=odd", lobe_count=1),
+        BankLook(brdf="ggx:alpha=0.02,f0=0.5", lobe_count=1),
+    )
     for look, said in ((odd, "The file is odd."), (sharp, "bake a larger kernel bank"), (LOOK, "")):
         assert materials.warning(look) == ""
         while not materials.is_ready(look):

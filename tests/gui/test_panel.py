@@ -21,7 +21,7 @@ background = importlib.import_module(ROOT + ".operators.background")
 
 def settings():
     chosen = bpy.context.scene.rsibr_bake
-    chosen.light, chosen.studio = "STUDIO", "forest"
+    chosen.kind, chosen.light, chosen.studio = "radiance_views", "STUDIO", "forest"
     views = chosen.radiance_views
     views.size, views.samples, views.denoise = 16, 2, False
     return chosen

@@ -1,13 +1,17 @@
-"""Write the active object's map set for other programs: an operator for each format."""
+"""Write the active object's map set for other programs: an operator for each format, and one for engines."""
 
 from pathlib import Path
+from textwrap import wrap
 from typing import Any
 
 import bpy
 
-from ..rsibr_addon.core.progress import drain
+from ..rsibr_addon.core.progress import Steps, drain
 from ..rsibr_addon.host.map_sets import planned_path, written_path
 from ..rsibr_addon.host.option_properties import options_of, properties_of
+from ..rsibr_addon.tasks.export.engines.engines import ENGINES
+from ..rsibr_addon.tasks.export.engines.export import export_for_engine
+from ..rsibr_addon.tasks.export.engines.settings import CubeSettings
 from ..rsibr_addon.tasks.export.export import export
 from ..rsibr_addon.tasks.export.format import Format
 from ..rsibr_addon.tasks.export.formats import FORMATS
@@ -19,7 +23,6 @@ class _Export:
     """Write the active object's map set for game engines and the web"""  # noqa: D400  (a tooltip)
 
     bl_label = "Export Reflection Maps"
-    exported: Format
 
     filepath = file_path("File")
     check_existing = bpy.props.BoolProperty(default=True, options={"HIDDEN"})
@@ -36,8 +39,7 @@ class _Export:
         """Export; who has chosen a file in Blender's dialog has agreed to replace it."""
         with reporting(self):
             map_set, output = written_path(context.object.rsibr), Path(bpy.path.abspath(self.filepath))
-            settings = options_of(self.exported.settings, self)
-            for texture in drain(export(map_set, output, settings, force=self.options.is_invoke)):
+            for texture in drain(self.exporting(map_set, output, self.options.is_invoke)):
                 self.report({"INFO"}, f"Wrote {texture}")
             return {"FINISHED"}
         return {"CANCELLED"}
@@ -45,17 +47,80 @@ class _Export:
     def invoke(self: Any, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Ask for the file."""
         name = Path(planned_path(context.object.rsibr)).name.removesuffix(".exr").removesuffix(".rsibr")
-        self.filepath = f"{name}{self.exported.suffix}"
+        self.filepath = f"{name}{self.ending()}"
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
 
+class _ExportFormat(_Export):
+    exported: Format
+
+    def ending(self) -> str:
+        """Of the files' names."""
+        return self.exported.suffix
+
+    def exporting(self: Any, map_set: Path, output: Path, force: bool) -> Steps[list[Path]]:
+        """See `export`."""
+        return export(map_set, output, options_of(self.exported.settings, self), force)
+
+
 def _operator(name: str, exported: Format) -> type:
     filter_glob = bpy.props.StringProperty(default=f"*{exported.suffix}", options={"HIDDEN"})
-    own = {"bl_idname": f"rsibr.export_{name}", "exported": exported, "filter_glob": filter_glob}
+    own = {
+        "__doc__": _Export.__doc__,
+        "bl_idname": f"rsibr.export_{name}",
+        "exported": exported,
+        "filter_glob": filter_glob,
+    }
     return type(
-        f"RSIBR_OT_export_{name}", (_Export, bpy.types.Operator), own | properties_of(exported.settings)
+        f"RSIBR_OT_export_{name}", (_ExportFormat, bpy.types.Operator), own | properties_of(exported.settings)
     )
 
 
-CLASSES = tuple(_operator(name, exported) for name, exported in FORMATS.items())
+class _ExportForEngine(_Export):
+    """Write the light of the active object's mip chain for one engine, exactly as that loads it"""  # noqa: D400
+
+    bl_idname = "rsibr.export_for_engine"
+    bl_label = "Export Light for an Engine"
+
+    engine = bpy.props.EnumProperty(
+        name="Engine",
+        description="Engine that will load the file",
+        items=[(name, each.label, each.use[:1].upper() + each.use[1:]) for name, each in ENGINES.items()],
+    )
+
+    def ending(self: Any) -> str:
+        """Of the files' names: the one that the name has, if the engine takes it, else its first."""
+        endings = [*ENGINES[self.engine].writers]
+        has = Path(self.filepath).suffix.lower()
+        return has if has in endings else endings[0]
+
+    def exporting(self: Any, map_set: Path, output: Path, force: bool) -> Steps[list[Path]]:
+        """See `export_for_engine`."""
+        return export_for_engine(map_set, output, self.engine, options_of(CubeSettings, self), force)
+
+    def check(self: Any, context: bpy.types.Context) -> bool:
+        """Have the name end as the engine wants it."""
+        wanted = str(Path(self.filepath).with_suffix(self.ending()))
+        changed = bool(wanted != self.filepath)
+        self.filepath = wanted
+        return changed
+
+    def draw(self: Any, context: bpy.types.Context) -> None:
+        """Show the options, and what to do with the file in the engine."""
+        self.layout.prop(self, "engine")
+        for line in wrap(f"There, {ENGINES[self.engine].use}.", COLUMNS):
+            self.layout.label(text=line)
+        self.layout.prop(self, "size")
+
+
+COLUMNS = 40
+"""Letters in a line of the file dialog's options."""
+
+EXPORT_FOR_ENGINE = type(
+    "RSIBR_OT_export_for_engine",
+    (_ExportForEngine, bpy.types.Operator),
+    {"__doc__": _ExportForEngine.__doc__, **properties_of(CubeSettings)},
+)
+
+CLASSES = (*(_operator(name, exported) for name, exported in FORMATS.items()), EXPORT_FOR_ENGINE)

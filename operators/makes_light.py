@@ -4,6 +4,7 @@ from pathlib import Path
 
 import bpy
 
+from ..rsibr_addon.files.radiance_pictures import describe_radiance
 from ..rsibr_addon.host.map_sets import stored_path
 from .stepwise import Stepwise
 
@@ -28,4 +29,5 @@ class MakesLight(Stepwise):
         if self.use:
             chosen = bpy.context.scene.rsibr_bake
             chosen.light, chosen.picture = "PICTURE", stored_path(result)
-        self.report({"INFO"}, f"Wrote {result}")
+        scale = describe_radiance(result).comments
+        self.report({"INFO"}, f"Wrote {result}. {scale}".rstrip())

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ..core.options import Options
+from ..files.radiance_pictures import describe_radiance
 from ..settings.environment import FacesSettings, PaintedSettings, SceneLight, WorldLight
 from ..settings.photographs import BallBrackets, BallSettings, BracketSettings
 from .console import Console
@@ -63,7 +64,8 @@ class IlluminateCommand:
         Returns
         -------
         dict
-            "environment" or "picture", the path of what was written. Of faces "gains", three factors of each
+            "environment" or "picture", the path of what was written, and "scale", what its header says of how
+            bright it was made. Of faces "gains", three factors of each
             that it was scaled by. Of balls "circles", of each photograph its path and x, y and radius of
             the outline from its top left corner; and "gains", what each side was multiplied by. Of brackets
             "saturated" and "black", shares of the picture that no photograph tells of; and "moved", how far a
@@ -76,8 +78,9 @@ class IlluminateCommand:
         """
         options = [given(arguments, each) for each in self.options]
         figures = self.make(arguments, console, *options)
-        console.say(f"{arguments.output}")
-        return {self.output[0]: str(arguments.output), **figures}
+        scale = describe_radiance(arguments.output).comments
+        console.say(f"{arguments.output}: {scale}" if scale else f"{arguments.output}")
+        return {self.output[0]: str(arguments.output), "scale": scale, **figures}
 
 
 def _scene(arguments: argparse.Namespace, console: Console, settings: SceneLight) -> dict[str, Any]:

@@ -63,8 +63,10 @@ def _tell_of_radiance(path: str, console: Console) -> dict[str, Any]:
         ("layers", ", ".join(facts.layers) or "one, without a name"),
         ("colours", facts.colours),
         ("exposure", facts.exposure),
+        ("comments", facts.comments),
     ):
-        console.say(f"  {name:<12} {value}")
+        if value:
+            console.say(f"  {name:<12} {value}")
     if facts.size[0] != 2 * facts.size[1]:
         console.say(
             "  layout       not twice as wide as high, which an environment is: rsibr convert makes one"

@@ -25,6 +25,8 @@ class PictureFacts:
         Meaning of the values, and its source.
     exposure : str
         Factors that are divided out.
+    comments : str
+        What the file says of itself in words.
     remarks : tuple of str
         Parts of the header that are not used: predicates, whose subject is the file.
     """
@@ -36,4 +38,5 @@ class PictureFacts:
     layers: tuple[str, ...]
     colours: str
     exposure: str
+    comments: str
     remarks: tuple[str, ...]

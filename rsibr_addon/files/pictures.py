@@ -137,6 +137,7 @@ def describe_exr(path: str | Path) -> PictureFacts:
         layers=tuple(other.name for other in layers_of(headers) if other.name),
         colours=GREY if layer.is_grey else meant.colours,
         exposure="none stated",
+        comments=str(header.get("comments", "")),
         remarks=tuple(remarks),
     )
 

@@ -110,7 +110,7 @@ def read_hdr_header(path: str | Path) -> RadianceHeader:
         return _header(path, start, stream.tell())[0]
 
 
-def write_hdr(path: str | Path, radiance: Array, force: bool = False) -> None:
+def write_hdr(path: str | Path, radiance: Array, force: bool = False, comments: str = "") -> None:
     """Write a Radiance picture: RGBE, flat, which every reader of the format knows.
 
     Parameters
@@ -121,6 +121,8 @@ def write_hdr(path: str | Path, radiance: Array, force: bool = False) -> None:
         significant bits (an error of 1/256 at most), the others the same absolute precision.
     force : bool
         Whether an existing file is replaced.
+    comments : str
+        A line that the header states.
 
     Raises
     ------
@@ -140,7 +142,8 @@ def write_hdr(path: str | Path, radiance: Array, force: bool = False) -> None:
     if not np.all((radiance >= 0.0) & (radiance < GREATEST)):
         raise RangeError(f"{path} cannot hold values that are negative, NaN or above 1e38: write an EXR.")
     height, width = radiance.shape[:2]
-    header = f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n"
+    stated = f"COMMENTS={comments}\n" if comments else ""
+    header = f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n{stated}\n-Y {height} +X {width}\n"
     with written_aside(path, force) as aside:
         aside.write_bytes(header.encode() + _rgbe(radiance[::-1]).tobytes())
 

@@ -49,6 +49,8 @@ class RadianceHeader:
         Linear Rec. 709 from the stored values, for column vectors; the scale is undone too.
     colours : str
         Meaning of the values, and its source.
+    comments : str
+        What the file says of itself in words.
     remarks : tuple of str
         Parts of it that are not used: predicates, whose subject is the file.
     """
@@ -59,6 +61,7 @@ class RadianceHeader:
     scale: Array
     matrix: Array
     colours: str
+    comments: str
     remarks: tuple[str, ...]
 
     @property
@@ -111,7 +114,10 @@ def parse_header(data: bytes) -> tuple[RadianceHeader, int]:
             remarks.append(f"has {line}, which cannot be used: it is left out.")
     matrix = rec709_from(primaries) / scale
     order = b"".join(axes.group(1, 2, 4, 5)).decode()
-    header = RadianceHeader(order, int(axes[3]), int(axes[6]), scale, matrix, colours, tuple(remarks))
+    comments = " ".join(field[2].strip() for field in fields if field[1].upper() == "COMMENTS")
+    header = RadianceHeader(
+        order, int(axes[3]), int(axes[6]), scale, matrix, colours, comments, tuple(remarks)
+    )
     return header, start
 
 

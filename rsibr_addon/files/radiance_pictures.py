@@ -89,6 +89,7 @@ def describe_radiance(path: str | Path) -> PictureFacts:
         layers=(),
         colours=header.colours,
         exposure="none stated" if np.all(header.scale == 1.0) else f"{factors}, divided out",
+        comments=header.comments,
         remarks=header.remarks,
     )
 
@@ -104,7 +105,7 @@ def check_radiance_target(path: str | Path, force: bool = False) -> None:
     check_target(path, force, (".exr", ".hdr"))
 
 
-def write_radiance(path: str | Path, radiance: Array, force: bool = False) -> None:
+def write_radiance(path: str | Path, radiance: Array, force: bool = False, comments: str = "") -> None:
     """Write a picture of radiance.
 
     Parameters
@@ -115,6 +116,8 @@ def write_radiance(path: str | Path, radiance: Array, force: bool = False) -> No
         Linear Rec. 709, row 0 at the bottom.
     force : bool
         Whether an existing file is replaced.
+    comments : str
+        A line that the header states.
 
     Raises
     ------
@@ -125,11 +128,12 @@ def write_radiance(path: str | Path, radiance: Array, force: bool = False) -> No
     """
     check_radiance_target(path, force)
     if Path(path).suffix.lower() == ".hdr":
-        radiance_hdr.write_hdr(path, radiance, force)
+        radiance_hdr.write_hdr(path, radiance, force, comments)
         return
     pixels = radiance.astype(np.float32, copy=False)
+    channels = {name: pixels[..., i] for i, name in enumerate("RGB")}
     with written_aside(path, force) as aside:
-        exr.write_parts(aside, [exr.Part("", {name: pixels[..., i] for i, name in enumerate("RGB")})])
+        exr.write_parts(aside, [exr.Part("", channels, {"comments": comments} if comments else {})])
 
 
 def _start(path: str | Path) -> bytes:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from ..core.maps.representation import representation
 from ..core.options import Choice, Options, option
-from .light import Clamp
+from .light import Clamp, KnownScale, UnknownScale
 
 LAYOUTS = {
     name: Choice(name.replace("_", " ").title())
@@ -60,7 +60,7 @@ class Scene(EnvironmentSize):
 
 
 @dataclass(frozen=True, kw_only=True)
-class WorldLight(Scene, Clamp):
+class WorldLight(Scene, Clamp, KnownScale):
     """Which world is sampled."""
 
 
@@ -83,7 +83,7 @@ class Capture(EnvironmentSize):
 
 
 @dataclass(frozen=True, kw_only=True)
-class SceneLight(Capture, Scene):
+class SceneLight(Capture, Scene, KnownScale):
     """What light is captured, and how well."""
 
     subject: str | None = option(
@@ -113,7 +113,7 @@ class SceneLight(Capture, Scene):
 
 
 @dataclass(frozen=True, kw_only=True)
-class FacesSettings(EnvironmentSize, Clamp):
+class FacesSettings(EnvironmentSize, Clamp, UnknownScale):
     """How six photographs are put together."""
 
     balance: bool = option(
@@ -125,7 +125,7 @@ class FacesSettings(EnvironmentSize, Clamp):
 
 
 @dataclass(frozen=True, kw_only=True)
-class PaintedSettings(EnvironmentSize):
+class PaintedSettings(EnvironmentSize, KnownScale):
     """How a painting is laid out, and what its white means."""
 
     source_layout: str = option(

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from ..core.errors import RangeError
 from ..core.options import Choice, Options, option
 from .environment import EnvironmentSize
-from .light import Clamp
+from .light import Clamp, KnownScale, UnknownScale, card_option
 
 
 def _times(label: str, help: str) -> tuple[float, ...] | None:
@@ -54,7 +54,7 @@ def _angle(default: float, label: str, help: str, least: float, most: float) -> 
 
 
 @dataclass(frozen=True, kw_only=True)
-class BracketSettings(Options):
+class BracketKnowledge(Options):
     """What is known of the photographs of a bracket."""
 
     times: tuple[float, ...] | None = _times("Exposure Times", "Exposure times")
@@ -87,7 +87,12 @@ class BracketSettings(Options):
 
 
 @dataclass(frozen=True, kw_only=True)
-class BallBrackets(BracketSettings):
+class BracketSettings(BracketKnowledge, KnownScale):
+    """How photographs of a bracket are merged."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class BallBrackets(BracketKnowledge):
     """What is known of the exposures of a ball, from one side and from another."""
 
     second_times: tuple[float, ...] | None = _times("Second Times", "Exposure times of the second side")
@@ -109,7 +114,7 @@ class BallDistance(Options):
 
 
 @dataclass(frozen=True, kw_only=True)
-class BallSettings(EnvironmentSize, BallDistance, Clamp):
+class BallSettings(EnvironmentSize, BallDistance, Clamp, UnknownScale):
     """How photographs of a mirrored ball were taken. Two sides together show all directions."""
 
     circle: tuple[float, float, float] | None = _circle("Circle", "The ball's outline")
@@ -145,6 +150,17 @@ class BallSettings(EnvironmentSize, BallDistance, Clamp):
     second_circle: tuple[float, float, float] | None = _circle(
         "Second Circle", "The ball's outline in the second side's photographs"
     )
+    reflectance: tuple[float, float, float] = option(
+        (1.0, 1.0, 1.0),
+        label="Reflectance",
+        help="Reflectance of the ball at normal incidence, which its light is divided by: some 0.9 of "
+        "silvered glass, 0.5 to 0.6 of steel",
+        least=0.01,
+        most=1.0,
+        subtype="COLOR",
+        metavar="F|R,G,B",
+    )
+    card: tuple[float, float, float] | None = card_option("the first photograph as it is stored")
 
     def __post_init__(self) -> None:
         super().__post_init__()

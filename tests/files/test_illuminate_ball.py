@@ -20,7 +20,7 @@ CIRCLE = Circle(101.0, 92.0, 80.0)
 
 
 def illuminate(*arguments: object) -> int:
-    return run(["illuminate", "ball", *map(str, arguments)])
+    return run(["illuminate", "ball", *map(str, arguments), "--exposure", "0"])
 
 
 def write_side(path: Path, turn: float = 0.0, distance: float = np.inf, scale: float = 1.0) -> Path:

@@ -15,7 +15,7 @@ FACES = layout("cube_faces")
 
 
 def illuminate(*arguments: object) -> int:
-    return run(["illuminate", "faces", *map(str, arguments)])
+    return run(["illuminate", "faces", *map(str, arguments), "--exposure", "0"])
 
 
 def write_faces(path: Path, size: int = 32) -> np.ndarray:

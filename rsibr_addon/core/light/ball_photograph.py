@@ -5,9 +5,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..conventions import Array
+from ..brdf.fresnel import fresnel_schlick
+from ..conventions import Array, ArrayLike, texel_centres
 from ..errors import RangeError
 from ..geometry.directions import camera_frame, dot
+from ..maps.mirror_ball import incidence_cosine
 from ..maps.representation import Representation, representation
 from ..resample import resample
 from .ball_circle import Circle
@@ -95,6 +97,28 @@ def cut_ball(photograph: Array, circle: Circle, size: int) -> Array:
     height, width = photograph.shape[:2]
     middle = complex(circle.x - 0.5 * width, circle.y - 0.5 * height)
     return looked_up(photograph, middle + 2.0 * circle.radius / size * pixel_points(size, size))
+
+
+def without_reflectance(picture: Array, distance: float, reflectance: ArrayLike) -> Array:
+    """The light that a ball reflects, of what it shows: [Miller1984] section 5.1's colour correction.
+
+    Parameters
+    ----------
+    picture : ndarray, shape (size, size, 3)
+        The square that touches the ball's outline.
+    distance : float
+        From the ball's centre to the camera, in radii of the ball.
+    reflectance : array_like, shape (3,)
+        Of the ball at normal incidence, in (0, 1].
+
+    Returns
+    -------
+    ndarray, shape (size, size, 3)
+        The picture over Schlick's term for the angle at which each point is seen, which is 1 at the outline.
+    """
+    uv = texel_centres(len(picture), len(picture))
+    without: Array = picture / fresnel_schlick(incidence_cosine(uv, distance)[..., None], reflectance)
+    return without
 
 
 def environment_from_balls(sides: Sequence[BallSide], size: int, camera_angle: float) -> tuple[Array, Array]:

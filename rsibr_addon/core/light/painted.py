@@ -4,9 +4,7 @@ import numpy as np
 
 from ..conventions import Array, ArrayLike
 from ..errors import RangeError
-
-LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
-"""Weights of Rec. 709's red, green and blue in luminance."""
+from .luminance import luminance
 
 
 def lift_whites(picture: ArrayLike, white: ArrayLike, knee: float) -> Array:
@@ -43,6 +41,6 @@ def lift_whites(picture: ArrayLike, white: ArrayLike, knee: float) -> Array:
         raise RangeError(
             f"A knee of {knee:g} lies outside the picture's values: choose one from 0 to below 1."
         )
-    lifted = np.clip((picture @ LUMINANCE - knee) / (1.0 - knee), 0.0, 1.0)
+    lifted = np.clip((luminance(picture) - knee) / (1.0 - knee), 0.0, 1.0)
     radiance: Array = picture * white ** np.square(lifted)[..., None]
     return radiance

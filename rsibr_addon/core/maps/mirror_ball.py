@@ -14,7 +14,14 @@ from ..errors import RangeError
 from .azimuthal import disk_solid_angle, quadrature
 from .sphere_map import wrap
 
-__all__ = ["blind_angle", "direction_from_uv", "texel_solid_angle", "uv_from_direction", "wrap"]
+__all__ = [
+    "blind_angle",
+    "direction_from_uv",
+    "incidence_cosine",
+    "texel_solid_angle",
+    "uv_from_direction",
+    "wrap",
+]
 
 MOST_STEPS = 50
 """Most steps of Newton's method: it takes about six; from a distance of 1.001 radii some more."""
@@ -109,11 +116,35 @@ def texel_solid_angle(size: int, distance: float) -> Array:
     return disk_solid_angle(size, along_line, 1.0 + float(np.cos(blind_angle(distance))))
 
 
+def incidence_cosine(uv: ArrayLike, distance: float) -> Array:
+    """Cosine of the angle at which the camera sees the ball's surface, shape (...).
+
+    Parameters
+    ----------
+    uv : array_like, shape (..., 2)
+        Points of the photograph; those outside the ball are taken at its outline, where this is 0.
+    distance : float
+        See `blind_angle`.
+
+    Raises
+    ------
+    RangeError
+        See `blind_angle`.
+    """
+    radius = np.linalg.norm(2.0 * np.asarray(uv, dtype=np.float64) - 1.0, axis=-1)
+    cosine: Array = np.cos(_incidence(np.minimum(radius, 1.0), distance))
+    return np.maximum(cosine, 0.0)
+
+
+def _incidence(radius: Array, distance: float) -> Array:
+    """Angle between the line of sight and the normal at a radius: 90 degrees on the outline."""
+    cosine = np.cos(blind_angle(distance))
+    incidence: Array = np.arctan2(radius, cosine * np.sqrt(np.maximum(1.0 - radius * radius, 0.0)))
+    return incidence
+
+
 def _angle_from_radius(radius: Array, distance: float) -> Array:
     """Angle from z of the direction that the ball shows at a radius, in radii of its outline."""
-    cosine, sine = np.cos(blind_angle(distance)), 1.0 / distance
-    # Between the line of sight and the normal: 90 degrees on the outline.
-    incidence = np.arctan2(radius, cosine * np.sqrt(np.maximum(1.0 - radius * radius, 0.0)))
-    sight = np.arctan2(radius * sine, cosine)
-    angle: Array = 2.0 * incidence - sight
+    sight = np.arctan2(radius / distance, np.cos(blind_angle(distance)))
+    angle: Array = 2.0 * _incidence(radius, distance) - sight
     return angle

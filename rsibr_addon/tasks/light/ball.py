@@ -11,14 +11,22 @@ from ...core.conventions import Array
 from ...core.environment import usable_radiance
 from ...core.errors import InputFileError, RangeError
 from ...core.light.ball_circle import Circle, find_circle
-from ...core.light.ball_photograph import BallSide, cut_ball, distance_from_view, environment_from_balls
+from ...core.light.ball_photograph import (
+    BallSide,
+    cut_ball,
+    distance_from_view,
+    environment_from_balls,
+    without_reflectance,
+)
+from ...core.light.scale import colour_within
 from ...core.progress import Progress, Steps
 from ...files.orientation import Orientation
 from ...files.photographs import orientation_of
-from ...files.radiance_pictures import check_radiance_target, holds_radiance, write_radiance
-from ...settings.photographs import BallBrackets, BallSettings, BracketSettings
+from ...files.radiance_pictures import check_radiance_target, holds_radiance
+from ...settings.photographs import BallBrackets, BallSettings, BracketKnowledge
 from .brackets import in_order, known_times, merged, read_photographs
 from .light_pictures import read_light
+from .scaling import write_scaled
 
 Where = tuple[float, float, float] | None
 """x, y and radius of the ball's outline in pixels from the top left corner of a photograph as it is stored;
@@ -63,7 +71,8 @@ def illuminate_from_ball(
     Raises
     ------
     InputFileError
-        A photograph is missing or unreadable, no ball is found in it, or the exposures cannot be merged.
+        A photograph is missing or unreadable, no ball or no card is found in it, or the exposures cannot be
+        merged.
     RangeError
         The sides share nothing to compare their exposures by, or there are not as many times as photographs.
 
@@ -73,6 +82,7 @@ def illuminate_from_ball(
         See `brackets.merged`, `brackets.read_photographs` and `read_light`.
     """
     check_radiance_target(output, force)
+    card = None if settings.card is None else _card(photographs[0], settings.card, settings.clamp)
     sides, circles = [], []
     second = replace(brackets, times=brackets.second_times, times_file=None)
     told = ((brackets, settings.circle, 0.0), (second, settings.second_circle, settings.turn))
@@ -82,11 +92,13 @@ def illuminate_from_ball(
         if settings.field_of_view is not None:
             longer = max(found[0].width, found[0].height)
             distance = distance_from_view(found[0].circle, longer, math.radians(settings.field_of_view))
+        picture = without_reflectance(picture, distance, settings.reflectance)
         sides.append(BallSide(picture, math.radians(turn), math.radians(settings.elevation), distance))
         circles += [outline.from_top_left() for outline in found]
     yield Progress(1, 2, f"unwrapping into {output.name}")
     radiance, gains = environment_from_balls(sides, settings.size, math.radians(settings.camera))
-    write_radiance(output, radiance, force)
+    cut_off = any(len(paths) == 1 and not holds_radiance(paths[0]) for paths in photographs)
+    write_scaled(output, radiance, settings, force, card, cut_off)
     return BallReport(tuple(circles), tuple(float(gain) for gain in gains))
 
 
@@ -107,7 +119,7 @@ class _Outline:
 
 
 def _picture(
-    photographs: Sequence[Path], bracket: BracketSettings, circle: Where, clamp: float | None
+    photographs: Sequence[Path], bracket: BracketKnowledge, circle: Where, clamp: float | None
 ) -> Steps[tuple[Array, list[_Outline]]]:
     """Radiance in the square around the ball, and the outlines."""
     if len(photographs) == 1:
@@ -132,6 +144,23 @@ def _picture(
         return squares[0], outlines
     radiance = merged(paths[0], bracket, squares, times, encoding).radiance
     return usable_radiance(radiance, paths[0].name, clamp), outlines
+
+
+def _card(photographs: Sequence[Path], given: tuple[float, float, float], clamp: float | None) -> Array:
+    """The colour of the card beside a ball."""
+    path = photographs[0]
+    if len(photographs) > 1:
+        raise InputFileError(
+            f"{path} is one of several exposures, in which a card has no radiance yet: merge them by rsibr "
+            f"illuminate brackets, and give what that makes."
+        )
+    picture, (x, y, radius) = read_light(path, clamp), given
+    height, width = picture.shape[:2]
+    orientation = Orientation() if holds_radiance(path) else orientation_of(path)
+    try:
+        return colour_within(picture, *orientation.upright_point(x, y, width, height), radius)
+    except RangeError as error:
+        raise InputFileError(f"{path}: {error}") from error
 
 
 def _circle(path: Path, picture: Array, given: Where, orientation: Orientation) -> Circle:

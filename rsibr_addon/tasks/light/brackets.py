@@ -21,12 +21,12 @@ from ...files.radiance_pictures import (
     check_radiance_target,
     holds_radiance,
     read_radiance,
-    write_radiance,
 )
-from ...settings.photographs import BracketSettings
+from ...settings.photographs import BracketKnowledge, BracketSettings
+from .scaling import write_scaled
 
 
-def known_times(photographs: Sequence[Path], settings: BracketSettings) -> tuple[float, ...] | None:
+def known_times(photographs: Sequence[Path], settings: BracketKnowledge) -> tuple[float, ...] | None:
     """The exposure times that are given.
 
     Returns
@@ -49,14 +49,14 @@ def known_times(photographs: Sequence[Path], settings: BracketSettings) -> tuple
     return times
 
 
-def in_order(photographs: Sequence[Path], settings: BracketSettings) -> tuple[list[Path], list[float]]:
+def in_order(photographs: Sequence[Path], settings: BracketKnowledge) -> tuple[list[Path], list[float]]:
     """Photographs from the shortest exposure to the longest, and their exposures.
 
     Parameters
     ----------
     photographs : sequence of Path
         In any order.
-    settings : BracketSettings
+    settings : BracketKnowledge
 
     Returns
     -------
@@ -114,7 +114,7 @@ def illuminate_from_brackets(
             )
     yield Progress(len(paths), len(paths) + 1, "merging")
     result = merged(paths[0], settings, pictures, times, encoding)
-    write_radiance(output, result.radiance, force)
+    write_scaled(output, result.radiance, settings, force)
     return result
 
 
@@ -175,7 +175,7 @@ def _response(curve: str, encoding: Encoding) -> Response | None:
 
 
 def merged(
-    name: Path, settings: BracketSettings, pictures: list[Array], times: list[float], encoding: Encoding
+    name: Path, settings: BracketKnowledge, pictures: list[Array], times: list[float], encoding: Encoding
 ) -> Merged:
     """Merge photographs of one size.
 
@@ -183,7 +183,7 @@ def merged(
     ----------
     name : Path
         Path of one of them, for messages.
-    settings : BracketSettings
+    settings : BracketKnowledge
     pictures : list of ndarray, shape (height, width, 3)
         Encoded; the shortest exposure first.
     times : list of float

@@ -12,9 +12,10 @@ from ...core.maps.representation import representation
 from ...core.progress import Progress, Steps
 from ...core.resample import resample
 from ...files.map_pictures import layout, read_map
-from ...files.radiance_pictures import check_radiance_target, holds_radiance, write_radiance
+from ...files.radiance_pictures import check_radiance_target, holds_radiance
 from ...settings.environment import FacesSettings
 from .light_pictures import read_light
+from .scaling import write_scaled
 
 SATURATED = 0.96
 """Share of a photograph's white, in linear light (250 of 255): brighter pixels tell no exposure."""
@@ -46,8 +47,9 @@ def illuminate_from_faces(
     yield Progress(0, 3, f"reading {source.name}")
     cube = read_map(source, faces, partial(read_light, clamp=settings.clamp)).astype(np.float64)
     gains: Array = np.ones((6, 3))
+    is_radiance = holds_radiance(faces.paths(source)[0])
     if settings.balance:
-        white = np.inf if holds_radiance(faces.paths(source)[0]) else SATURATED
+        white = np.inf if is_radiance else SATURATED
         try:
             gains = balancing_gains(cube, white)
         except RangeError as error:
@@ -55,5 +57,5 @@ def illuminate_from_faces(
     yield Progress(1, 3, f"making {output.name}")
     made = resample(cube * gains[:, None, None], faces.representation, equirect, settings.size)
     yield Progress(2, 3, f"writing {output.name}")
-    write_radiance(output, made[0], force)
+    write_scaled(output, made[0], settings, force, cut_off=not is_radiance)
     return gains

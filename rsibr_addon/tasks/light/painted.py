@@ -9,9 +9,10 @@ from ...core.maps.representation import representation
 from ...core.progress import Progress, Steps
 from ...core.resample import resample
 from ...files.map_pictures import layout, read_map
-from ...files.radiance_pictures import check_radiance_target, holds_radiance, write_radiance
+from ...files.radiance_pictures import check_radiance_target, holds_radiance
 from ...settings.environment import PaintedSettings
 from .light_pictures import read_light
+from .scaling import write_scaled
 
 
 def illuminate_from_painting(
@@ -40,7 +41,7 @@ def illuminate_from_painting(
     radiance = lift_whites(picture, settings.white, settings.knee)
     made = resample(radiance, before.representation, after, settings.size)
     yield Progress(2, 3, f"writing {output.name}")
-    write_radiance(output, made[0], force)
+    write_scaled(output, made[0], settings, force)
     return output
 
 

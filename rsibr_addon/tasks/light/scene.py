@@ -15,7 +15,7 @@ from ...core.progress import Progress, Steps
 from ...core.resample import resample
 from ...core.warned import warn
 from ...files.memory import check_memory
-from ...files.radiance_pictures import check_radiance_target, write_radiance
+from ...files.radiance_pictures import check_radiance_target
 from ...host.cycles import BYTES_BESIDES, bytes_needed
 from ...host.denoising import denoise
 from ...host.lamps import lamps_around, measure_lamps
@@ -27,6 +27,7 @@ from ...host.surroundings import (
     surroundings_scene,
 )
 from ...settings.environment import SceneLight
+from .scaling import write_scaled
 
 SEEN_WIDTH = 4.0
 """Texels that a lamp must be wide for rays to sample it well: a narrower one is measured."""
@@ -89,7 +90,7 @@ def illuminate_from_scene(light: SceneLight, output: Path, force: bool = False) 
     radiance = add_lamps(_assembled(light, seen), lamps)
     if not np.any(radiance):
         warn(f"No light arrives there, so {output} is black.")
-    write_radiance(output, usable_radiance(radiance, output.name), force)
+    write_scaled(output, usable_radiance(radiance, output.name), light, force)
     return output
 
 

@@ -31,10 +31,12 @@ void main()
     discard;
   }
   gl_FragDepth = max(texelFetch(depths, pixel, 0).r - DEPTH_TOLERANCE, 0.0);
-  vec3 shown = displayed(display, scale * seen.rgb);
+  // Radiance is covered; what is behind covers the rest
+  vec3 shown = displayed(display, scale * seen.rgb / seen.a);
   if (full > 0.0) {
     vec3 apart = abs(displayed(display, others_scale * texelFetch(others, pixel, 0).rgb) - shown);
     shown = heat(max(apart.r, max(apart.g, apart.b)) / full);
+    seen.a = 1.0;
   }
-  colour = vec4(linear_from_srgb(shown), 1.0);
+  colour = vec4(linear_from_srgb(shown), seen.a);
 }

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import gpu
 
-from ..core.materials.principled import PrincipledInputs, Texture
+from ..core.materials.principled import Input, PrincipledInputs, Texture
 
 MOST_TEXTURES = 8
 """Textures that a material may sample; OpenGL grants 16 in all, and a pyramid takes 6."""
@@ -28,6 +28,12 @@ class DrawnMaterial:
 
     inputs: PrincipledInputs
     textures: "Mapping[Texture, gpu.types.GPUTexture]" = field(default_factory=dict)
+
+    @property
+    def is_opaque(self) -> bool:
+        """Whether its alpha is 1 everywhere."""
+        alpha = self.inputs.alpha
+        return isinstance(alpha, Input) and alpha.texture is None and alpha.constant[0] >= 1.0
 
 
 @dataclass(frozen=True, eq=False)

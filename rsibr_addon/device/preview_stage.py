@@ -132,7 +132,7 @@ class Stage:
         among_others: bool,
         difference: Difference | None = None,
     ) -> None:
-        """Show the stage in the active frame buffer.
+        """Show the stage in the active frame buffer, over what is there where its coverage is below 1.
 
         Parameters
         ----------
@@ -161,7 +161,7 @@ class Stage:
         shader.uniform_float("others_scale", compared.scale)
         shader.uniform_sampler("display", display)
         shader.uniform_sampler("others", compared.radiance)
-        with _depth_test("LESS_EQUAL" if among_others else "ALWAYS"):
+        with _depth_test("LESS_EQUAL" if among_others else "ALWAYS", "ALPHA"):
             self._screen.draw(shader)
 
     def _fit(self, width: int, height: int) -> None:
@@ -177,13 +177,13 @@ class Stage:
 
 
 @contextmanager
-def _depth_test(test: str) -> Iterator[None]:
+def _depth_test(test: str, blending: str = "NONE") -> Iterator[None]:
     depth_test, depth_mask = gpu.state.depth_test_get(), gpu.state.depth_mask_get()
     blend = gpu.state.blend_get()
     try:
         gpu.state.depth_test_set(test)
         gpu.state.depth_mask_set(True)
-        gpu.state.blend_set("NONE")
+        gpu.state.blend_set(blending)
         yield
     finally:
         gpu.state.depth_test_set(depth_test)

@@ -219,6 +219,54 @@ def test_each_slot_has_its_own_material(content: GpuPyramid) -> None:
     np.testing.assert_allclose(whole, one, atol=1e-5 * one.max())
 
 
+CHECKER = np.indices((4, 4)).sum(axis=0) % 2
+HOLES = Texture("holes", closest=True)
+
+
+def test_what_is_cut_out_hides_nothing(content: GpuPyramid) -> None:
+    """A leaf of squares and holes, in front of a surface that is drawn later."""
+    leaf = replace(PLAIN, alpha=Input(rows((0, 0, 0, 1, 0)), HOLES), base_color=constants(0.1, 0.6, 0.1))
+    texture = buffers.texture(np.repeat(CHECKER[..., None], 4, axis=2))
+    in_front, behind = (
+        OwnMaterials((DrawnMaterial(leaf, {HOLES: texture}),)),
+        OwnMaterials((DrawnMaterial(PLAIN),)),
+    )
+    nearer = np.eye(4)
+    nearer[2, 3] = 0.5
+    alone, ground = (drawn(content, square(), each) for each in (in_front, behind))
+    colour, depth = (
+        buffers.render_target(SIZE),
+        gpu.types.GPUTexture((SIZE, SIZE), format="DEPTH_COMPONENT32F"),
+    )
+    target = gpu.types.GPUFrameBuffer(depth_slot=depth, color_slots=(colour,))
+    with target.bind():
+        target.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
+        gpu.state.depth_test_set("LESS_EQUAL")
+        gpu.state.depth_mask_set(True)
+        content.draw(square(), replace(FROM_ABOVE, model=nearer), in_front)
+        content.draw(square(), FROM_ABOVE, behind)
+        gpu.state.depth_test_set("NONE")
+        gpu.state.depth_mask_set(False)
+        both = buffers.pixels(target, SIZE)
+    covered = np.kron(CHECKER, np.ones((SIZE // 4, SIZE // 4))) > 0.0
+    np.testing.assert_array_equal(alone[..., 3], covered)
+    np.testing.assert_array_equal(both, np.where(covered[..., None], alone, ground))
+
+
+def test_what_covers_in_part_lies_over_what_is_there(content: GpuPyramid) -> None:
+    pane = DrawnMaterial(replace(PLAIN, alpha=constants(0.25)))
+    metal = DrawnMaterial(replace(PLAIN, metallic=constants(1.0)))
+    alone, ground = (drawn(content, square(), OwnMaterials((each,))) for each in (pane, metal))
+    # The first slot's triangle is drawn last, over the other's
+    mesh = GpuTexturedMesh(
+        SQUARE, np.tile(UP, (4, 1)), np.concatenate([TRIANGLES, TRIANGLES]), np.array([0, 0, 1, 1]), UV
+    )
+    picture = drawn(content, mesh, OwnMaterials((pane, metal)))
+    np.testing.assert_allclose(alone[..., 3], 0.25)
+    np.testing.assert_allclose(picture, alone + 0.75 * ground, atol=1e-5 * ground.max())
+    assert gpu.state.blend_get() == "NONE"
+
+
 def test_a_uv_map_that_is_not_there_is_zero(content: GpuPyramid) -> None:
     image = texels(3)
     texture = Texture("first", uv_map="gone", extension="EXTEND")

@@ -7,6 +7,7 @@ import gpu
 import numpy as np
 import pytest
 from mathutils import Matrix
+from rsibr.rsibr_addon.core.brdf.principled import Surface
 from rsibr.rsibr_addon.core.geometry.camera import Camera
 from rsibr.rsibr_addon.core.kinds.radiance_views.shading import ViewsLook, views_fragment
 from rsibr.rsibr_addon.core.light.transfer_curve import linear_from_srgb
@@ -15,8 +16,10 @@ from rsibr.rsibr_addon.core.pictures.false_colour import heat
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.drawing import GpuMesh
+from rsibr.rsibr_addon.device.kinds.kernel_pyramid import GpuPyramid
 from rsibr.rsibr_addon.device.kinds.radiance_views import GpuRadianceViews
 from rsibr.rsibr_addon.device.preview_stage import Difference, Stage, current_sight, draw_occluder
+from rsibr.tests.glsl.test_library_principled import families, pyramid
 from rsibr.tests.synthetic_views import smooth_views, visible_points
 
 SIZE = 64
@@ -122,6 +125,23 @@ def test_a_span_ends_in_lines() -> None:
     np.testing.assert_array_equal(part[:, 17:47], whole[:, 17:47])
     assert not part[:, :15].any()
     assert not part[:, 49:].any()
+
+
+def test_what_is_covered_in_part_shows_what_is_behind() -> None:
+    with screen() as target:
+        stage, sight = Stage(), current_sight()
+        subject = GpuPyramid(pyramid(), families())
+        clear, half = (Surface(emission=(0.3, 0.5, 0.4), alpha=alpha) for alpha in (1.0, 0.5))
+        pictures = []
+        for surface in (clear, half):
+            target.clear(color=(0.2, 0.4, 0.8, 1.0), depth=1.0)
+            with stage.drawing():
+                subject.draw(GpuMesh(*sphere()), sight.on(np.eye(4), STRAIGHT), surface)
+            stage.show(buffers.table_texture(table()), 1.0, (0.0, 1.0), among_others=True)
+            pictures.append(buffers.pixels(target, SIZE))
+    inside = expected(STRAIGHT, 1.0)[1]
+    whole, veiled = (picture[inside, :3] for picture in pictures)
+    np.testing.assert_allclose(veiled, 0.5 * whole + 0.5 * np.array([0.2, 0.4, 0.8]), atol=1e-3)
 
 
 def test_the_state_is_as_before() -> None:

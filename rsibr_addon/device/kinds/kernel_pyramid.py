@@ -105,6 +105,9 @@ class GpuPyramid:
     def _draw_slots(self, mesh: GpuMesh, draw: Draw, look: OwnMaterials) -> None:
         """Draw each slot's triangles with its own material.
 
+        What is not opaque is drawn after all that is, over what is there, and hides what is drawn later.
+        Where nothing is covered, nothing is hidden.
+
         Raises
         ------
         ShapeError
@@ -117,9 +120,12 @@ class GpuPyramid:
         shader = textured_shader()
         shader.bind()
         self._light(shader)
-        for slot, material in enumerate(look.slots):
+        blending = gpu.state.blend_get()
+        for slot, material in sorted(enumerate(look.slots), key=lambda each: not each[1].is_opaque):
+            gpu.state.blend_set("NONE" if material.is_opaque else "ALPHA_PREMULT")
             self._materials.bind(shader, material, mesh.uv_maps, look.antialiased)
             mesh.draw_slot(shader, draw, slot, last=slot == len(look.slots) - 1)
+        gpu.state.blend_set(blending)
 
     def _light(self, shader: gpu.types.GPUShader) -> None:
         for name, texture in zip(SAMPLERS, self.textures, strict=True):

@@ -6,8 +6,7 @@ from ..rsibr_addon.core.errors import RsibrError
 from ..rsibr_addon.files.output_paths import comparison_page
 from ..rsibr_addon.host.map_sets import written_path
 from ..rsibr_addon.session.running import session
-from ..rsibr_addon.tasks.compare.compare import truth_of
-from ..rsibr_addon.tasks.queue.bake_request import comparison_of
+from ..rsibr_addon.tasks.queue.bake_request import comparison_of, shown_material
 from . import background
 from .at_once import AtOnce
 
@@ -24,7 +23,7 @@ class RSIBR_OT_compare(AtOnce, bpy.types.Operator):
         if context.object is None or not context.object.rsibr.map_set:
             return False
         try:
-            truth_of(written_path(context.object.rsibr))
+            shown_material(context.object, written_path(context.object.rsibr))
         except RsibrError as error:
             cls.poll_message_set(str(error))
             return False

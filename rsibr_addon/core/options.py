@@ -285,6 +285,11 @@ def value_from_text(declared: Declared, text: str) -> Any:
     return tuple(_member_from_text(declared, declared.members or str, part) for part in parts)
 
 
+def value_text(value: Any) -> str:
+    """The text of a number or a tuple of numbers, which `value_from_text` takes back."""
+    return ",".join(map(str, value)) if isinstance(value, tuple) else str(value)
+
+
 def number_from_text(text: str) -> float:
     """The number that a text states, which may be a fraction: 0.5, 1/125.
 

@@ -5,8 +5,10 @@ import math
 import bpy
 
 from ..core.errors import RsibrError
+from ..files.kinds.registry import look_types
 from ..files.output_paths import comparison_page
 from ..host.map_sets import written_path
+from ..host.option_properties import options_of
 from ..session.running import session
 from ..tasks.compare.measured_error import measured_facts
 from ..tasks.report.facts import is_picture, map_set_facts, map_set_fit, map_set_header
@@ -41,7 +43,8 @@ class RSIBR_PT_result(InSidebar, bpy.types.Panel):
         try:
             path = written_path(item.rsibr)
             facts = map_set_facts(path)
-            measured = measured_facts(path, getattr(item.rsibr, map_set_header(path)["kind"], None))
+            kind = map_set_header(path)["kind"]
+            measured = measured_facts(path, options_of(look_types()[kind], getattr(item.rsibr, kind)))
         except RsibrError as error:
             tell(layout, str(error), context.region.width)
             return

@@ -11,15 +11,18 @@ import numpy as np
 import pytest
 import rsibr
 from rsibr.rsibr_addon.command_line.commands import parsed
+from rsibr.rsibr_addon.command_line.options import given
 from rsibr.rsibr_addon.core.errors import InputFileError, MapSetError, OutputFileError, RsibrError, SceneError
 from rsibr.rsibr_addon.core.options import declared_options, quality_values
 from rsibr.rsibr_addon.files.exr import Part, write_parts
 from rsibr.rsibr_addon.files.kinds.registry import STORED
+from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.files.staging import is_staging_folder
 from rsibr.rsibr_addon.host.bake_settings import apply_settings, plain_settings
 from rsibr.rsibr_addon.host.option_properties import property_name, shown_value
 from rsibr.rsibr_addon.job import CommandJob, read_job
 from rsibr.rsibr_addon.session.running import session
+from rsibr.rsibr_addon.settings.kernel_pyramid import PyramidComparison
 from rsibr.rsibr_addon.tasks.light.light_pictures import NO_RADIANCE, light_remarks
 from rsibr.rsibr_addon.tasks.queue.bake_request import (
     BakeRequest,
@@ -32,6 +35,7 @@ from rsibr.rsibr_addon.tasks.queue.bake_request import (
 )
 from rsibr.rsibr_addon.ui.light import draw_light
 from rsibr.tests.bake_jobs import run_job
+from rsibr.tests.faults.small_map_sets import map_sets
 from rsibr.tests.flat_capture import write_flat_capture
 from rsibr.tests.open_file import linked_cube, open_file_state
 
@@ -406,6 +410,28 @@ def test_a_comparison_is_a_job_with_a_page(tmp_path: Path, monkeypatch: pytest.M
     assert run_job(order().job(mips), tmp_path) == 0
     with pytest.raises(MapSetError, match="is of a kind without a truth to compare with"):
         comparison_of(bpy.context.scene, bpy.context.object, mips)
+
+
+def test_one_material_is_compared_as_it_is_shown_and_own_ones_are_not(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.queue.bake_request.blender_program", lambda: "blender")
+    (pyramid,) = (each for each in map_sets() if each.kind == "kernel_pyramid")
+    path, item = tmp_path / "light.rsibr.exr", bpy.context.object
+    write_map_set(path, pyramid)
+    item.rsibr.map_set = str(path)
+    assert not bpy.ops.rsibr.compare.poll()
+    with pytest.raises(SceneError, match="Object Cube is shaded with its own materials"):
+        comparison_of(bpy.context.scene, item, path)
+    look = item.rsibr.kernel_pyramid
+    look.own, look.metallic, look.base_color = False, 1.0, (0.9, 0.6, 0.3)
+    assert bpy.ops.rsibr.compare.poll()
+    comparison = comparison_of(bpy.context.scene, item, path)
+    job = read_job(Path(comparison.command[11]).read_text(), "job")
+    comparison.tidy()
+    assert isinstance(job, CommandJob)
+    settings = given(parsed(job.arguments), PyramidComparison)
+    assert settings.text == "principled:base_color=0.9/0.6/0.3,metallic=1.0"
 
 
 def test_the_original_counts_as_open(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ...core.errors import MapSetError, SceneError
-from ...core.options import declared_options, to_plain
+from ...core.options import declared_options, to_plain, value_text
 from ...files.digests import digest
 from ...files.kinds.registry import STORED
 from ...files.map_set import read_map_set
@@ -41,7 +41,9 @@ from ...settings.light import Clamp, Light
 from ...settings.method import MethodSettings
 from ..compare.compare import truth_of
 from ..methods.bake import METHODS
+from ..methods.kinds import KINDS
 from ..methods.method import Cost
+from ..report.facts import map_set_header
 from .background import Bake, blender_command
 
 HASH_LETTERS = 10
@@ -262,15 +264,40 @@ def comparison_of(scene: Any, item: Any, map_set: Path) -> ObjectBake:
     MapSetError
         The file is none, or of a kind that nothing is compared with.
     SceneError, OutputFileError
-        See `bake_of`.
+        See `bake_of`; or the object is shaded with its own materials.
     """
-    truth_of(map_set)
+    shown = shown_material(item, map_set)
     folder = comparison_beside(map_set)
     views = ("--views", str(COMPARED_VIEWS))
     job = CommandJob(
-        ("compare", str(map_set), *views, *_named_model(item), "--output", str(folder), "--force")
+        ("compare", str(map_set), *views, *shown, *_named_model(item), "--output", str(folder), "--force")
     )
     return _in_background(f"{item.name}: comparison", job, scene, [item], comparison_page(map_set), True)
+
+
+def shown_material(item: Any, map_set: Path) -> tuple[str, ...]:
+    """What `rsibr compare` is to know of the material that an object shows from a map set.
+
+    Raises
+    ------
+    MapSetError
+        See `comparison_of`.
+    SceneError
+        The object is shaded with its own materials.
+    """
+    truth_of(map_set)
+    kind = map_set_header(map_set)["kind"]
+    stored = STORED[kind]
+    look: Any = options_of(stored.look, getattr(item.rsibr, kind))
+    if KINDS[kind].own and look.own:
+        raise SceneError(
+            f"Object {item.name} is shaded with its own materials, which have no reflectance to sum: switch "
+            f"Own Materials off to compare one material, or look at Difference."
+        )
+    compared = declared_options(stored.comparison) if stored.comparison else ()
+    looks = {each.name for each in declared_options(stored.look)}
+    given = [(each.flag, getattr(look, each.name)) for each in compared if each.name in looks]
+    return tuple(text for flag, value in given for text in (flag, value_text(value)))
 
 
 def _named_model(item: Any) -> tuple[str, ...]:

@@ -206,7 +206,7 @@ void main()
                             widened_roughness(clamp(numbers[COAT_ROUGHNESS], 0.0, 1.0), coat_spread),
                             numbers[COAT_IOR],
                             color_of(COAT_TINT),
-                            color_of(EMISSION_COLOR) * numbers[EMISSION_STRENGTH]);
+                            emitted(color_of(EMISSION_COLOR) * numbers[EMISSION_STRENGTH], draw.strength));
   radiance.rgb = principled_radiance(atlas,
                                      places,
                                      ggx,

@@ -1,5 +1,12 @@
 // The uniform block `draw` of every mesh: model, view, projection, turn, and eye, the
-// homogeneous position of the eye in the map set's world: (direction, 0) when orthographic.
+// homogeneous position of the eye in the map set's world: (direction, 0) when orthographic; strength, whose x
+// the picture is multiplied by when it is brought to the display.
+
+// What a material emits, before that.
+vec3 emitted(vec3 emission, vec4 strength)
+{
+  return emission / max(strength.x, 1e-6);
+}
 
 vec3 view_direction(vec4 eye, vec3 world_position)
 {

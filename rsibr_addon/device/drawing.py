@@ -25,6 +25,9 @@ class Draw:
     turn : ndarray, shape (3, 3)
         Rotation from the world to that of the map set, for a world that was turned since the bake. It is for
         shading alone: it turns position, normal and `eye`.
+    strength : float
+        Factor of the picture on its way to the display. What a material emits is divided by it: only the
+        world's light has it.
     """
 
     model: Array
@@ -32,6 +35,7 @@ class Draw:
     projection: Array
     eye: Array
     turn: Array = field(default_factory=lambda: np.eye(3))
+    strength: float = 1.0
 
     @property
     def view_dir(self) -> Array:
@@ -42,10 +46,11 @@ class Draw:
 
     def block(self) -> Array:
         """The rows of the block `Draw` of the shaders, which stores matrices by column."""
-        rows = np.zeros((17, 4), np.float32)
+        rows = np.zeros((18, 4), np.float32)
         rows[0:4], rows[4:8], rows[8:12] = self.model.T, self.view.T, self.projection.T
         rows[12:15, :3], rows[15, 3] = self.turn.T, 1.0
         rows[16, :3], rows[16, 3] = self.turn @ self.eye[:3], self.eye[3]
+        rows[17, 0] = self.strength
         return rows
 
 

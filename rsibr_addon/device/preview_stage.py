@@ -39,7 +39,7 @@ class Sight:
     projection: Array
     eye: Array
 
-    def on(self, model: Array, turn: Array) -> Draw:
+    def on(self, model: Array, turn: Array, strength: float = 1.0) -> Draw:
         """A mesh in this view.
 
         Parameters
@@ -47,9 +47,10 @@ class Sight:
         model : ndarray, shape (4, 4)
             World from object coordinates.
         turn : ndarray, shape (3, 3)
+        strength : float
             As in `Draw`.
         """
-        return Draw(model, self.view, self.projection, self.eye, turn)
+        return Draw(model, self.view, self.projection, self.eye, turn, strength)
 
 
 def current_sight() -> Sight:

@@ -13,7 +13,7 @@ from ..core.errors import DeviceError
 from .shader_source import shader_source
 
 # Uniform blocks hold only vec4 and mat4, so that the layout is the same for every driver.
-_DRAW_BLOCK = "struct Draw { mat4 model; mat4 view; mat4 projection; mat4 turn; vec4 eye; };"
+_DRAW_BLOCK = "struct Draw { mat4 model; mat4 view; mat4 projection; mat4 turn; vec4 eye; vec4 strength; };"
 _DESTINATION_BLOCK = "struct Destination { vec4 view_dir; };"
 _MODE_BLOCK = "struct Mode { float warping; float last_level; float antialiased; float unused_0; };"
 

@@ -267,6 +267,21 @@ def test_what_covers_in_part_lies_over_what_is_there(content: GpuPyramid) -> Non
     assert gpu.state.blend_get() == "NONE"
 
 
+def test_what_is_emitted_is_as_bright_in_a_world_of_any_strength(content: GpuPyramid) -> None:
+    # Black but for what it emits
+    glowing = replace(
+        PLAIN,
+        base_color=constants(0.0, 0.0, 0.0),
+        specular_level=constants(0.0),
+        emission_color=constants(0.5, 0.25, 1.0),
+        emission_strength=constants(2.0),
+    )
+    look = OwnMaterials((DrawnMaterial(glowing),))
+    for strength in (0.5, 1.0, 4.0):
+        picture = strength * drawn(content, square(), look, replace(FROM_ABOVE, strength=strength))
+        np.testing.assert_allclose(picture[..., :3], np.full((SIZE, SIZE, 3), (1.0, 0.5, 2.0)), 1e-3)
+
+
 def test_a_uv_map_that_is_not_there_is_zero(content: GpuPyramid) -> None:
     image = texels(3)
     texture = Texture("first", uv_map="gone", extension="EXTEND")

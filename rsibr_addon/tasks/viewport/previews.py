@@ -170,7 +170,13 @@ class Previews:
             if each.is_seen(view)
         ]
         shown = [
-            _Shown(each, map_set, sight.on(each.surface.matrix, light.turn), light.strength, looks)
+            _Shown(
+                each,
+                map_set,
+                sight.on(each.surface.matrix, light.turn, light.strength),
+                light.strength,
+                looks,
+            )
             for (each, map_set, looks), light in zip(looked, lights, strict=True)
         ]
         for side, strength in product(sides, dict.fromkeys(each.strength for each in shown)):

@@ -91,7 +91,7 @@ class _ExportForEngine(_Export):
 
     def ending(self: Any) -> str:
         """Of the files' names: the one that the name has, if the engine takes it, else its first."""
-        endings = [*ENGINES[self.engine].writers]
+        endings = ENGINES[self.engine].endings
         has = Path(self.filepath).suffix.lower()
         return has if has in endings else endings[0]
 

@@ -35,7 +35,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     options.add_options_of(parser, OWNERS)
     suffixes = [each.suffix for each in FORMATS.values()]
-    endings = dict.fromkeys([*suffixes, *(name for each in ENGINES.values() for name in each.writers)])
+    endings = dict.fromkeys([*suffixes, *(name for each in ENGINES.values() for name in each.endings)])
     names = "|".join(f"OUT{ending}" for ending in endings)
     options.add_output(parser, names, "the first file; its name tells the format")
 

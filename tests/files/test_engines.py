@@ -11,12 +11,18 @@ from pathlib import Path
 import numpy as np
 import OpenImageIO
 import pytest
+from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError, RsibrWarning
 from rsibr.rsibr_addon.core.filtering.irradiance import real_harmonics
+from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
+from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTables, Role
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.core.rgbd import rgbd_from_radiance
+from rsibr.rsibr_addon.files.kinds import mip_chain, reflection_tables
+from rsibr.rsibr_addon.files.map_set import write_map_set
+from rsibr.rsibr_addon.files.map_set_header import Origin
 from rsibr.rsibr_addon.files.radiance_hdr import write_hdr
-from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
+from rsibr.rsibr_addon.files.radiance_pictures import read_radiance, write_radiance
 from rsibr.rsibr_addon.tasks.export.engines.engines import ENGINES
 from rsibr.rsibr_addon.tasks.export.engines.export import export_for_engine
 from rsibr.rsibr_addon.tasks.export.engines.settings import CubeSettings
@@ -205,14 +211,66 @@ def test_three_takes_bc6h(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ENGINES)
 def test_what_an_engine_cannot_take_is_told(name: str, tmp_path: Path) -> None:
     engine, source = ENGINES[name], sky_file(tmp_path)
-    (ending, *_) = engine.writers
+    (ending, *_) = engine.endings
     with pytest.raises(OutputFileError, match=rf"does not end in \{ending}.*, as {engine.label} wants"):
         drain(export_for_engine(source, tmp_path / "sky.gif", name))
-    with pytest.raises(RangeError, match=rf"{engine.label} takes cubes from {engine.least} texels on"):
-        drain(
-            export_for_engine(source, tmp_path / f"sky{ending}", name, CubeSettings(size=engine.least // 2))
-        )
-    assert [path.name for path in tmp_path.iterdir()] == ["sky.exr"]
+    small = getattr(engine, "least", 2) // 2
+    told = rf"{engine.label} takes (cubes from {2 * small} texels on|the environment as it is: omit the size)"
+    with pytest.raises(RangeError, match=told):
+        drain(export_for_engine(source, tmp_path / f"new{ending}", name, CubeSettings(size=small)))
+    tables = tmp_path / "tables.rsibr.exr"
+    maps = {role: np.ones((4, 8, 3), np.float32) for role in (Role.DIFFUSE, Role.SPECULAR)}
+    held = ReflectionTables(maps, np.ones((len(Role), 3, 3), dtype=np.float32))
+    write_map_set(
+        tables, reflection_tables.to_map_set(held, Origin(Environment(sky(8), "sky"), {}, "a test"))
+    )
+    with pytest.raises(
+        RangeError, match=r"of the kind Reflection Tables, which .* one of the kind Mip Chain"
+    ):
+        drain(export_for_engine(tables, tmp_path / f"new{ending}", name))
+    assert {path.name for path in tmp_path.iterdir()} == {"sky.exr", "tables.rsibr.exr"}
+
+
+def test_of_a_mip_chain_its_environment_is_filtered_again(tmp_path: Path) -> None:
+    (of_picture,) = exported(tmp_path, "three", ".ktx2")
+    mips = tuple(RNG.random((6, size, size, 3)).astype(np.float32) for size in (64, 32))
+    chain = MipChain(mips, RNG.standard_normal((9, 3)))
+    origin = Origin(Environment(sky(), "sky.exr"), {}, "a test", {"filter": "box"})
+    write_map_set(tmp_path / "chain.rsibr.exr", mip_chain.to_map_set(chain, origin))
+    (of_chain,) = drain(export_for_engine(tmp_path / "chain.rsibr.exr", tmp_path / "chain.ktx2", "three"))
+    assert of_chain.read_bytes() == of_picture.read_bytes()
+
+
+def unity_direction(u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """Blender's direction where Unity's Skybox/Panoramic finds (u, v); Blender's (x, y, z) is (-x, z, -y)."""
+    longitude, latitude = (0.5 - u) * 2.0 * np.pi, (1.0 - v) * np.pi
+    x, y, z = np.sin(latitude) * np.cos(longitude), np.cos(latitude), np.sin(latitude) * np.sin(longitude)
+    return np.stack([-x, -z, y], axis=-1)
+
+
+def godot_direction(u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """Blender's direction where Godot's sky shader does: atan(x, -z) from the left, acos(y) from the top."""
+    longitude, latitude = u * 2.0 * np.pi, (1.0 - v) * np.pi
+    x, y, z = np.sin(latitude) * np.sin(longitude), np.cos(latitude), -np.sin(latitude) * np.cos(longitude)
+    return from_y_up(np.stack([x, y, z], axis=-1))
+
+
+@pytest.mark.parametrize(("name", "direction"), [("unity", unity_direction), ("godot", godot_direction)])
+@pytest.mark.parametrize(("ending", "relative"), [(".exr", 1e-6), (".hdr", 2.0**-7)])
+def test_a_panorama_stands_as_in_blender(
+    name: str,
+    direction: Callable[[np.ndarray, np.ndarray], np.ndarray],
+    ending: str,
+    relative: float,
+    tmp_path: Path,
+) -> None:
+    (path,) = drain(export_for_engine(sky_file(tmp_path), tmp_path / f"made{ending}", name))
+    shown = read_radiance(path)
+    height, width = shown.shape[:2]
+    u, v = np.meshgrid((np.arange(width) + 0.5) / width, (np.arange(height) + 0.5) / height)
+    # Radiance HDR is as exact as the largest of three colours
+    wanted = truth(direction(u, v), 0.0).max(axis=-1)
+    np.testing.assert_allclose(shown.max(axis=-1), wanted, rtol=relative)
 
 
 def test_light_beyond_an_encoding_is_cut_and_told(tmp_path: Path) -> None:

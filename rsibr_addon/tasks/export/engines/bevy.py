@@ -5,14 +5,14 @@ from pathlib import Path
 from ....core.kinds.mip_chain.ggx import linear_roughness
 from ....files.ktx2 import write_ktx2
 from ....files.textures import Texture
-from .engine import MIRRORED_Z, Y_UP, Engine, EngineLight, mips_down_to
+from .engine import MIRRORED_Z, Y_UP, CubeEngine, EngineLight, mips_down_to
 
 LAST = 8
 """Width of the last mip: four texels to a quarter turn hold the widest lobe."""
 
 
 def write(light: EngineLight, output: Path, force: bool) -> list[Path]:
-    """Write NAME.ktx2 and NAME-diffuse.ktx2: see `Engine.writers`."""
+    """Write NAME.ktx2 and NAME-diffuse.ktx2: see `CubeEngine.writers`."""
     assert light.diffuse is not None
     diffuse = output.with_stem(f"{output.stem}-diffuse")
     for path, mips in ((output, light.mips), (diffuse, (light.diffuse,))):
@@ -20,7 +20,7 @@ def write(light: EngineLight, output: Path, force: bool) -> list[Path]:
     return [output, diffuse]
 
 
-ENGINE = Engine(
+ENGINE = CubeEngine(
     label="Bevy",
     use="give EnvironmentMapLight NAME.ktx2 as specular_map, NAME-diffuse.ktx2 as diffuse_map",
     axes=MIRRORED_Z @ Y_UP,

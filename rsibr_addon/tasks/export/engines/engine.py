@@ -1,7 +1,7 @@
 """What an engine takes, and the light as it takes it."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -48,7 +48,7 @@ Write = Callable[[EngineLight, Path, bool], list[Path]]
 """Light, the output, and whether existing files are replaced, to the files that were written."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Engine:
     """A preset.
 
@@ -58,6 +58,23 @@ class Engine:
         The engine's own name.
     use : str
         What to do with the file there, as a phrase in one line.
+    """
+
+    label: str
+    use: str
+
+    @property
+    def endings(self) -> tuple[str, ...]:
+        """Endings of its files' names, in small letters, the usual one first."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True, kw_only=True)
+class CubeEngine(Engine):
+    """An engine that takes light filtered, as a cube.
+
+    Attributes
+    ----------
     axes : ndarray, shape (3, 3)
         Directions by which the engine's textures are looked up, from Blender's; may mirror.
     roughness : callable
@@ -65,18 +82,39 @@ class Engine:
     least : int
         Smallest width of the first mip.
     writers : mapping of str to callable
-        Ending of a file's name, in small letters, -> what writes the file.
+        Ending -> what writes the file.
     diffuse : int
         Width of the cube of diffuse light that it takes; 0 for none.
     """
 
-    label: str
-    use: str
     axes: Array
     roughness: Callable[[int], tuple[float, ...]]
     least: int
-    writers: Mapping[str, Write] = field(default_factory=dict)
+    writers: Mapping[str, Write]
     diffuse: int = 0
+
+    @property
+    def endings(self) -> tuple[str, ...]:
+        """See `Engine`."""
+        return tuple(self.writers)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PanoramaEngine(Engine):
+    """An engine that filters light itself, from a latitude-longitude picture.
+
+    Attributes
+    ----------
+    quarters : int
+        By how many quarters of its width a picture of Blender's is moved to the left.
+    """
+
+    quarters: int
+
+    @property
+    def endings(self) -> tuple[str, ...]:
+        """See `Engine`."""
+        return ".exr", ".hdr"
 
 
 def mips_down_to(size: int, last: int) -> int:

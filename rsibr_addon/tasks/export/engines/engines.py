@@ -1,6 +1,6 @@
 """The engines that light is written for."""
 
-from . import babylon, bevy, filament, gltf, three
+from . import babylon, bevy, filament, gltf, panoramas, three
 from .engine import Engine
 
 ENGINES: dict[str, Engine] = {
@@ -9,5 +9,8 @@ ENGINES: dict[str, Engine] = {
     "filament": filament.ENGINE,
     "bevy": bevy.ENGINE,
     "gltf": gltf.ENGINE,
+    "unity": panoramas.UNITY,
+    "unreal": panoramas.UNREAL,
+    "godot": panoramas.GODOT,
 }
 """Name, a word, -> the engine."""

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from ....core.conventions import Array
+from ....core.environment import Environment
 from ....core.errors import OutputFileError, RangeError
 from ....core.filtering.harmonics.analysis import analyse_environment
 from ....core.filtering.irradiance import turned_harmonics
@@ -16,8 +17,9 @@ from ....files.kinds.registry import STORED
 from ....files.map_set import read_map_set
 from ....files.map_set_data import MapSet
 from ....files.outputs import together
+from ....files.radiance_pictures import write_radiance
 from ....files.version import rsibr
-from .engine import Engine, EngineLight, Write
+from .engine import CubeEngine, Engine, EngineLight, PanoramaEngine
 from .engines import ENGINES
 from .settings import CubeSettings
 
@@ -47,7 +49,7 @@ def export_for_engine(
     MapSetError, InputFileError
         The source cannot be read, or does not hold its environment.
     RangeError
-        It is of another kind, or too small for the engine.
+        It is of another kind, or too small for the engine; or a size is given for one that filters itself.
     OutputFileError
         The name is not one of the engine's, or a file exists.
 
@@ -57,11 +59,29 @@ def export_for_engine(
         Something is brighter than the engine's texels can be.
     """
     engine = ENGINES[name]
-    write = _writer(engine, output)
+    if output.suffix.lower() not in engine.endings:
+        known = " or ".join(engine.endings)
+        raise OutputFileError(
+            f"{output} does not end in {known}, as {engine.label} wants: give a name that does."
+        )
     yield Progress(0, 1, f"reading {source.name}")
     held = _read(source, engine)
     light = environment.from_map_set(source, held)
-    size = (settings or CubeSettings()).size or _size_of(source, held)
+    size = (settings or CubeSettings()).size
+    match engine:
+        case CubeEngine():
+            filtered = yield from _filtered(light, engine, size or _size_of(source, held))
+            with together():
+                return engine.writers[output.suffix.lower()](filtered, output, force)
+        case PanoramaEngine():
+            if size is not None:
+                raise RangeError(f"{engine.label} takes the environment as it is: omit the size.")
+            moved = np.roll(light.radiance, -engine.quarters * light.radiance.shape[1] // 4, axis=1)
+            write_radiance(output, moved, force)
+    return [output]
+
+
+def _filtered(light: Environment, engine: CubeEngine, size: int) -> Steps[EngineLight]:
     if size < engine.least:
         raise RangeError(
             f"{engine.label} takes cubes from {engine.least} texels on, not of {size}: enlarge it."
@@ -76,18 +96,8 @@ def export_for_engine(
     if engine.diffuse:
         diffuse = _turned(next(ggx_mips(light.radiance, engine.diffuse, ROUGHEST)).faces, engine)
     harmonics = turned_harmonics(analyse_environment(light.radiance, 2).real(2), engine.axes)
-    yield Progress(len(roughness) + 1, len(roughness) + 2, f"writing {output.name}")
-    with together():
-        return write(EngineLight(light.name, rsibr(), tuple(mips), diffuse, harmonics), output, force)
-
-
-def _writer(engine: Engine, output: Path) -> Write:
-    if output.suffix.lower() not in engine.writers:
-        known = " or ".join(engine.writers)
-        raise OutputFileError(
-            f"{output} does not end in {known}, as {engine.label} wants: give a name that does."
-        )
-    return engine.writers[output.suffix.lower()]
+    yield Progress(len(roughness) + 1, len(roughness) + 2, f"writing for {engine.label}")
+    return EngineLight(light.name, rsibr(), tuple(mips), diffuse, harmonics)
 
 
 def _read(source: Path, engine: Engine) -> MapSet:
@@ -107,5 +117,5 @@ def _size_of(source: Path, held: MapSet) -> int:
     return SIZE if held.kind == environment.KIND else mip_chain.from_map_set(source, held).size
 
 
-def _turned(faces: Array, engine: Engine) -> Array:
+def _turned(faces: Array, engine: CubeEngine) -> Array:
     return cube_map.turned(faces.astype(np.float32), engine.axes)

@@ -6,14 +6,14 @@ from ....core.filtering.irradiance import diffuse_terms
 from ....core.kinds.mip_chain.ggx import quadratic_roughness
 from ....core.packed_floats import LARGEST
 from ....files.ktx1 import write_ktx1
-from .engine import Y_UP, Engine, EngineLight, mips_down_to, within
+from .engine import Y_UP, CubeEngine, EngineLight, mips_down_to, within
 
 LAST = 16
 """Width of the last mip, which cmgen ends at."""
 
 
 def write(light: EngineLight, output: Path, force: bool) -> list[Path]:
-    """Write NAME.ktx and NAME-skybox.ktx: see `Engine.writers`."""
+    """Write NAME.ktx and NAME-skybox.ktx: see `CubeEngine.writers`."""
     mips = within(light.mips, LARGEST, light.name, "R11F_G11F_B10F")
     # Rows of the text are terms, its columns colours
     terms = "".join(
@@ -25,7 +25,7 @@ def write(light: EngineLight, output: Path, force: bool) -> list[Path]:
     return [output, sky]
 
 
-ENGINE = Engine(
+ENGINE = CubeEngine(
     label="Filament",
     use="load NAME.ktx and NAME-skybox.ktx with ktxreader::Ktx1Reader, or KTX1Loader on Android",
     axes=Y_UP,

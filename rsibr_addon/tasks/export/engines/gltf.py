@@ -8,7 +8,7 @@ from ....core.filtering.irradiance import irradiance_coefficients
 from ....core.kinds.mip_chain.ggx import linear_roughness
 from ....core.rgbd import LARGEST
 from ....files.gltf_light import write_gltf_light
-from .engine import MIRRORED_X, Y_UP, Engine, EngineLight, mips_down_to, within
+from .engine import MIRRORED_X, Y_UP, CubeEngine, EngineLight, mips_down_to, within
 
 LAST = 16
 """Width of the last mip, which the extension suggests."""
@@ -18,14 +18,14 @@ SIGNS = np.array([1, -1, 1, -1, 1, -1, 1, -1, 1])[:, None]
 
 
 def write(light: EngineLight, output: Path, force: bool) -> list[Path]:
-    """Write NAME.glb or NAME.gltf: see `Engine.writers`."""
+    """Write NAME.glb or NAME.gltf: see `CubeEngine.writers`."""
     mips = within(light.mips, LARGEST, light.name, "RGBD")
     coefficients = SIGNS * irradiance_coefficients(light.harmonics)
     write_gltf_light(output, mips, coefficients, light.name, light.software, force)
     return [output]
 
 
-ENGINE = Engine(
+ENGINE = CubeEngine(
     label="glTF",
     use="load it as a scene in Babylon.js, and set linearSpecularLOD of its environmentTexture",
     axes=MIRRORED_X @ Y_UP,

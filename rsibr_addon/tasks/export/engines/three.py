@@ -7,25 +7,25 @@ from ....core.kinds.mip_chain.ggx import quadratic_roughness
 from ....files.dds import write_dds
 from ....files.ktx2 import write_ktx2
 from ....files.textures import Texture
-from .engine import MIRRORED_X, Y_UP, Engine, EngineLight, mips_down_to, within
+from .engine import MIRRORED_X, Y_UP, CubeEngine, EngineLight, mips_down_to, within
 
 LAST = 8
 """Width of the last mip, that of roughness 1, from which diffuse light comes too."""
 
 
 def write_compressed(light: EngineLight, output: Path, force: bool) -> list[Path]:
-    """Write NAME.dds: see `Engine.writers`."""
+    """Write NAME.dds: see `CubeEngine.writers`."""
     write_dds(output, within(light.mips, LARGEST, light.name, "BC6H"), compressed=True, force=force)
     return [output]
 
 
 def write_uncompressed(light: EngineLight, output: Path, force: bool) -> list[Path]:
-    """Write NAME.ktx2: see `Engine.writers`."""
+    """Write NAME.ktx2: see `CubeEngine.writers`."""
     write_ktx2(output, Texture(light.mips, is_cube=True), {"KTXwriter": light.software}, force)
     return [output]
 
 
-ENGINE = Engine(
+ENGINE = CubeEngine(
     label="three.js",
     use="set it as scene.environment, by the loader on the page three.js of the documentation",
     axes=MIRRORED_X @ Y_UP,

@@ -2,11 +2,13 @@
 
 import bpy
 
+from ..rsibr_addon.files.baked_inputs import is_whole
 from ..rsibr_addon.host.bake_settings import assign
-from ..rsibr_addon.host.sidebars import redraw_sidebars
+from ..rsibr_addon.host.sidebars import redraw_sidebars, redraw_viewports
 from ..rsibr_addon.session.running import session
 from ..rsibr_addon.tasks.queue.background import State
 from ..rsibr_addon.tasks.queue.bake_request import ObjectBake, is_baked
+from ..rsibr_addon.tasks.queue.input_bakes import InputBake
 
 SECONDS = 0.2
 """Between two looks."""
@@ -32,6 +34,10 @@ def look() -> None:
     for bake in session().bakes.update():
         bake.tidy()
         _count_as_done_if_another_made_it(bake)
+        if isinstance(bake, InputBake):
+            session().previews.inputs.ended(bake.output, bake.message)
+            redraw_viewports()
+            continue
         if bake.state is not State.DONE:
             continue
         if bake.output.suffix == ".html":
@@ -52,7 +58,8 @@ def _look() -> float | None:
 
 def _count_as_done_if_another_made_it(bake: ObjectBake) -> None:
     """Count a bake as done whose file another Blender wrote while it was at work."""
-    if bake.state is State.FAILED and bake.output.suffix != ".html" and is_baked(bake.output):
+    is_there = is_whole if isinstance(bake, InputBake) else is_baked
+    if bake.state is State.FAILED and bake.output.suffix != ".html" and is_there(bake.output):
         bake.state, bake.message = State.DONE, ""
 
 

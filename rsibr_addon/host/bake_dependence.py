@@ -2,16 +2,18 @@
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import bpy
 import numpy as np
 
-from .materials import MATRIX_DIGITS, fingerprint, surface_output
+from ..core.materials.packing import Picture
+from .materials import MATRIX_DIGITS, fingerprint, node_fingerprint, surface_output
 from .mesh_arrays import read_property
 from .meshes import content_of, evaluated_mesh
 from .shape_dependence import outputs_behind
+from .surfaces import MixedValue, Origin, leaves, origins, surface_of
 
 VIEW_NODES = ("ShaderNodeCameraData", "ShaderNodeFresnel", "ShaderNodeLayerWeight", "ShaderNodeLightPath")
 VIEW_OUTPUTS = {
@@ -19,6 +21,9 @@ VIEW_OUTPUTS = {
     "ShaderNodeTexCoord": ("Camera", "Reflection", "Window"),
 }
 """Nodes, and outputs of others, that differ between views."""
+
+OBJECT_NODES = ("ShaderNodeAttribute", "ShaderNodeObjectInfo")
+"""Nodes that read what an object is: its name, by random numbers, its color, its properties."""
 
 PLACE_NODES = ("ShaderNodeObjectInfo", "ShaderNodeVectTransform")
 PLACE_OUTPUTS = {
@@ -46,32 +51,71 @@ def view_dependence(material: bpy.types.Material) -> str:
 
 
 def content_for_bakes(
-    item: bpy.types.Object, materials: dict[int, bpy.types.Material], depsgraph: bpy.types.Depsgraph
+    item: bpy.types.Object, wanted: Mapping[int, Sequence[Picture]], depsgraph: bpy.types.Depsgraph
 ) -> dict[str, Any]:
     """All of an object that a bake of its materials' inputs depends on, to be hashed.
 
     Parameters
     ----------
     item : bpy.types.Object
-    materials : dict of int to bpy.types.Material
-        Slot -> the material that is baked.
+    wanted : mapping of int to sequence of Picture
+        Slot -> what is baked of its material.
     depsgraph : bpy.types.Depsgraph
         Evaluated, and holding `item`.
 
     Returns
     -------
     dict
-        JSON values.
+        JSON values. An object's name and place are among them if its materials read them, so that copies of
+        others share their bake.
     """
-    moves = any(_nodes(material, PLACE_NODES, PLACE_OUTPUTS) for material in materials.values())
+    materials = {slot: item.material_slots[slot].material for slot in wanted}
+    reads_object = any(_nodes(material, OBJECT_NODES, {}) for material in materials.values())
+    reads_place = any(_nodes(material, PLACE_NODES, PLACE_OUTPUTS) for material in materials.values())
     return {
-        "materials": {slot: fingerprint(material) for slot, material in materials.items()},
+        "materials": {
+            slot: _inputs_content(material, [field for picture in wanted[slot] for field in picture])
+            for slot, material in materials.items()
+        },
         "mesh": _mesh_content(item, depsgraph),
-        "object": [item.name, item.pass_index, [round(number, 6) for number in item.color]],
-        "properties": {name: _plain(value) for name, value in item.items()},
-        "place": np.round(np.array(item.matrix_world), MATRIX_DIGITS).tolist() if moves else None,
+        "object": _object_content(item) if reads_object else None,
+        "place": np.round(np.array(item.matrix_world), MATRIX_DIGITS).tolist() if reads_place else None,
         "working_space": bpy.data.colorspace.working_space,
     }
+
+
+def _inputs_content(material: bpy.types.Material, fields: Sequence[str]) -> Any:
+    """All nodes that feed what is baked, and how: an edit of anything else needs no other bake.
+
+    Where a shader is in a group, that is the whole material.
+    """
+    surface = surface_of(material)
+    if any(leaf.groups for leaf in leaves(surface)):
+        return fingerprint(material)
+    found = origins(surface)
+    nodes: dict[str, Any] = {}
+    return {"fields": {field: _origin_content(found[field], nodes) for field in fields}, "nodes": nodes}
+
+
+def _origin_content(origin: Origin, nodes: dict[str, Any]) -> Any:
+    if isinstance(origin, MixedValue):
+        factor = _socket_content(origin.mixture.node.inputs[0], nodes)
+        return [factor, *(_origin_content(each, nodes) for each in (origin.first, origin.second))]
+    return _socket_content(origin.socket, nodes) if origin.name else origin.numbers
+
+
+def _socket_content(socket: bpy.types.NodeSocket, nodes: dict[str, Any]) -> Any:
+    """An input's value, or what it is linked from; the nodes behind it go to `nodes`."""
+    link = next((link for link in socket.links if link.is_valid and not link.is_muted), None)
+    if link is None:
+        value = getattr(socket, "default_value", None)
+        return value if value is None or isinstance(value, bool | int | float | str) else list(value)
+    node = link.from_node
+    if node.name not in nodes:
+        nodes[node.name] = None  # so that a ring of links ends
+        inputs = {each.identifier: _socket_content(each, nodes) for each in node.inputs if each.is_linked}
+        nodes[node.name] = [node_fingerprint(node), inputs]
+    return [node.name, link.from_socket.identifier]
 
 
 def _nodes(
@@ -98,6 +142,12 @@ def _mesh_content(item: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> str
             content.update(read_property(attribute.data, field, kind, width).data)
         content.update(json.dumps([layer.name for layer in mesh.uv_layers if layer.active_render]).encode())
     return content.hexdigest()
+
+
+def _object_content(item: bpy.types.Object) -> list[Any]:
+    color = [round(number, 6) for number in item.color]
+    properties = {name: _plain(value) for name, value in item.items()}
+    return [item.name, item.pass_index, color, properties]
 
 
 def _plain(value: Any) -> Any:

@@ -164,8 +164,8 @@ def baked_folder() -> Path:
     OutputFileError
         The folder cannot be made, or written to.
     """
-    addon = bpy.context.preferences.addons.get(EXTENSION)
-    wished = (addon and addon.preferences and addon.preferences.folder) or FOLDER
+    chosen = _preferences()
+    wished = (chosen and chosen.folder) or FOLDER
     known = bool(bpy.data.filepath) or not wished.startswith("//")
     folder = Path(bpy.path.abspath(wished)) if known else user_folder()
     try:
@@ -179,6 +179,24 @@ def baked_folder() -> Path:
             f"{folder} cannot be written to: choose another folder in the add-on's preferences."
         )
     return folder
+
+
+def chosen_inputs_settings() -> Any:
+    """What the user's preferences say of baked inputs; None before the extension is enabled in them."""
+    chosen = _preferences()
+    return chosen and chosen.inputs
+
+
+def bakes_inputs_by_itself() -> bool:
+    """Whether materials' inputs are baked without being asked for."""
+    chosen = _preferences()
+    return chosen is None or bool(chosen.bake_inputs)
+
+
+def _preferences() -> Any:
+    """`ui.preferences.RSIBR_AP_preferences`."""
+    addon = bpy.context.preferences.addons.get(EXTENSION)
+    return addon.preferences if addon else None
 
 
 def user_folder() -> Path:

@@ -91,13 +91,13 @@ def wanted_pictures(item: Any) -> dict[int, tuple[Picture, ...]]:
     -------
     dict of int to tuple of Picture
         Slot -> pictures. A material in several slots counts in the first of them; one that `principled`
-        refuses, in none.
+        refuses, or cannot follow to its end, in none.
     """
     wanted: dict[int, tuple[Picture, ...]] = {}
     materials = [slot.material for slot in item.material_slots]
     for slot, material in enumerate(materials):
         if material is not None and materials.index(material) == slot:
-            with suppress(SceneError):
+            with suppress(SceneError, RecursionError):
                 wanted[slot] = pictures_of(principled(material))
     return {slot: pictures for slot, pictures in wanted.items() if pictures}
 

@@ -7,13 +7,14 @@ from .live_panel import RSIBR_PT_live
 from .look_panel import RSIBR_PT_look
 from .map_set_panel import RSIBR_PT_map_set
 from .models import RSIBR_MT_live_models, RSIBR_MT_models
-from .preferences import RSIBR_AP_preferences
+from .preferences import INPUTS_GROUP, RSIBR_AP_preferences
 from .preview_panel import RSIBR_PT_preview
 from .result_panel import RSIBR_PT_result, RSIBR_PT_result_lobes, RSIBR_PT_result_maps
 
 CLASSES: tuple[type, ...] = (
     *bake_properties.CLASSES,
     *result_properties.CLASSES,
+    INPUTS_GROUP,
     RSIBR_AP_preferences,
     RSIBR_MT_models,
     RSIBR_MT_live_models,

@@ -2,7 +2,14 @@
 
 import bpy
 
+from ..core.options import declared_options
 from ..host.bake_settings import EXTENSION, FOLDER
+from ..host.option_properties import group_of, properties_of
+from ..settings.baked_inputs import BakedInputsSettings
+
+INPUTS_GROUP = group_of(
+    "RSIBR_PG_inputs", "How materials' inputs are baked.", properties_of(BakedInputsSettings)
+)
 
 
 class RSIBR_AP_preferences(bpy.types.AddonPreferences):
@@ -18,8 +25,18 @@ class RSIBR_AP_preferences(bpy.types.AddonPreferences):
         options={"PATH_SUPPORTS_BLEND_RELATIVE"},
         default=FOLDER,
     )
+    bake_inputs = bpy.props.BoolProperty(
+        name="Bake Materials by Itself",
+        description="Bake what no image says of previewed materials, such as procedural textures, in the "
+        "background, a second after the last edit",
+        default=True,
+    )
+    inputs = bpy.props.PointerProperty(type=INPUTS_GROUP)
 
     def draw(self, context: bpy.types.Context) -> None:
         """Show it."""
         self.layout.use_property_split = True
         self.layout.prop(self, "folder")
+        self.layout.prop(self, "bake_inputs")
+        for declared in declared_options(BakedInputsSettings):
+            self.layout.prop(self.inputs, declared.name)

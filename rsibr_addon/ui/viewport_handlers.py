@@ -10,6 +10,7 @@ from bpy.app.handlers import persistent
 
 from ..device.shaders import release_programs
 from ..host.materials import materials_changed
+from ..host.sidebars import redraw_viewports
 from ..host.visible_surfaces import current_view
 from ..session.running import Session, session
 
@@ -18,6 +19,9 @@ Result = TypeVar("Result")
 
 RETRY_SECONDS = 0.5
 """While a render goes on, no data may come and go for the display's table."""
+
+REST_SECONDS = 1.0
+"""After the last edit, until materials that were changed are baked."""
 
 NEWS_SECONDS = 0.03
 """How often to look whether a map set has been read, or a material been made."""
@@ -65,6 +69,8 @@ def _draw(running: Session) -> None:
         bpy.app.timers.register(_add_displays, first_interval=0.0)
     if _is_busy(running) and not bpy.app.timers.is_registered(_show_news):
         bpy.app.timers.register(_show_news, first_interval=NEWS_SECONDS)
+    if running.previews.inputs.is_unasked and not bpy.app.timers.is_registered(_ask_for_inputs):
+        bpy.app.timers.register(_ask_for_inputs, first_interval=0.0)
 
 
 @_guarded
@@ -92,10 +98,23 @@ def _is_busy(running: Session) -> bool:
 
 @_guarded
 def _draw_again(_: Session) -> None:
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
+    redraw_viewports()
+
+
+@_guarded
+def _ask_for_inputs(running: Session) -> None:
+    """After edits have rested: show what is baked of materials as they are now, or have it baked."""
+    windows = bpy.context.window_manager.windows
+    if running.previews.with_baked_inputs() and windows:
+        with bpy.context.temp_override(window=windows[0]):
+            bpy.ops.rsibr.bake_inputs(by_itself=True)
+        redraw_viewports()
+
+
+def _ask_soon() -> None:
+    if bpy.app.timers.is_registered(_ask_for_inputs):
+        bpy.app.timers.unregister(_ask_for_inputs)
+    bpy.app.timers.register(_ask_for_inputs, first_interval=REST_SECONDS)
 
 
 @_guarded
@@ -110,7 +129,9 @@ def _add_displays(running: Session) -> float | None:
 
 
 def _stop_timers() -> None:
-    for timer in filter(bpy.app.timers.is_registered, (_add_displays, _draw_again, _show_news)):
+    for timer in filter(
+        bpy.app.timers.is_registered, (_add_displays, _draw_again, _show_news, _ask_for_inputs)
+    ):
         bpy.app.timers.unregister(timer)
 
 
@@ -119,6 +140,8 @@ def _stop_timers() -> None:
 def _scene_changed(running: Session, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     if depsgraph.mode == "VIEWPORT":  # A render evaluates scenes too, in a thread of its own.
         running.previews.scene_changed(materials_changed(depsgraph))
+        if running.previews.with_baked_inputs():
+            _ask_soon()
 
 
 @persistent

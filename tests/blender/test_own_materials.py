@@ -2,8 +2,10 @@
 
 import re
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import fields
 from pathlib import Path
+from typing import Any
 
 import bpy
 import numpy as np
@@ -14,6 +16,7 @@ from rsibr.rsibr_addon.device.own_materials import MOST_TEXTURES, MOST_UV_MAPS
 from rsibr.rsibr_addon.host.principled import principled
 from rsibr.rsibr_addon.host.surfaces import INPUTS
 from rsibr.rsibr_addon.tasks.viewport import own_materials
+from rsibr.rsibr_addon.tasks.viewport.baked_inputs import InputBakes
 from rsibr.rsibr_addon.tasks.viewport.own_materials import Materials, ShownMaterials
 
 
@@ -24,11 +27,16 @@ def cube() -> bpy.types.Object:
     return bpy.data.objects["Cube"]
 
 
+def unbaked() -> Materials:
+    """Materials of which nothing is baked."""
+    return Materials(InputBakes(ThreadPoolExecutor(1)))
+
+
 def shown(item: bpy.types.Object, materials: Materials | None = None) -> ShownMaterials:
     """What an object shows, as the depsgraph has it."""
     bpy.context.view_layer.update()
     evaluated = item.evaluated_get(bpy.context.evaluated_depsgraph_get())
-    found = (materials or Materials()).of(evaluated)
+    found = (materials or unbaked()).of(evaluated)
     for slot in found.look.slots:
         values = [getattr(slot.inputs, field.name) for field in fields(slot.inputs)]
         assert not [value for value in values if isinstance(value, Baked)]
@@ -197,8 +205,8 @@ def long_chain(material: bpy.types.Material) -> None:
         (cycle_of_drivers, ""),
         (without_output, "Material Material has no surface"),
         (without_nodes, "Material Material has no surface"),
-        (noise, r"default for Base Color \(Noise Texture\) and Roughness \(Noise Texture\): bake"),
-        (baked_normal, r"default for Normal \(Bevel\): bake"),
+        (noise, r"default for Base Color \(Noise Texture\) and Roughness \(Noise Texture\)\."),
+        (baked_normal, r"default for Normal \(Bevel\)\."),
         (glass, "Material Material is shown without transmission."),
         (many_images, f"more than {MOST_TEXTURES} images"),
         (many_uv_maps, f"The materials of Cube use more than {MOST_UV_MAPS} UV maps"),
@@ -245,13 +253,13 @@ def test_a_material_is_read_once_until_it_may_have_changed(
 ) -> None:
     read: list[str] = []
 
-    def counted(material: bpy.types.Material) -> own_materials.ShownMaterial:
+    def counted(material: bpy.types.Material, *baked: Any) -> own_materials.ShownMaterial:
         read.append(material.name)
-        return original(material)
+        return original(material, *baked)
 
     original = own_materials.shown_material
     monkeypatch.setattr(own_materials, "shown_material", counted)
-    materials = Materials()
+    materials = unbaked()
     cube.data.materials.append(cube.active_material)
     first = shown(cube, materials)
     assert shown(cube, materials).look.slots == first.look.slots

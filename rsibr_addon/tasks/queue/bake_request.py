@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from ...core.errors import MapSetError, SceneError
 from ...core.options import declared_options, to_plain, value_text
@@ -131,6 +131,9 @@ class ObjectBake(Bake):
         self.reads.close()
 
 
+Made = TypeVar("Made", bound=ObjectBake)
+
+
 def request_for(chosen: Any, scene: Any, item: Any, kind: str = "") -> BakeRequest:
     """Read settings for an object.
 
@@ -246,7 +249,7 @@ def bake_of(request: BakeRequest, scene: Any, items: Sequence[Any], output: Path
     """
     shaded = items[0].name if len(items) == 1 else f"{len(items)} objects"
     title = f"{shaded}: {request.title}"
-    bake = _in_background(title, request.job(output), scene, items, output, request.needs_file)
+    bake = in_background(title, request.job(output), scene, items, output, request.needs_file, ObjectBake)
     bake.settings = request.shown
     return bake
 
@@ -272,7 +275,8 @@ def comparison_of(scene: Any, item: Any, map_set: Path) -> ObjectBake:
     job = CommandJob(
         ("compare", str(map_set), *views, *shown, *_named_model(item), "--output", str(folder), "--force")
     )
-    return _in_background(f"{item.name}: comparison", job, scene, [item], comparison_page(map_set), True)
+    page = comparison_page(map_set)
+    return in_background(f"{item.name}: comparison", job, scene, [item], page, True, ObjectBake)
 
 
 def shown_material(item: Any, map_set: Path) -> tuple[str, ...]:
@@ -319,14 +323,38 @@ def _named_model(item: Any) -> tuple[str, ...]:
     return tuple(text for flag, value in given if value is not None for text in (flag, value))
 
 
-def _in_background(
+def in_background(
     title: str,
     job: BakeJob[Any] | CommandJob,
     scene: Any,
     items: Sequence[Any],
     output: Path,
     needs_file: bool,
-) -> ObjectBake:
+    made: type[Made],
+) -> Made:
+    """Make everything ready for a job in a background Blender.
+
+    Parameters
+    ----------
+    title : str
+        What is made, for people.
+    job : BakeJob or CommandJob
+    scene : bpy.types.Scene
+    items : sequence of bpy.types.Object
+        What it is made for.
+    output : Path
+    needs_file : bool
+        Whether it needs the scene.
+    made : type
+        Of the bake that is returned.
+
+    Raises
+    ------
+    SceneError
+        This is no Blender that could be started again.
+    OutputFileError
+        The open file cannot be copied.
+    """
     program = blender_program()
     if not program:
         raise SceneError("There is no Blender to bake in: bake with the command rsibr instead.")
@@ -338,7 +366,7 @@ def _in_background(
         if opened is not None:
             save_copy(opened[0], scene)
         reads = stack.pop_all()
-    return ObjectBake(
+    return made(
         title=title,
         output=output,
         command=blender_command(program, EXTENSION, opened, path),

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from ...device.drawing import GpuMesh
 from ...host.textured_meshes import MeshNeeds
 from ...host.visible_surfaces import Layer, Surface, View, is_wanted, map_set_of, shown_layers, surfaces
+from .baked_inputs import InputBakes
 from .faults import Faults
 from .meshes import UploadedMeshes
 from .own_materials import Materials, ShownMaterials
@@ -73,12 +74,14 @@ class LayerContents:
     ----------
     shows_own : callable
         Whether a surface is to be drawn with its own materials.
+    inputs : InputBakes
+        What was baked of materials.
     """
 
-    def __init__(self, shows_own: Callable[[Surface], bool]) -> None:
+    def __init__(self, shows_own: Callable[[Surface], bool], inputs: InputBakes) -> None:
         self.layers: dict[Layer, Contents] = {}
         self.meshes = UploadedMeshes()
-        self._materials = Materials()
+        self._materials = Materials(inputs)
         self._shows_own = shows_own
 
     def scene_changed(self, materials: bool) -> None:
@@ -122,6 +125,6 @@ class LayerContents:
             materials = None
             if surface.path and self._shows_own(surface):
                 materials = self._materials.of(evaluated)
-            mesh = self.meshes.of(surface, evaluated, view.depsgraph, materials.needs if materials else None)
+            mesh = self.meshes.of(surface, evaluated, view.depsgraph, materials)
             if mesh is not None:
                 found.append(Drawable(surface, mesh, materials))

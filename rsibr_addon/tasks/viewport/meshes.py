@@ -4,9 +4,11 @@ from typing import Any
 
 from ...device.drawing import GpuMesh
 from ...device.textured_mesh import GpuTexturedMesh
+from ...host.baked_inputs import add_unwrapping
 from ...host.meshes import content_of, evaluated_mesh, triangle_mesh
 from ...host.textured_meshes import MeshNeeds, textured_content_of, textured_mesh
 from ...host.visible_surfaces import Surface
+from .own_materials import ShownMaterials
 
 Wanted = tuple[int, MeshNeeds | None]
 """The number of a mesh, and what materials need of it; None where it is drawn without its own."""
@@ -26,7 +28,9 @@ class UploadedMeshes:
     def __len__(self) -> int:
         return len(self._uploaded)
 
-    def of(self, surface: Surface, evaluated: Any, depsgraph: Any, needs: MeshNeeds | None) -> GpuMesh | None:
+    def of(
+        self, surface: Surface, evaluated: Any, depsgraph: Any, materials: ShownMaterials | None
+    ) -> GpuMesh | None:
         """What a surface is drawn with, uploaded from now on; None if it has no faces.
 
         Parameters
@@ -35,12 +39,15 @@ class UploadedMeshes:
         evaluated : bpy.types.Object
             As `host.visible_surfaces.surfaces` yields it with the surface.
         depsgraph : bpy.types.Depsgraph
-        needs : MeshNeeds or None
-            What its own materials need, if it is drawn with them.
+        materials : ShownMaterials or None
+            Its own, if it is drawn with them.
         """
+        needs = materials.needs if materials else None
         wanted = surface.mesh, needs
         if wanted not in self._contents:
             with evaluated_mesh(evaluated, depsgraph) as mesh:
+                if materials and materials.unwrapping:
+                    add_unwrapping(mesh, *materials.unwrapping)
                 content = textured_content_of(mesh, needs) if needs else content_of(mesh)
                 if content not in self._uploaded and mesh.polygons:
                     self._uploaded[content] = _uploaded(mesh, evaluated.name, needs)

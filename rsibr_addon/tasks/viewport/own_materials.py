@@ -1,20 +1,28 @@
 """Objects shaded with their own materials: what is drawn of each slot, and what is to be said of it."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from ...core.errors import SceneError
+from ...core.materials.packing import Picture, pictures_of, with_pictures
 from ...core.materials.principled import Baked, Bump, Input, NormalMap, PrincipledInputs, Texture
 from ...core.materials.stand_ins import BLACK, PLAIN, UNASSIGNED, readable, without_image
 from ...device.image_textures import ImageTextures
 from ...device.own_materials import MOST_TEXTURES, MOST_UV_MAPS, DrawnMaterial, OwnMaterials
 from ...device.textured_materials import textures_of
+from ...device.textures import GpuTexture
 from ...host.images import has_pixels, image_of
 from ...host.materials import surface_output
 from ...host.principled import principled
 from ...host.surfaces import INPUTS, NORMAL_INPUTS
 from ...host.textured_meshes import MeshNeeds
+from .baked_inputs import InputBakes, ShownInputs, Unwrapping
+
+BakedTextures = tuple[tuple[Picture, Texture], ...]
+"""What pictures hold."""
+
+NO_IMAGES: Mapping[Texture, GpuTexture] = {}
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,11 +36,14 @@ class ShownMaterial:
     drawn : DrawnMaterial
     messages : tuple of str
         What is not shown of it, and why.
+    has_baked : bool
+        Whether inputs of it have to be baked.
     """
 
     name: str
     drawn: DrawnMaterial
     messages: tuple[str, ...] = ()
+    has_baked: bool = False
 
     @property
     def textures(self) -> tuple[Texture, ...]:
@@ -59,18 +70,31 @@ class ShownMaterials:
         What they need of the object's mesh.
     messages : tuple of str
         What an artist should know of them.
+    unwrapping : Unwrapping or None
+        What the mesh gets beside its UV maps.
+    has_baked : bool
+        Whether inputs of theirs have to be baked.
     """
 
     look: OwnMaterials
     needs: MeshNeeds
     messages: tuple[str, ...]
+    unwrapping: Unwrapping | None
+    has_baked: bool
 
 
 class Materials:
-    """The materials of objects, each read once until it may have changed."""
+    """The materials of objects, each read once until it may have changed.
 
-    def __init__(self) -> None:
-        self._shown: dict[int, ShownMaterial] = {}
+    Parameters
+    ----------
+    inputs : InputBakes
+        What was baked of them.
+    """
+
+    def __init__(self, inputs: InputBakes) -> None:
+        self._inputs = inputs
+        self._shown: dict[tuple[int, BakedTextures], ShownMaterial] = {}
 
     def changed(self) -> None:
         """Read all materials anew when they are shown next."""
@@ -84,20 +108,30 @@ class Materials:
         evaluated : bpy.types.Object
             Evaluated, and so are its materials: values of drivers are theirs, and what geometry nodes set.
         """
-        shown = [self._of(slot.material) for slot in evaluated.material_slots] or [self._of(None)]
+        inputs = self._inputs.shown(evaluated.original, len(evaluated.data.loops))
+        materials = [slot.material for slot in evaluated.material_slots] or [None]
+        # A material in several slots is baked once, for the first of them
+        firsts = [materials.index(material) for material in materials]
+        shown = [
+            self._of(material, tuple(inputs.of_slots.get(first, ())), inputs)
+            for material, first in zip(materials, firsts, strict=True)
+        ]
+        has_baked = any(each.has_baked for each in shown)
+        if has_baked:
+            self._inputs.need(evaluated.original)
         needs = _needs(shown)
         messages = [message for each in shown for message in each.messages]
-        messages += _missing_maps(evaluated, shown, needs)
+        messages += _missing_maps(evaluated, shown, needs, inputs.unwrapping)
         look = OwnMaterials(tuple(each.drawn for each in shown))
-        return ShownMaterials(look, needs, tuple(dict.fromkeys(messages)))
+        return ShownMaterials(look, needs, tuple(dict.fromkeys(messages)), inputs.unwrapping, has_baked)
 
-    def _of(self, material: Any) -> ShownMaterial:
+    def _of(self, material: Any, textures: BakedTextures, inputs: ShownInputs) -> ShownMaterial:
         if material is None:
             return NO_MATERIAL
-        number = material.original.session_uid
-        if number not in self._shown:
-            self._shown[number] = shown_material(material)
-        return self._shown[number]
+        key = material.original.session_uid, textures
+        if key not in self._shown:
+            self._shown[key] = shown_material(material, textures, inputs.images)
+        return self._shown[key]
 
 
 NO_MATERIAL = ShownMaterial("", DrawnMaterial(UNASSIGNED))
@@ -106,12 +140,18 @@ LABELS = {**INPUTS, **NORMAL_INPUTS}
 """Field of `PrincipledInputs` -> input of Blender's node."""
 
 
-def shown_material(material: Any) -> ShownMaterial:
+def shown_material(
+    material: Any, textures: BakedTextures = (), baked: Mapping[Texture, GpuTexture] = NO_IMAGES
+) -> ShownMaterial:
     """Read a material.
 
     Parameters
     ----------
     material : bpy.types.Material
+    textures : BakedTextures
+        What was baked of it.
+    baked : mapping of Texture to GpuTexture
+        Their images, whole.
     """
     name = material.name
     try:
@@ -122,10 +162,11 @@ def shown_material(material: Any) -> ShownMaterial:
     except RecursionError:
         told = f"Material {name} has chains of nodes that are too long to follow: bake them to images."
         return ShownMaterial(name, DrawnMaterial(PLAIN), (told,))
+    has_baked = bool(pictures_of(inputs))
     reader = _Reader()
-    inputs = readable(inputs, reader.read)
-    drawn = DrawnMaterial(inputs, ImageTextures(textures_of(inputs), image_of))
-    return ShownMaterial(name, drawn, tuple(_messages(name, inputs, reader)))
+    inputs = readable(with_pictures(inputs, textures), reader.read)
+    drawn = DrawnMaterial(inputs, ImageTextures(textures_of(inputs), image_of, baked))
+    return ShownMaterial(name, drawn, tuple(_messages(name, inputs, reader)), has_baked)
 
 
 class _Reader:
@@ -133,13 +174,14 @@ class _Reader:
 
     Attributes
     ----------
-    unread : dict
-        Field of `PrincipledInputs` -> why it is not shown.
+    unbaked, unread : dict
+        Field of `PrincipledInputs` -> why it is not shown: not yet, or at all.
     lost : dict
         Names of images without pixels, as keys.
     """
 
     def __init__(self) -> None:
+        self.unbaked: dict[str, str] = {}
         self.unread: dict[str, str] = {}
         self.lost: dict[str, None] = {}
         self._textures: set[Texture] = set()
@@ -147,11 +189,11 @@ class _Reader:
     def read(self, field: str, value: Input | Baked) -> Input | None:
         """What is shown of an input; None for a stand-in."""
         if isinstance(value, Baked):
-            self.unread[field] = value.reason
+            self.unbaked[field] = value.reason
             return None
         if value.texture is None:
             return value
-        if not has_pixels(image_of(value.texture)):
+        if not value.texture.bake and not has_pixels(image_of(value.texture)):
             self.lost[value.texture.image] = None
             return without_image(value)
         if len(self._textures | {value.texture}) > MOST_TEXTURES:
@@ -163,12 +205,10 @@ class _Reader:
 
 def _messages(name: str, inputs: PrincipledInputs, reader: _Reader) -> list[str]:
     messages = []
-    if reader.unread:
-        told = [f"{LABELS[field]} ({reason})" for field, reason in reader.unread.items()]
-        messages.append(
-            f"Material {name} is shown with Blender's default for {_listed(told)}: "
-            f"bake what makes it to an image."
-        )
+    for begin, fields in (("Until it is baked, material", reader.unbaked), ("Material", reader.unread)):
+        if fields:
+            told = [f"{LABELS[field]} ({reason})" for field, reason in fields.items()]
+            messages.append(f"{begin} {name} is shown with Blender's default for {_listed(told)}.")
     if inputs.missing:
         messages.append(f"Material {name} is shown without {_listed(inputs.missing)}.")
     messages += [
@@ -190,9 +230,13 @@ def _needs(shown: list[ShownMaterial]) -> MeshNeeds:
     return MeshNeeds(tuple(names[:MOST_UV_MAPS]), tuple(each.tangent_map for each in shown))
 
 
-def _missing_maps(evaluated: Any, shown: list[ShownMaterial], needs: MeshNeeds) -> list[str]:
+def _missing_maps(
+    evaluated: Any, shown: list[ShownMaterial], needs: MeshNeeds, unwrapping: Unwrapping | None
+) -> list[str]:
     """What is to be said of UV maps that an object does not have, or that there is no room for."""
     there = {each.name for each in evaluated.data.uv_layers}
+    if unwrapping is not None:
+        there.add(unwrapping[0])
     messages = []
     for each in shown:
         asked = dict.fromkeys(

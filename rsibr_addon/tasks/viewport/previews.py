@@ -7,11 +7,13 @@ from typing import Any
 
 from ...device.drawing import Draw, GpuMesh
 from ...device.preview_stage import Difference, Stage, current_sight, draw_occluder, draw_scale_numbers
+from ...host.bake_settings import bakes_inputs_by_itself
 from ...host.live_light import is_readable, shows_surroundings
 from ...host.visible_surfaces import Side, Surface, View, map_set_of
 from ...host.world_light import AS_IT_IS
 from ..methods.kinds import KINDS
 from ..methods.live_materials import LiveFits
+from .baked_inputs import InputBakes
 from .blender_pictures import BlenderPictures
 from .contents import Contents, Drawable, LayerContents
 from .displays import Displays
@@ -57,6 +59,8 @@ class Previews:
 
     Attributes
     ----------
+    inputs : InputBakes
+        What was baked of materials.
     faults : Faults
         What went wrong. Call `draw`, `render_surroundings` and `add_display` within its `guarded`.
     """
@@ -69,7 +73,8 @@ class Previews:
     def release(self) -> None:
         """Let go of everything: the file is closed, or the extension leaves."""
         self._stage, self._other_stage = Stage(), Stage()
-        self._layers = LayerContents(self._shows_own)
+        self.inputs = InputBakes(self._reader)
+        self._layers = LayerContents(self._shows_own, self.inputs)
         self._displays = Displays()
         self._blender_pictures = BlenderPictures()
         self.reload()
@@ -106,11 +111,11 @@ class Previews:
     @property
     def is_busy(self) -> bool:
         """Whether a map set is on its way, so that `take_news` is to be asked."""
-        return self._map_sets.is_busy
+        return self._map_sets.is_busy or self.inputs.is_busy
 
     def take_news(self) -> bool:
         """Whether a redraw would show more than the last one."""
-        return self._map_sets.take_news()
+        return self._map_sets.take_news() or self.inputs.is_news
 
     def is_loading(self, item: Any) -> bool:
         """Whether an object's map set is on its way."""
@@ -122,8 +127,16 @@ class Previews:
         fault = self.faults.message(item)
         warnings = [*map_set.warnings, *self._looks.warnings(item, map_set)] if map_set and not fault else []
         shown = next((each for each in self._layers.previewed() if each.surface.item == item), None)
-        of_materials = shown.materials.messages if shown and shown.materials else ()
-        return [*filter(None, (fault, self.faults.trouble)), *warnings, *of_materials]
+        told = [*filter(None, (fault, self.faults.trouble)), *warnings]
+        if shown and shown.materials:
+            told += self.inputs.messages(item, bakes_inputs_by_itself()) if shown.materials.has_baked else []
+            told += shown.materials.messages
+        return told
+
+    def with_baked_inputs(self) -> list[Any]:
+        """The objects whose materials have inputs that have to be baked."""
+        shown = [each for each in self._layers.previewed() if each.materials and each.materials.has_baked]
+        return list({each.surface.item.session_uid: each.surface.item for each in shown}.values())
 
     def draw(self, view: View) -> bool:
         """Draw the previews of a view into the active frame buffer.
@@ -141,6 +154,8 @@ class Previews:
         if self.faults.trouble or not view.shaded:
             return True
         has_depth, sides = view.has_depth, view.sides
+        if self.inputs.upload():
+            self._layers.scene_changed(materials=False)
         contents = self._layers.layers.get(view.layer)
         if contents is None or not contents.serves(not has_depth):
             contents = self._collected(view)
@@ -255,6 +270,7 @@ class Previews:
         """What a view layer shows, looked at anew; what is used no more is let go."""
         contents = self._layers.collect(view, not view.has_depth, self.faults)
         surfaces = [each.surface for each in self._layers.previewed()]
+        self.inputs.keep({each.item.session_uid for each in surfaces})
         self._looks.keep({each.path for each in surfaces})
         self._map_sets.keep(surfaces)
         return contents

@@ -1,0 +1,217 @@
+"""The baked inputs that viewports show: read aside, uploaded piece by piece; old ones stay until then."""
+
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor, Future
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...core.conventions import Array
+from ...core.errors import RsibrError
+from ...core.half_floats import half_holds
+from ...core.materials.packing import Picture
+from ...core.materials.principled import Texture
+from ...device.textures import GpuTexture
+from ...files.baked_inputs import is_whole, read_baked_inputs, textures_of, unwrapping_name
+from .map_sets import PIECE_BYTES
+
+Unwrapping = tuple[str, Array]
+"""A UV map's name, and the places of all corners, shape (C, 2)."""
+
+
+@dataclass(frozen=True, eq=False)
+class ShownInputs:
+    """Baked inputs of an object.
+
+    Attributes
+    ----------
+    of_slots : mapping of int to sequence of (Picture, Texture)
+        Slot -> what its pictures hold.
+    images : mapping of Texture to GpuTexture
+    unwrapping : Unwrapping or None
+        Where the pictures lie, if that is no UV map of the object.
+    remarks : tuple of str
+        What an artist should know of them.
+    """
+
+    of_slots: Mapping[int, Sequence[tuple[Picture, Texture]]]
+    images: Mapping[Texture, GpuTexture]
+    unwrapping: Unwrapping | None = None
+    remarks: tuple[str, ...] = ()
+
+
+NOTHING = ShownInputs({}, {})
+
+
+def read_shown_inputs(path: Path) -> ShownInputs:
+    """Read a file, all of which but the upload is done then; in any thread.
+
+    Raises
+    ------
+    InputFileError, RangeError
+        As `read_baked_inputs`.
+    """
+    baked = read_baked_inputs(path)
+    of_slots = textures_of(path, baked)
+    images = {}
+    for slot, textures in of_slots.items():
+        for picture, texture in textures:
+            texels = np.pad(baked.pictures[slot, picture], ((0, 0), (0, 0), (0, 1)), constant_values=1.0)
+            name = f"bake of {' and '.join(picture)}"
+            images[texture] = GpuTexture(name, texels, "RGBA16F" if half_holds([texels]) else "RGBA32F")
+    unwrapping = None if baked.corners is None else (unwrapping_name(path), baked.corners)
+    return ShownInputs(of_slots, images, unwrapping, baked.remarks)
+
+
+@dataclass
+class _Wish:
+    """What an object should show.
+
+    Attributes
+    ----------
+    path : Path or None
+        The file that it needs as it is now; None where it needs none, or that is not known.
+    trouble : str
+        Why there will be none, in a sentence.
+    """
+
+    path: Path | None = None
+    trouble: str = ""
+
+
+@dataclass
+class InputBakes:
+    """Baked inputs, by object.
+
+    Attributes
+    ----------
+    reader : Executor
+        Reads files: see `read_shown_inputs`.
+    is_unasked : bool
+        Whether an object may need another file than it was said to.
+    """
+
+    reader: Executor
+    is_unasked: bool = False
+    _wishes: dict[int, _Wish] = field(default_factory=dict)
+    _shown: dict[int, tuple[Path, ShownInputs]] = field(default_factory=dict)
+    _coming: dict[Path, Future[ShownInputs]] = field(default_factory=dict)
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether a file is on its way, so that `is_news` is to be asked."""
+        return bool(self._coming)
+
+    @property
+    def is_news(self) -> bool:
+        """Whether a redraw would show more than the last one."""
+        return any(each.done() for each in self._coming.values())
+
+    def need(self, item: Any) -> None:
+        """Say that inputs of an object have to be baked: which is asked of it soon, if it was not."""
+        self.is_unasked |= item.session_uid not in self._wishes
+
+    def shown(self, item: Any, corners: int) -> ShownInputs:
+        """What an object shows: the newest file that is whole, if its mesh has as many corners still."""
+        _, inputs = self._shown.get(item.session_uid, (None, NOTHING))
+        if inputs.unwrapping is not None and len(inputs.unwrapping[1]) != corners:
+            return NOTHING
+        return inputs
+
+    def wish(self, item: Any, path: Path | None) -> bool:
+        """Have an object show a file; it is read if it is there.
+
+        Returns
+        -------
+        bool
+            Whether it is there, or not needed.
+        """
+        number = item.session_uid
+        wish = self._wishes.get(number)
+        if wish is None or wish.path != path:
+            self._wishes[number] = _Wish(path)
+        if path is None:
+            self._shown.pop(number, None)
+            return True
+        if self._shown.get(number, (None,))[0] == path or path in self._coming:
+            return True
+        if not is_whole(path):
+            return False
+        self._coming[path] = self.reader.submit(read_shown_inputs, path)
+        return True
+
+    def refuse(self, item: Any, trouble: str) -> None:
+        """Say why an object will have no bake as it is now; what it shows stays."""
+        wish = self._wishes.setdefault(item.session_uid, _Wish())
+        wish.trouble = trouble
+
+    def forgive(self, item: Any) -> None:
+        """Forget why an object had no bake: it is asked for again."""
+        self._wishes.pop(item.session_uid, None)
+
+    def is_refused(self, item: Any) -> bool:
+        """Whether the bake that an object needs cannot be had."""
+        wish = self._wishes.get(item.session_uid)
+        return wish is not None and bool(wish.trouble)
+
+    def ended(self, path: Path, trouble: str) -> None:
+        """A bake has ended; where it failed, `trouble` says why."""
+        for wish in self._wishes.values():
+            if trouble and wish.path == path:
+                wish.trouble = trouble
+        self.is_unasked = True
+
+    def upload(self) -> bool:
+        """Upload a piece of what was read.
+
+        Returns
+        -------
+        bool
+            Whether an object shows something new from now on.
+        """
+        left, changed = PIECE_BYTES, False
+        for path, read in list(self._coming.items()):
+            if not read.done():
+                continue
+            try:
+                inputs = read.result()
+                for image in inputs.images.values():
+                    if left > 0:
+                        left -= image.upload(left)
+            except (RsibrError, OSError) as error:
+                del self._coming[path]
+                self.ended(path, str(error))
+                continue
+            if all(image.is_whole for image in inputs.images.values()):
+                del self._coming[path]
+                users = [number for number, wish in self._wishes.items() if wish.path == path]
+                self._shown.update(dict.fromkeys(users, (path, inputs)))
+                changed |= bool(users)
+        return changed
+
+    def messages(self, item: Any, by_itself: bool) -> list[str]:
+        """What an artist should know of an object's baked inputs.
+
+        Parameters
+        ----------
+        item : bpy.types.Object
+        by_itself : bool
+            Whether what is missing is baked without being asked for.
+        """
+        wish, shown = self._wishes.get(item.session_uid), self._shown.get(item.session_uid)
+        remarks = list(shown[1].remarks) if shown else []
+        if wish is None or (wish.path is None and not wish.trouble):
+            return []
+        if wish.trouble:
+            return [wish.trouble, *remarks]
+        if shown and shown[0] == wish.path:
+            return remarks
+        what = "Material changed" if shown else "Materials need a bake"
+        return [f"{what}: baking." if by_itself else f"{what}: press Bake Materials.", *remarks]
+
+    def keep(self, items: set[int]) -> None:
+        """Forget all objects but these."""
+        self._wishes = {number: wish for number, wish in self._wishes.items() if number in items}
+        self._shown = {number: shown for number, shown in self._shown.items() if number in items}

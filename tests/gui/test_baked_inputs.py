@@ -1,0 +1,98 @@
+"""Procedural materials in Blender's window: baked in the background after edits, and shown from then on."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.command_line.main import run
+from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
+
+Told = Callable[[str], dict]
+
+
+@pytest.fixture(autouse=True)
+def _pyramid(job: Path) -> None:
+    light = str(job / "white.exr")
+    write_radiance(Path(light), np.ones((32, 64, 3), np.float32), force=True)
+    output = str(job / "pyramid.rsibr.exr")
+    assert run(["bake", "kernel-pyramid", "--environment", light, "--force", "-o", output]) == 0
+
+
+PRELUDE = """
+def glowing(cube):
+    # A cube whose right half glows, by a coordinate that no image says
+    bare(view())
+    view().spaces.active.region_3d.view_rotation = (0.7071068, 0.7071068, 0.0, 0.0)  # from the front
+    bpy.context.scene.view_settings.view_transform = "Standard"
+    material = cube.active_material
+    tree = material.node_tree
+    bsdf = tree.nodes["Principled BSDF"]
+    bsdf.inputs["Base Color"].default_value = (0, 0, 0, 1)
+    bsdf.inputs["Specular IOR Level"].default_value = 0.0
+    bsdf.inputs["Emission Strength"].default_value = 1.0
+    place, part, test = (tree.nodes.new("ShaderNode" + kind) for kind in ("TexCoord", "SeparateXYZ", "Math"))
+    test.operation, test.inputs[1].default_value = "GREATER_THAN", 0.0
+    tree.links.new(place.outputs["Object"], part.inputs[0])
+    tree.links.new(part.outputs["X"], test.inputs[0])
+    tree.links.new(test.outputs[0], bsdf.inputs["Emission Color"])
+    cube.rsibr.map_set = "/job/pyramid.rsibr.exr"
+    return test
+
+def halves():
+    # Mean brightness of the cube's halves
+    picture = pixels().mean(axis=2)
+    height, width = picture.shape
+    rows = slice(height // 2 - 20, height // 2 + 20)
+    middle, row = width // 2, picture[rows]
+    return [float(row[:, middle + low : middle + high].mean()) for low, high in ((-40, -10), (10, 40))]
+
+def settled(cube):
+    # Until what the cube needs is shown
+    inputs = session().previews.inputs
+    while True:
+        yield from drawn()
+        wish, shown = inputs._wishes.get(cube.session_uid), inputs._shown.get(cube.session_uid)
+        if wish and shown and wish.path == shown[0] and not session().bakes.busy:
+            return
+        assert not (wish and wish.trouble), wish.trouble
+"""
+
+EDITS = """
+def scenario(told):
+    cube = bpy.data.objects["Cube"]
+    test = glowing(cube)
+    if {bare}:
+        cube.data.uv_layers.remove(cube.data.uv_layers[0])
+    yield from drawn()
+    while not session().bakes.bakes:
+        yield
+    told["before"] = session().previews.messages(cube)
+    yield from settled(cube)
+    told["first"], told["messages"] = halves(), session().previews.messages(cube)
+    test.operation = "LESS_THAN"
+    while not session().bakes.busy:
+        yield
+    yield from drawn()
+    told["old"], told["changed"] = halves(), session().previews.messages(cube)
+    yield from settled(cube)
+    told["second"] = halves()
+    test.operation = "GREATER_THAN"  # which was baked before
+    bpy.ops.rsibr.bake_inputs()
+    yield from settled(cube)
+    told["again"], told["queued"] = halves(), len(session().bakes.bakes)
+"""
+
+
+@pytest.mark.parametrize("bare", [False, True])
+def test_what_is_procedural_is_baked_and_shown(told: Told, bare: bool) -> None:
+    answer = told(PRELUDE + EDITS.replace("{bare}", str(bare)))
+    (dark, bright), (second_bright, second_dark) = answer["first"], answer["second"]
+    assert dark < 5
+    assert bright > 250
+    assert second_dark < 5
+    assert second_bright > 250
+    assert answer["old"] == answer["first"] == answer["again"]
+    assert "Materials need a bake: baking." in answer["before"]
+    assert "Material changed: baking." in answer["changed"]
+    assert bool(answer["messages"]) == bare  # faces are baked one by one

@@ -6,12 +6,13 @@ from typing import Any
 
 import bpy
 
+from ..rsibr_addon.core.options import declared_options
 from ..rsibr_addon.core.progress import Steps, drain
 from ..rsibr_addon.host.map_sets import planned_path, written_path
 from ..rsibr_addon.host.option_properties import options_of, properties_of
 from ..rsibr_addon.tasks.export.engines.engines import ENGINES
 from ..rsibr_addon.tasks.export.engines.export import export_for_engine
-from ..rsibr_addon.tasks.export.engines.settings import CubeSettings
+from ..rsibr_addon.tasks.export.engines.settings import AnySettings
 from ..rsibr_addon.tasks.export.export import export
 from ..rsibr_addon.tasks.export.format import Format
 from ..rsibr_addon.tasks.export.formats import FORMATS
@@ -97,7 +98,9 @@ class _ExportForEngine(_Export):
 
     def exporting(self: Any, map_set: Path, output: Path, force: bool) -> Steps[list[Path]]:
         """See `export_for_engine`."""
-        return export_for_engine(map_set, output, self.engine, options_of(CubeSettings, self), force)
+        return export_for_engine(
+            map_set, output, self.engine, options_of(ENGINES[self.engine].settings, self), force
+        )
 
     def check(self: Any, context: bpy.types.Context) -> bool:
         """Have the name end as the engine wants it."""
@@ -111,7 +114,8 @@ class _ExportForEngine(_Export):
         self.layout.prop(self, "engine")
         for line in wrap(f"There, {ENGINES[self.engine].use}.", COLUMNS):
             self.layout.label(text=line)
-        self.layout.prop(self, "size")
+        for declared in declared_options(ENGINES[self.engine].settings):
+            self.layout.prop(self, declared.name)
 
 
 COLUMNS = 40
@@ -120,7 +124,7 @@ COLUMNS = 40
 EXPORT_FOR_ENGINE = type(
     "RSIBR_OT_export_for_engine",
     (_ExportForEngine, bpy.types.Operator),
-    {"__doc__": _ExportForEngine.__doc__, **properties_of(CubeSettings)},
+    {"__doc__": _ExportForEngine.__doc__, **properties_of(AnySettings)},
 )
 
 CLASSES = (*(_operator(name, exported) for name, exported in FORMATS.items()), EXPORT_FOR_ENGINE)

@@ -5,14 +5,13 @@ from pathlib import Path
 from typing import Any
 
 from ..tasks.export.engines.engines import ENGINES
-from ..tasks.export.engines.settings import CubeSettings
 from ..tasks.export.formats import FORMATS
 from . import options
 from .console import Console
 
 OWNERS = {
     **{name: each.settings for name, each in FORMATS.items()},
-    **dict.fromkeys(ENGINES, CubeSettings),
+    **{name: each.settings for name, each in ENGINES.items()},
 }
 """A format or an engine -> its options."""
 

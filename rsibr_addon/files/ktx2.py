@@ -1,20 +1,25 @@
-"""Textures for other programs: uncompressed KTX 2.0, as the Khronos Group specifies it.
+"""Textures for other programs: KTX 2.0, as the Khronos Group specifies it.
 
 A file holds a texture as graphics interfaces take it: a cube or an array of layers, with its mips. Rows come
 in the order of v, so that a lookup at our (u, v) finds the texel in every interface.
 """
 
 import struct
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from ..core.bc6h.encode import bc6h_blocks
 from ..core.conventions import Array
 from .atomic import written_aside
 from .textures import Texture
 
 IDENTIFIER = b"\xabKTX 20\xbb\r\n\x1a\n"
+
+RGBSDA, BC6H = 1, 133
+"""The data format's models of colour."""
 
 HALF, FLOAT = 97, 109
 """Vulkan's R16G16B16A16_SFLOAT and R32G32B32A32_SFLOAT: few programs read three channels."""
@@ -23,7 +28,42 @@ _HEADER = struct.Struct("<12s9I4I2Q")
 _LEVEL = struct.Struct("<3Q")
 
 
-def write_ktx2(path: str | Path, texture: Texture, notes: Mapping[str, str], force: bool = False) -> None:
+BC6H_UFLOAT, BC6H_SFLOAT = 143, 144
+"""Vulkan's BC6H_UFLOAT_BLOCK and BC6H_SFLOAT_BLOCK."""
+
+
+@dataclass(frozen=True)
+class _Texels:
+    """How texels are stored.
+
+    Attributes
+    ----------
+    number : int
+        Vulkan's, of the format.
+    unit : int
+        Bytes of a number that has an order of bytes.
+    size : int
+        Bytes of a texel, or of a block of them.
+    description : bytes
+        The data format descriptor.
+    encoded : callable
+        A level to its bytes.
+    """
+
+    number: int
+    unit: int
+    size: int
+    description: bytes
+    encoded: Callable[[Array], bytes]
+
+
+def write_ktx2(
+    path: str | Path,
+    texture: Texture,
+    notes: Mapping[str, str],
+    force: bool = False,
+    compressed: bool = False,
+) -> None:
     """Write a texture, as 16-bit floats where these can hold it, else as 32-bit floats; alpha is 1.
 
     Parameters
@@ -35,24 +75,25 @@ def write_ktx2(path: str | Path, texture: Texture, notes: Mapping[str, str], for
         Notes for readers, by their keys.
     force : bool
         Whether an existing file is replaced.
+    compressed : bool
+        Whether it is written as BC6H instead: see `core.bc6h.encode`. Nothing is beyond its `LARGEST` then.
 
     Raises
     ------
     OutputFileError
         See `written_aside`.
     """
-    half = texture.is_half
-    pixels = [_pixels(level, half) for level in texture.levels]
-    texel = 8 if half else 16
+    texels = _blocks(texture) if compressed else _floats(texture.is_half)
+    pixels = [texels.encoded(level) for level in texture.levels]
     layers, height, width = texture.levels[0].shape[:3]
     orientation = "rd" if texture.is_cube else "ru"
-    described = _description(half)
+    described = texels.description
     noted = _key_values({"KTXorientation": orientation, **notes})
     described_at = _HEADER.size + len(pixels) * _LEVEL.size
     noted_at = described_at + len(described)
     head = _HEADER.pack(
         IDENTIFIER,
-        *(HALF if half else FLOAT, texel // 4),
+        *(texels.number, texels.unit),
         *(width, height, 0),
         *((0, 6) if texture.is_cube else (layers, 1)),
         *(len(pixels), 0),
@@ -62,7 +103,7 @@ def write_ktx2(path: str | Path, texture: Texture, notes: Mapping[str, str], for
     # The smallest mip comes first, so that a reader can show something early
     places, end = [0] * len(pixels), noted_at + len(noted)
     for level in reversed(range(len(pixels))):
-        places[level] = -(-end // texel) * texel
+        places[level] = -(-end // texels.size) * texels.size
         end = places[level] + len(pixels[level])
     index = b"".join(
         _LEVEL.pack(place, len(level), len(level)) for place, level in zip(places, pixels, strict=True)
@@ -74,23 +115,46 @@ def write_ktx2(path: str | Path, texture: Texture, notes: Mapping[str, str], for
             file.write(mip)
 
 
-def _pixels(level: Array, half: bool) -> bytes:
-    texels = np.ones((*level.shape[:-1], 4), dtype="<f2" if half else "<f4")
-    texels[..., :3] = level
-    return texels.tobytes()
-
-
-def _description(half: bool) -> bytes:
-    """The data format descriptor: one basic block (Khronos Data Format 1.3, section 5)."""
+def _floats(half: bool) -> _Texels:
     bits, red_green_blue_alpha = 16 if half else 32, (0, 1, 2, 15)
-    linear_rec709, signed_float = bytes((1, 1, 1, 0)), 0xC0
-    samples = b"".join(
-        struct.pack("<HBBIff", position * bits, bits - 1, channel | signed_float, 0, -1.0, 1.0)
-        for position, channel in enumerate(red_green_blue_alpha)
-    )
-    planes = bytes((bits // 2, 0, 0, 0, 0, 0, 0, 0))
-    block = linear_rec709 + bytes(4) + planes + samples
-    return struct.pack("<IIHH", 12 + len(block), 0, 2, 8 + len(block)) + block
+    samples = [
+        (position * bits, bits, channel, True) for position, channel in enumerate(red_green_blue_alpha)
+    ]
+
+    def encoded(level: Array) -> bytes:
+        texels = np.ones((*level.shape[:-1], 4), dtype="<f2" if half else "<f4")
+        texels[..., :3] = level
+        return texels.tobytes()
+
+    described = _description(RGBSDA, (0, 0), bits // 2, samples)
+    return _Texels(HALF if half else FLOAT, bits // 8, bits // 2, described, encoded)
+
+
+def _blocks(texture: Texture) -> _Texels:
+    signed = any(bool((level < 0.0).any()) for level in texture.levels)
+    described = _description(BC6H, (3, 3), 16, [(0, 128, 0, signed)])
+
+    def encoded(level: Array) -> bytes:
+        return b"".join(bc6h_blocks(layer, signed).tobytes() for layer in level)
+
+    return _Texels(BC6H_SFLOAT if signed else BC6H_UFLOAT, 1, 16, described, encoded)
+
+
+def _description(
+    model: int, block: tuple[int, int], size: int, samples: Sequence[tuple[int, int, int, bool]]
+) -> bytes:
+    """The data format descriptor: one basic block (Khronos Data Format 1.3, section 5).
+
+    A sample has its first bit, its number of bits, its channel, and whether it has a sign.
+    """
+    linear_rec709 = bytes((model, 1, 1, 0))
+    described = linear_rec709 + bytes((*block, 0, 0)) + bytes((size, 0, 0, 0, 0, 0, 0, 0))
+    for start, bits, channel, signed in samples:
+        is_float = 0x80 | (0x40 if signed else 0)
+        described += struct.pack(
+            "<HBBIff", start, bits - 1, channel | is_float, 0, -1.0 if signed else 0.0, 1.0
+        )
+    return struct.pack("<IIHH", 12 + len(described), 0, 2, 8 + len(described)) + described
 
 
 def _key_values(notes: Mapping[str, str]) -> bytes:

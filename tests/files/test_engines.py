@@ -13,7 +13,7 @@ import OpenImageIO
 import pytest
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError, RsibrWarning
-from rsibr.rsibr_addon.core.filtering.irradiance import real_harmonics
+from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_from_harmonics, real_harmonics
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
 from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTables, Role
 from rsibr.rsibr_addon.core.progress import drain
@@ -25,7 +25,7 @@ from rsibr.rsibr_addon.files.radiance_hdr import write_hdr
 from rsibr.rsibr_addon.files.radiance_pictures import read_radiance, write_radiance
 from rsibr.rsibr_addon.tasks.export.engines.engines import ENGINES
 from rsibr.rsibr_addon.tasks.export.engines.export import export_for_engine
-from rsibr.rsibr_addon.tasks.export.engines.settings import CubeSettings
+from rsibr.rsibr_addon.tasks.export.engines.settings import AnySettings, CubeSettings
 from rsibr.tests.core.test_bc6h import decoded
 from rsibr.tests.engine_light import cube_directions, diffuse_truth, from_y_up, sky, sky_file, truth
 from rsibr.tests.files.test_export import read as read_ktx2
@@ -217,7 +217,7 @@ def test_what_an_engine_cannot_take_is_told(name: str, tmp_path: Path) -> None:
     small = getattr(engine, "least", 2) // 2
     told = rf"{engine.label} takes (cubes from {2 * small} texels on|the environment as it is: omit the size)"
     with pytest.raises(RangeError, match=told):
-        drain(export_for_engine(source, tmp_path / f"new{ending}", name, CubeSettings(size=small)))
+        drain(export_for_engine(source, tmp_path / f"new{ending}", name, engine.settings(size=small)))
     tables = tmp_path / "tables.rsibr.exr"
     maps = {role: np.ones((4, 8, 3), np.float32) for role in (Role.DIFFUSE, Role.SPECULAR)}
     held = ReflectionTables(maps, np.ones((len(Role), 3, 3), dtype=np.float32))
@@ -229,6 +229,70 @@ def test_what_an_engine_cannot_take_is_told(name: str, tmp_path: Path) -> None:
     ):
         drain(export_for_engine(tables, tmp_path / f"new{ending}", name))
     assert {path.name for path in tmp_path.iterdir()} == {"sky.exr", "tables.rsibr.exr"}
+
+
+ANY = [
+    (AnySettings(size=32, texels="half"), lambda d: from_y_up(d), [0.0, 0.5, 1.0]),
+    (
+        AnySettings(size=32, up="z", mirror="y", texels="half"),
+        lambda d: d * (1.0, -1.0, 1.0),
+        [0.0, 0.5, 1.0],
+    ),
+    (
+        AnySettings(size=32, mirror="z", rule="quadratic", last=4, texels="half"),
+        lambda d: from_y_up(d * (1.0, 1.0, -1.0)),
+        [1.0 - np.sqrt(1.0 - mip / 3) for mip in range(4)],
+    ),
+]
+
+
+@pytest.mark.parametrize(("settings", "world", "roughness"), ANY)
+def test_any_engine_takes_what_is_asked_for(
+    settings: AnySettings, world: Callable[[np.ndarray], np.ndarray], roughness: list[float], tmp_path: Path
+) -> None:
+    source = sky_file(tmp_path)
+    (ktx,) = drain(export_for_engine(source, tmp_path / "sky.ktx2", "any", settings))
+    (dds,) = drain(export_for_engine(source, tmp_path / "sky.dds", "any", settings))
+    texture = read_ktx2(ktx)
+    levels = [level[..., :3] for level in texture.levels]
+    # The first mip is the mean over its texels, which others are filtered without
+    check_cube(levels[1:], roughness[1:], world, HALF)
+    assert texture.note["roughness"] == pytest.approx(roughness)
+    normal = cube_directions(4)
+    shown = irradiance_from_harmonics(np.array(texture.note["harmonics"]), normal) / np.pi
+    wanted = diffuse_truth(world(normal))
+    assert np.abs(shown - wanted).max() < 0.06 * wanted.mean()
+    # The same texels, face by face
+    data, at = dds.read_bytes(), 148
+    assert struct.unpack_from("<I", data, 128) == (10,)
+    for face in range(6):
+        for level in texture.levels:
+            size = level.shape[1]
+            texels = np.frombuffer(data, "<f2", 4 * size**2, at).reshape(size, size, 4)
+            np.testing.assert_array_equal(texels, level[face])
+            at += 8 * size**2
+    assert at == len(data)
+
+
+def test_any_engine_takes_bc6h_in_either_format(tmp_path: Path) -> None:
+    settings, source = AnySettings(size=32, texels="bc6h"), sky_file(tmp_path)
+    (ktx,) = drain(export_for_engine(source, tmp_path / "sky.ktx2", "any", settings))
+    (dds,) = drain(export_for_engine(source, tmp_path / "sky.dds", "any", settings))
+    data, blocks = ktx.read_bytes(), dds.read_bytes()[148:]
+    number, unit, width, height, _, layers, faces, count, packing = struct.unpack_from("<9I", data, 12)
+    assert (number, unit, width, height, layers, faces, count, packing) == (143, 1, 32, 32, 0, 6, 3, 0)
+    described_at, described = struct.unpack_from("<2I", data, 48)
+    # Blocks of 4 x 4 texels in 16 bytes, one unsigned sample of 128 bits: Khronos Data Format 1.3
+    assert described == 44
+    assert data[described_at + 12 : described_at + 28] == bytes((133, 1, 1, 0, 3, 3, 0, 0, 16, *7 * (0,)))
+    assert struct.unpack_from("<HBBIff", data, described_at + 28) == (0, 127, 0x80, 0, 0.0, 1.0)
+    sizes = [16 * (8 >> mip) ** 2 for mip in range(3)]
+    for mip, size in enumerate(sizes):
+        place, length, _ = struct.unpack_from("<3Q", data, 80 + 24 * mip)
+        assert (place % 16, length) == (0, 6 * size)
+        for face in range(6):
+            at = face * sum(sizes) + sum(sizes[:mip])
+            assert data[place + face * size : place + (face + 1) * size] == blocks[at : at + size]
 
 
 def test_of_a_mip_chain_its_environment_is_filtered_again(tmp_path: Path) -> None:

@@ -3,11 +3,13 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from ....core.conventions import Array
 from ....core.warned import warn
+from .settings import CubeSettings
 
 Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 """Directions of glTF and of engines with Y up, from Blender's."""
@@ -33,6 +35,8 @@ class EngineLight:
         Radiance on the faces of `core.maps.cube_map`, in the axes of the engine's texture.
     diffuse : ndarray, shape (6, n, n, 3), float32, or None
         Irradiance over pi, likewise; None where the engine takes none.
+    roughness : tuple of float
+        Of each mip.
     harmonics : ndarray, shape (9, 3), float64
         Coefficients of radiance in the order of `core.filtering.irradiance.real_harmonics`, likewise.
     """
@@ -41,6 +45,7 @@ class EngineLight:
     software: str
     mips: tuple[Array, ...]
     diffuse: Array | None
+    roughness: tuple[float, ...]
     harmonics: Array
 
 
@@ -58,15 +63,22 @@ class Engine:
         The engine's own name.
     use : str
         What to do with the file there, as a phrase in one line.
+    settings : type
+        What can be chosen of it, derived from `CubeSettings`.
     """
 
     label: str
     use: str
+    settings: type[CubeSettings] = CubeSettings
 
     @property
     def endings(self) -> tuple[str, ...]:
         """Endings of its files' names, in small letters, the usual one first."""
         raise NotImplementedError
+
+    def chosen(self, settings: Any) -> "Engine":
+        """The preset with what was chosen of it besides a size."""
+        return self
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,6 +1,6 @@
 """The engines that light is written for."""
 
-from . import babylon, bevy, filament, gltf, panoramas, three
+from . import any_engine, babylon, bevy, filament, gltf, panoramas, three
 from .engine import Engine
 
 ENGINES: dict[str, Engine] = {
@@ -12,5 +12,6 @@ ENGINES: dict[str, Engine] = {
     "unity": panoramas.UNITY,
     "unreal": panoramas.UNREAL,
     "godot": panoramas.GODOT,
+    "any": any_engine.ENGINE,
 }
 """Name, a word, -> the engine."""

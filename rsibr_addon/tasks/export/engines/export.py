@@ -58,7 +58,8 @@ def export_for_engine(
     RsibrWarning
         Something is brighter than the engine's texels can be.
     """
-    engine = ENGINES[name]
+    asked = settings or ENGINES[name].settings()
+    engine = ENGINES[name].chosen(asked)
     if output.suffix.lower() not in engine.endings:
         known = " or ".join(engine.endings)
         raise OutputFileError(
@@ -67,7 +68,7 @@ def export_for_engine(
     yield Progress(0, 1, f"reading {source.name}")
     held = _read(source, engine)
     light = environment.from_map_set(source, held)
-    size = (settings or CubeSettings()).size
+    size = asked.size
     match engine:
         case CubeEngine():
             filtered = yield from _filtered(light, engine, size or _size_of(source, held))
@@ -97,7 +98,7 @@ def _filtered(light: Environment, engine: CubeEngine, size: int) -> Steps[Engine
         diffuse = _turned(next(ggx_mips(light.radiance, engine.diffuse, ROUGHEST)).faces, engine)
     harmonics = turned_harmonics(analyse_environment(light.radiance, 2).real(2), engine.axes)
     yield Progress(len(roughness) + 1, len(roughness) + 2, f"writing for {engine.label}")
-    return EngineLight(light.name, rsibr(), tuple(mips), diffuse, harmonics)
+    return EngineLight(light.name, rsibr(), tuple(mips), diffuse, roughness, harmonics)
 
 
 def _read(source: Path, engine: Engine) -> MapSet:

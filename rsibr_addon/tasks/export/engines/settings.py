@@ -2,8 +2,10 @@
 
 from dataclasses import dataclass
 
+from ....core.errors import RangeError
 from ....core.kinds.mip_chain.chain import LARGEST, check_size
-from ....core.options import Options, option
+from ....core.options import Choice, Options, option
+from ....files.textures import Up
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,3 +27,55 @@ class CubeSettings(Options):
         super().__post_init__()
         if self.size is not None:
             check_size(self.size, 1)
+
+
+@dataclass(frozen=True, kw_only=True)
+class AnySettings(CubeSettings):
+    """What an engine that has no preset wants."""
+
+    up: Up = option(
+        Up.Y,
+        label="Up",
+        help="Axis that points up where cubes are looked up",
+        choices={Up.Z: Choice("Z", "as in Blender"), Up.Y: Choice("Y", "as in glTF")},
+    )
+    mirror: str = option(
+        "none",
+        label="Mirror",
+        help="Axis that is turned over in lookups, after that",
+        choices={"none": Choice("None"), "x": Choice("X"), "y": Choice("Y"), "z": Choice("Z")},
+        metavar="AXIS",
+    )
+    rule: str = option(
+        "linear",
+        label="Rule",
+        help="How roughness grows from mip to mip",
+        choices={
+            "linear": Choice("Linear", "mip / last"),
+            "quadratic": Choice("Quadratic", "1 - sqrt(1 - mip / last)"),
+        },
+        metavar="RULE",
+    )
+    last: int = option(
+        8,
+        label="Last Mip",
+        help="Width of the last mip, of roughness 1, a power of 2",
+        unit="texels",
+        least=1,
+        most=LARGEST // 2,
+    )
+    texels: str = option(
+        "half",
+        label="Texels",
+        help="What holds a texel",
+        choices={
+            "half": Choice("Floats", "16 bits a channel, in KTX 2.0 32 where light needs them"),
+            "bc6h": Choice("BC6H", "compressed to a byte a texel"),
+        },
+        metavar="TEXELS",
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.last & (self.last - 1):
+            raise RangeError(f"A last mip cannot be {self.last} texels wide: choose a power of 2.")

@@ -161,8 +161,20 @@ def glass(material: bpy.types.Material) -> None:
     bsdf(material).inputs["Transmission Weight"].default_value = 1.0
 
 
+def sheen(material: bpy.types.Material) -> None:
+    bsdf(material).inputs["Sheen Weight"].default_value = 1.0
+    image_node(material, "Sheen Tint", picture())
+
+
+def bumped_coat(material: bpy.types.Material) -> None:
+    node = material.node_tree.nodes.new("ShaderNodeBump")
+    height = image_node(material, "Roughness", picture()).outputs[0]
+    material.node_tree.links.new(height, node.inputs["Height"])
+    material.node_tree.links.new(node.outputs[0], bsdf(material).inputs["Coat Normal"])
+
+
 def many_images(material: bpy.types.Material) -> None:
-    for number, name in enumerate(list(INPUTS.values())[: MOST_TEXTURES + 4]):
+    for number, name in enumerate(list(INPUTS.values())[: MOST_TEXTURES + 3]):
         image_node(material, name, picture(f"picture {number}"))
 
 
@@ -208,6 +220,8 @@ def long_chain(material: bpy.types.Material) -> None:
         (noise, r"default for Base Color \(Noise Texture\) and Roughness \(Noise Texture\)\."),
         (baked_normal, r"default for Normal \(Bevel\)\."),
         (glass, "Material Material is shown without transmission."),
+        (sheen, "Material Material is shown without sheen."),
+        (bumped_coat, r"default for Coat Normal \(a bump of its own\)"),
         (many_images, f"more than {MOST_TEXTURES} images"),
         (many_uv_maps, f"The materials of Cube use more than {MOST_UV_MAPS} UV maps"),
         (loop_of_links, None),
@@ -334,19 +348,24 @@ def test_a_mesh_is_asked_for_the_uv_maps_and_tangents_of_its_slots(cube: bpy.typ
         material.node_tree.links.new(node.outputs[0], bsdf(material).inputs["Normal"])
         if kind == "NormalMap":
             node.uv_map = "UVMap"
+    coated = mapped.copy()
+    tree = coated.node_tree
+    tree.links.new(tree.nodes["Normal Map"].outputs[0], bsdf(coated).inputs["Coat Normal"])
+    tree.links.remove(bsdf(coated).inputs["Normal"].links[0])
     cube.data.materials[0] = mapped
     cube.data.materials.append(bumped)
+    cube.data.materials.append(coated)
     found = shown(cube)
     assert isinstance(found.look.slots[0].inputs.normal, NormalMap)
     assert isinstance(found.look.slots[1].inputs.normal, Bump)
-    assert (found.needs.uv_maps, found.needs.tangents) == (("",), ("UVMap", None))
+    assert (found.needs.uv_maps, found.needs.tangents) == (("",), ("UVMap", None, "UVMap"))
 
 
 def test_textures_beyond_the_last_that_fits_are_the_only_ones_not_shown(cube: bpy.types.Object) -> None:
     many_images(cube.active_material)
     (slot,) = shown(cube).look.slots
     assert len(slot.textures) == MOST_TEXTURES
-    asked = list(INPUTS)[: MOST_TEXTURES + 4]
+    asked = list(INPUTS)[: MOST_TEXTURES + 3]
     textured = [name for name in asked if getattr(slot.inputs, name).texture]
     assert textured == asked[:MOST_TEXTURES]
     for name in asked[MOST_TEXTURES:]:

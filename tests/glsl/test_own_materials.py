@@ -8,6 +8,7 @@ import gpu
 import numpy as np
 import pytest
 from mathutils import Matrix
+from rsibr.rsibr_addon.device.kinds.kernel_pyramid import GpuPyramid
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.host.map_sets import use_map_set
 from rsibr.rsibr_addon.host.visible_surfaces import View
@@ -252,3 +253,16 @@ def test_an_object_without_faces_is_nothing(sheet: bpy.types.Object, draw: Draw,
     sheet.data.clear_geometry()
     previews.scene_changed()
     assert not draw().any()
+
+
+def test_the_look_says_whether_materials_are_antialiased(
+    sheet: bpy.types.Object, draw: Draw, previews: Previews, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    draw()
+    drawn: list[bool] = []
+    monkeypatch.setattr(GpuPyramid, "draw", lambda *given: drawn.append(given[-1].antialiased))
+    for antialiased in (True, False):
+        sheet.rsibr.kernel_pyramid.antialiased = antialiased
+        previews.scene_changed(materials=False)
+        draw()
+    assert drawn == [True, False]

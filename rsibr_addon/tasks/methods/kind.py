@@ -25,7 +25,7 @@ class Kind:
     live : bool
         Whether its looks are made while one looks.
     own : bool
-        Whether its look has `own`, which asks for an object's own materials.
+        Whether its look has `own`, which asks for an object's own materials, and `antialiased`.
     menu : str
         A menu of Blender that its preview offers beside its look; empty for none.
     """

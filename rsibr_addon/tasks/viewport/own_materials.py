@@ -1,7 +1,7 @@
 """Objects shaded with their own materials: what is drawn of each slot, and what is to be said of it."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from ...core.errors import SceneError
@@ -52,11 +52,10 @@ class ShownMaterial:
 
     @property
     def tangent_map(self) -> str | None:
-        """The UV map of its normal map's tangents; None where it has no normal map."""
-        normal = self.drawn.inputs.normal
-        if isinstance(normal, Bump):
-            normal = normal.normal
-        return normal.uv_map if isinstance(normal, NormalMap) else None
+        """The UV map of its normal map's tangents, or of its coat's; None where it has no normal map."""
+        both = self.drawn.inputs.normal, self.drawn.inputs.coat_normal
+        normals = [each.normal if isinstance(each, Bump) else each for each in both]
+        return next((each.uv_map for each in normals if isinstance(each, NormalMap)), None)
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,6 +135,9 @@ class Materials:
 
 NO_MATERIAL = ShownMaterial("", DrawnMaterial(UNASSIGNED))
 
+NOT_SHOWN = {name: getattr(PLAIN, name) for name in ("sheen_weight", "sheen_roughness", "sheen_tint")}
+"""Inputs that no shader takes; `PrincipledInputs.missing` tells of them."""
+
 LABELS = {**INPUTS, **NORMAL_INPUTS}
 """Field of `PrincipledInputs` -> input of Blender's node."""
 
@@ -162,9 +164,12 @@ def shown_material(
     except RecursionError:
         told = f"Material {name} has chains of nodes that are too long to follow: bake them to images."
         return ShownMaterial(name, DrawnMaterial(PLAIN), (told,))
+    inputs = replace(inputs, **NOT_SHOWN)
     has_baked = bool(pictures_of(inputs))
     reader = _Reader()
     inputs = readable(with_pictures(inputs, textures), reader.read)
+    if isinstance(inputs.coat_normal, Bump) and inputs.coat_normal != inputs.normal:
+        reader.unread["coat_normal"] = "a bump of its own"
     drawn = DrawnMaterial(inputs, ImageTextures(textures_of(inputs), image_of, baked))
     return ShownMaterial(name, drawn, tuple(_messages(name, inputs, reader)), has_baked)
 

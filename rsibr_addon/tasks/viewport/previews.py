@@ -1,7 +1,7 @@
 """The previews of a running Blender: what shades which object, uploaded once and drawn every frame."""
 
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
 
@@ -316,7 +316,11 @@ class Previews:
             return {}
         if not (KINDS[map_set.kind].own and drawable.materials):
             return looks
-        return {other: drawable.materials.look if look.own else look for other, look in looks.items()}
+        own = drawable.materials.look
+        return {
+            other: replace(own, antialiased=look.antialiased) if look.own else look
+            for other, look in looks.items()
+        }
 
     def _set(
         self, stage: Stage, behind: list[tuple[GpuMesh, Draw]], group: list[_Shown], other: bool

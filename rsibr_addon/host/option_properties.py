@@ -214,7 +214,7 @@ def _property(declared: Declared, common: dict[str, Any], by_text: bool) -> Any:
         return bpy.props.BoolProperty(default=default, **common)
     if declared.wanted is str or _is_list(declared):
         return bpy.props.StringProperty(default=default, subtype=told.subtype or "NONE", **common)
-    least = 0.0 if told.none_as == 0 else told.least
+    least = min(told.least, 0.0) if told.none_as in (0.0, (0.0, 0.0, 0.0)) else told.least
     if int in (declared.wanted, declared.members):
         low, high = max(least, -LARGEST), min(told.most, LARGEST)
         soft = {} if told.soft_most is None else {"soft_max": int(told.soft_most)}

@@ -89,6 +89,13 @@ def test_a_ball(folder: Path) -> None:
     expected = by_command("ball", "a.exr", "--circle", "101,88,80", "--distance", 5, "--size", 32)
     given = {"filepath": str(folder / "a.exr"), "size": 32, "circle": (101.0, 88.0, 80.0)}
     assert by_operator("unwrap_ball", **given, distance=5.0) == expected
+    scaled = ["--circle", "101,88,80", "--size", 32, "--exposure", 1.5, "--white-balance", "0.5,0.25,0.25"]
+    expected = by_command("ball", "a.exr", *scaled, "--reflectance", 0.5)
+    given |= {"use_exposure": True, "exposure": 1.5, "white_balance": (0.5, 0.25, 0.25)}
+    assert by_operator("unwrap_ball", **given, reflectance=(0.5, 0.5, 0.5)) == expected
+    expected = by_command("ball", "a.exr", "--circle", "101,88,80", "--size", 32, "--card", "12,15,8")
+    given |= {"use_exposure": False, "white_balance": (0.0, 0.0, 0.0)}
+    assert by_operator("unwrap_ball", **given, card=(12.0, 15.0, 8.0)) == expected
 
 
 def test_a_ball_from_two_sides(folder: Path) -> None:

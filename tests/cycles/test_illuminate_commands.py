@@ -47,6 +47,18 @@ def test_a_scene_from_an_object_a_point_or_the_cursor(illuminate: Command) -> No
 def test_a_world(illuminate: Command) -> None:
     illuminate("world", "studio.blend", "--size", "16", "-o", "world.exr")
     np.testing.assert_allclose(read_radiance("world.exr"), 0.05087609, rtol=1e-5)
+    scale = illuminate("world", "studio.blend", "--size", "16", "--exposure", "-1", "-o", "dark.exr")["scale"]
+    assert scale == "Scaled by 0.5 0.5 0.5: 1 stops darker."
+    np.testing.assert_array_equal(read_radiance("dark.exr"), 0.5 * read_radiance("world.exr"))
+    illuminate("world", "studio.blend", "--size", "16", "--card", "8,4,2", "-o", "card.exr")
+    np.testing.assert_allclose(read_radiance("card.exr"), 0.18, rtol=1e-5)
+
+
+def test_a_scene_is_scaled_too(illuminate: Command) -> None:
+    given = ("scene", "studio.blend", "--object", "Cube", *SMALL)
+    illuminate(*given, "-o", "plain.exr")
+    illuminate(*given, "--exposure", "2", "-o", "bright.exr")
+    np.testing.assert_array_equal(read_radiance("bright.exr"), 4.0 * read_radiance("plain.exr"))
 
 
 @pytest.mark.parametrize(

@@ -45,7 +45,7 @@ def write_scaled(
     output : Path
         OpenEXR or Radiance HDR, which states the scale.
     radiance : ndarray, shape (height, width, 3)
-        What is found the brightness of is a latitude-longitude map.
+        A latitude-longitude map, where neither an exposure nor a card is given.
     settings : UnknownScale or KnownScale
     force : bool
     card : ndarray, shape (3,), optional

@@ -9,6 +9,8 @@ from typing import Any
 from ...core.environment import Environment
 from ...core.kinds.kernel_pyramid.look import PrincipledLook
 from ...core.kinds.kernel_pyramid.pyramid import Pyramid
+from ...core.kinds.principled_material import PrincipledMaterial
+from ...core.options import declared_options
 from ...core.progress import Steps
 from ...device.kinds.kernel_pyramid import GpuPyramid
 from ...files.kinds.kernel_pyramid import shipped_families
@@ -67,7 +69,8 @@ def draw(
     mesh, cameras = load_mesh(settings.mesh), cameras_of(settings)
     rings = settings.rings or _rings(settings)
     references = yield from exact_pictures(model, environment, cameras, mesh, settings.size, rings)
-    ours, look = GpuPyramid(pyramid, shipped_families()), settings.surface
+    inputs = {each.name: getattr(settings, each.name) for each in declared_options(PrincipledMaterial)}
+    ours, look = GpuPyramid(pyramid, shipped_families()), PrincipledLook(own=False, **inputs)
     drawn = [picture(ours, look, mesh, camera, settings.size) for camera in cameras]
     way = PyramidWay(settings.text)
     return Drawn(
@@ -89,7 +92,7 @@ def _rings(settings: PyramidComparison) -> int:
 
 
 def _is_look(way: PyramidWay, look: PrincipledLook) -> bool:
-    return not look.own and way.material == look.text
+    return not look.own and look.antialiased and way.material == look.text
 
 
 def _table(comparisons: Sequence[Comparison]) -> str:

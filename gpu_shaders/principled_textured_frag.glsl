@@ -190,10 +190,12 @@ void main()
   float spread = antialiased * (pixel_spread(dFdx(seen.normal), dFdy(seen.normal)) + map_spread());
   float coat_spread = antialiased * pixel_spread(dFdx(seen_coat.normal), dFdy(seen_coat.normal));
   float alpha = clamp(numbers[ALPHA], 0.0, 1.0);
+#ifdef TRANSLUCENT
   // Behind all that needs neighbours
   if (alpha < LEAST_ALPHA) {
     discard;
   }
+#endif
   Surface surface = Surface(color_of(BASE_COLOR),
                             numbers[METALLIC],
                             widened_roughness(clamp(numbers[ROUGHNESS], 0.0, 1.0), spread),

@@ -56,9 +56,15 @@ principled_shader = mesh_program(
 
 
 @kept_until_exit
-def textured_shader() -> gpu.types.GPUShader:
-    """Draws triangles of a material whose inputs are textures."""
-    return textured_program("principled_textured", SAMPLERS)
+def opaque_shader() -> gpu.types.GPUShader:
+    """Draws triangles of an opaque material whose inputs are textures."""
+    return textured_program("principled_textured", SAMPLERS, translucent=False)
+
+
+@kept_until_exit
+def translucent_shader() -> gpu.types.GPUShader:
+    """The same of a material that covers in part, or has holes."""
+    return textured_program("principled_textured", SAMPLERS, translucent=True)
 
 
 class GpuPyramid:
@@ -117,15 +123,32 @@ class GpuPyramid:
             raise ShapeError(
                 "A mesh without material slots has no materials of its own: choose one material."
             )
-        shader = textured_shader()
+        opaque = [slot for slot, material in enumerate(look.slots) if material.is_opaque]
+        others = [slot for slot, material in enumerate(look.slots) if not material.is_opaque]
+        blending = gpu.state.blend_get()
+        try:
+            if opaque:
+                gpu.state.blend_set("NONE")
+                self._draw_with(opaque_shader(), opaque, mesh, draw, look)
+            if others:
+                gpu.state.blend_set("ALPHA_PREMULT")
+                self._draw_with(translucent_shader(), others, mesh, draw, look)
+        finally:
+            gpu.state.blend_set(blending)
+
+    def _draw_with(
+        self,
+        shader: gpu.types.GPUShader,
+        slots: list[int],
+        mesh: GpuTexturedMesh,
+        draw: Draw,
+        look: OwnMaterials,
+    ) -> None:
         shader.bind()
         self._light(shader)
-        blending = gpu.state.blend_get()
-        for slot, material in sorted(enumerate(look.slots), key=lambda each: not each[1].is_opaque):
-            gpu.state.blend_set("NONE" if material.is_opaque else "ALPHA_PREMULT")
-            self._materials.bind(shader, material, mesh.uv_maps, look.antialiased)
+        for slot in slots:
+            self._materials.bind(shader, look.slots[slot], mesh.uv_maps, look.antialiased)
             mesh.draw_slot(shader, draw, slot, last=slot == len(look.slots) - 1)
-        gpu.state.blend_set(blending)
 
     def _light(self, shader: gpu.types.GPUShader) -> None:
         for name, texture in zip(SAMPLERS, self.textures, strict=True):

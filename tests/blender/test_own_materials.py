@@ -37,7 +37,7 @@ def shown(item: bpy.types.Object, materials: Materials | None = None) -> ShownMa
     bpy.context.view_layer.update()
     evaluated = item.evaluated_get(bpy.context.evaluated_depsgraph_get())
     found = (materials or unbaked()).of(evaluated)
-    for slot in found.look.slots:
+    for slot in found.slots:
         values = [getattr(slot.inputs, field.name) for field in fields(slot.inputs)]
         assert not [value for value in values if isinstance(value, Baked)]
     return found
@@ -242,14 +242,14 @@ def test_what_cannot_be_shown_is_said(
 
 def test_an_image_is_found_through_groups(cube: bpy.types.Object) -> None:
     nested_groups(cube.active_material)
-    (slot,) = shown(cube).look.slots
+    (slot,) = shown(cube).slots
     assert [texture.image for texture in slot.textures] == ["picture"]
 
 
 def test_a_missing_image_is_pink_also_through_nodes(cube: bpy.types.Object) -> None:
     material = cube.active_material
     missing_file(material)
-    (slot,) = shown(cube).look.slots
+    (slot,) = shown(cube).slots
     assert slot.inputs.base_color == constant((1.0, 0.0, 1.0))
     assert not slot.textures
 
@@ -257,9 +257,9 @@ def test_a_missing_image_is_pink_also_through_nodes(cube: bpy.types.Object) -> N
 def test_a_material_without_surface_is_black_and_no_material_is_grey(cube: bpy.types.Object) -> None:
     without_output(cube.active_material)
     cube.data.materials.append(None)
-    assert [slot.inputs for slot in shown(cube).look.slots] == [BLACK, UNASSIGNED]
+    assert [slot.inputs for slot in shown(cube).slots] == [BLACK, UNASSIGNED]
     cube.data.materials.clear()
-    assert [slot.inputs for slot in shown(cube).look.slots] == [UNASSIGNED]
+    assert [slot.inputs for slot in shown(cube).slots] == [UNASSIGNED]
 
 
 def test_a_material_is_read_once_until_it_may_have_changed(
@@ -276,10 +276,10 @@ def test_a_material_is_read_once_until_it_may_have_changed(
     materials = unbaked()
     cube.data.materials.append(cube.active_material)
     first = shown(cube, materials)
-    assert shown(cube, materials).look.slots == first.look.slots
+    assert shown(cube, materials).slots == first.slots
     assert read == ["Material"]
     materials.changed()
-    assert shown(cube, materials).look.slots != first.look.slots
+    assert shown(cube, materials).slots != first.slots
     assert read == ["Material"] * 2
 
 
@@ -292,7 +292,7 @@ def test_drivers_and_keys_are_followed_by_frame(cube: bpy.types.Object) -> None:
     seen = []
     for frame in (20, 101):
         bpy.context.scene.frame_set(frame)
-        inputs = shown(cube).look.slots[0].inputs
+        inputs = shown(cube).slots[0].inputs
         seen.append((inputs.roughness.constant[0], inputs.metallic.constant[0]))
     assert seen[0][0] == pytest.approx(0.2)
     assert 0.0 < seen[0][1] < 1.0
@@ -313,9 +313,9 @@ def test_materials_that_geometry_nodes_and_objects_set_are_the_ones(cube: bpy.ty
     setting.inputs["Material"].default_value = by_nodes
     tree.links.new(begin.outputs[0], setting.inputs[0])
     tree.links.new(setting.outputs[0], end.inputs[0])
-    assert [slot.inputs.roughness.constant[0] for slot in shown(cube).look.slots] == [0.25]
+    assert [slot.inputs.roughness.constant[0] for slot in shown(cube).slots] == [0.25]
     cube.modifiers.new("set", "NODES").node_group = tree
-    assert [slot.inputs.roughness.constant[0] for slot in shown(cube).look.slots] == [0.25, 0.125]
+    assert [slot.inputs.roughness.constant[0] for slot in shown(cube).slots] == [0.25, 0.125]
 
 
 def test_linked_and_overridden_materials_and_images_are_read(cube: bpy.types.Object, tmp_path: Path) -> None:
@@ -334,7 +334,7 @@ def test_linked_and_overridden_materials_and_images_are_read(cube: bpy.types.Obj
     cube.data.materials[0] = linked
     for _ in range(2):
         found = shown(cube)
-        (texture,) = found.look.slots[0].textures
+        (texture,) = found.slots[0].textures
         assert (texture.image, texture.library, found.messages) == ("of the library", path, ())
         cube.data.materials[0] = linked.override_create()
 
@@ -356,14 +356,14 @@ def test_a_mesh_is_asked_for_the_uv_maps_and_tangents_of_its_slots(cube: bpy.typ
     cube.data.materials.append(bumped)
     cube.data.materials.append(coated)
     found = shown(cube)
-    assert isinstance(found.look.slots[0].inputs.normal, NormalMap)
-    assert isinstance(found.look.slots[1].inputs.normal, Bump)
+    assert isinstance(found.slots[0].inputs.normal, NormalMap)
+    assert isinstance(found.slots[1].inputs.normal, Bump)
     assert (found.needs.uv_maps, found.needs.tangents) == (("",), ("UVMap", None, "UVMap"))
 
 
 def test_textures_beyond_the_last_that_fits_are_the_only_ones_not_shown(cube: bpy.types.Object) -> None:
     many_images(cube.active_material)
-    (slot,) = shown(cube).look.slots
+    (slot,) = shown(cube).slots
     assert len(slot.textures) == MOST_TEXTURES
     asked = list(INPUTS)[: MOST_TEXTURES + 3]
     textured = [name for name in asked if getattr(slot.inputs, name).texture]

@@ -233,6 +233,58 @@ def test_an_instance_has_the_materials_of_its_object(
     check(draw(), GREEN, RED)
 
 
+def test_edit_mode_shows_the_materials_of_what_is_edited(
+    sheet: bpy.types.Object, draw: Draw, view: View
+) -> None:
+    textured(bpy.data.materials["first"], "UVMap")
+    sheet.data.materials[1] = bpy.data.materials["first"]
+    bpy.context.view_layer.objects.active = sheet
+    bpy.ops.object.mode_set(mode="EDIT")
+    check(draw(), RED, GREEN)
+
+
+def test_what_is_no_mesh_has_its_materials_too(
+    sheet: bpy.types.Object, draw: Draw, view: View, previews: Previews, paths: dict[str, str]
+) -> None:
+    bpy.data.objects.remove(sheet)
+    curve = bpy.data.curves.new("filled", "CURVE")
+    curve.dimensions, curve.fill_mode = "2D", "BOTH"
+    line = curve.splines.new("POLY")
+    line.points.add(3)
+    for point, (x, y) in zip(line.points, ((-2, -2), (2, -2), (2, 2), (-2, 2)), strict=True):
+        point.co = (x, y, 0.0, 1.0)
+    line.use_cyclic_u = True
+    curve.materials.append(bpy.data.materials["second"])
+    item = bpy.data.objects.new("filled", curve)
+    view.scene.collection.objects.link(item)
+    item.rsibr.show = True
+    use_map_set(item.rsibr, paths["kernel_pyramid"])
+    previews.scene_changed()
+    check(draw(), GREEN, GREEN)
+
+
+def test_geometry_that_nodes_make_has_the_materials_that_they_set(
+    sheet: bpy.types.Object, draw: Draw, previews: Previews
+) -> None:
+    tree = bpy.data.node_groups.new("grid", "GeometryNodeTree")
+    tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
+    grid, end = tree.nodes.new("GeometryNodeMeshGrid"), tree.nodes.new("NodeGroupOutput")
+    setting, instances = (
+        tree.nodes.new(f"GeometryNode{name}") for name in ("SetMaterial", "GeometryToInstance")
+    )
+    grid.inputs["Size X"].default_value = grid.inputs["Size Y"].default_value = 4.0
+    setting.inputs["Material"].default_value = emitter("third", BLUE)
+    tree.links.new(grid.outputs[0], setting.inputs[0])
+    tree.links.new(setting.outputs[0], instances.inputs[0])
+    tree.links.new(setting.outputs[0], end.inputs[0])
+    sheet.modifiers.new("grid", "NODES").node_group = tree
+    previews.scene_changed()
+    check(draw(), BLUE, BLUE)
+    tree.links.new(instances.outputs[0], end.inputs[0])
+    previews.scene_changed()
+    check(draw(), BLUE, BLUE)
+
+
 def test_steady_frames_and_moved_objects_read_no_material(
     sheet: bpy.types.Object, draw: Draw, previews: Previews, monkeypatch: pytest.MonkeyPatch
 ) -> None:

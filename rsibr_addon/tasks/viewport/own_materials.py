@@ -9,7 +9,7 @@ from ...core.materials.packing import Picture, pictures_of, with_pictures
 from ...core.materials.principled import Baked, Bump, Input, NormalMap, PrincipledInputs, Texture
 from ...core.materials.stand_ins import BLACK, PLAIN, UNASSIGNED, readable, without_image
 from ...device.image_textures import ImageTextures
-from ...device.own_materials import MOST_TEXTURES, MOST_UV_MAPS, DrawnMaterial, OwnMaterials
+from ...device.own_materials import MOST_TEXTURES, MOST_UV_MAPS, DrawnMaterial
 from ...device.textured_materials import textures_of
 from ...device.textures import GpuTexture
 from ...host.images import has_pixels, image_of
@@ -64,7 +64,8 @@ class ShownMaterials:
 
     Attributes
     ----------
-    look : OwnMaterials
+    slots : tuple of DrawnMaterial
+        At least one.
     needs : MeshNeeds
         What they need of the object's mesh.
     messages : tuple of str
@@ -75,7 +76,7 @@ class ShownMaterials:
         Whether inputs of theirs have to be baked.
     """
 
-    look: OwnMaterials
+    slots: tuple[DrawnMaterial, ...]
     needs: MeshNeeds
     messages: tuple[str, ...]
     unwrapping: Unwrapping | None
@@ -121,8 +122,8 @@ class Materials:
         needs = _needs(shown)
         messages = [message for each in shown for message in each.messages]
         messages += _missing_maps(evaluated, shown, needs, inputs.unwrapping)
-        look = OwnMaterials(tuple(each.drawn for each in shown))
-        return ShownMaterials(look, needs, tuple(dict.fromkeys(messages)), inputs.unwrapping, has_baked)
+        slots = tuple(each.drawn for each in shown)
+        return ShownMaterials(slots, needs, tuple(dict.fromkeys(messages)), inputs.unwrapping, has_baked)
 
     def _of(self, material: Any, textures: BakedTextures, inputs: ShownInputs) -> ShownMaterial:
         if material is None:

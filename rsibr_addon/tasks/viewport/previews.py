@@ -1,11 +1,12 @@
 """The previews of a running Blender: what shades which object, uploaded once and drawn every frame."""
 
 from concurrent.futures import Executor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
 from ...device.drawing import Draw, GpuMesh
+from ...device.own_materials import OwnMaterials
 from ...device.preview_stage import Difference, Stage, current_sight, draw_occluder, draw_scale_numbers
 from ...host.bake_settings import bakes_inputs_by_itself
 from ...host.live_light import is_readable, shows_surroundings
@@ -316,9 +317,9 @@ class Previews:
             return {}
         if not (KINDS[map_set.kind].own and drawable.materials):
             return looks
-        own = drawable.materials.look
+        slots = drawable.materials.slots
         return {
-            other: replace(own, antialiased=look.antialiased) if look.own else look
+            other: OwnMaterials(slots, look.antialiased) if look.own else look
             for other, look in looks.items()
         }
 

@@ -33,8 +33,8 @@ from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.kinds.kernel_pyramid import shipped_families
 from rsibr.rsibr_addon.host.cameras import add_camera
 from rsibr.rsibr_addon.host.cycles import RenderSettings, render_view
-from rsibr.rsibr_addon.host.principled import INPUTS
 from rsibr.rsibr_addon.host.scenes import temporary_scene
+from rsibr.rsibr_addon.host.surfaces import INPUTS
 from rsibr.rsibr_addon.host.worlds import light_with
 from rsibr.rsibr_addon.settings.kernel_pyramid import KernelPyramidSettings
 from rsibr.rsibr_addon.tasks.light.environments import load_environment

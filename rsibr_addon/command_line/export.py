@@ -64,4 +64,5 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
 def _owners() -> dict[str, type[Options]]:
     """A format or an engine -> its options."""
-    return {name: each.settings for name, each in (*FORMATS.items(), *ENGINES.items())}
+    formats = {name: each.settings for name, each in FORMATS.items()}
+    return formats | {name: each.settings for name, each in ENGINES.items()}

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.environment import Environment
+from rsibr.rsibr_addon.core.errors import SceneError
 from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.host.world_light import world_light
 from rsibr.rsibr_addon.host.worlds import light_with, sample_world
@@ -41,6 +42,24 @@ def test_it_is_what_cycles_sees(kind: str | None) -> None:
     expected = expected.reshape(16, 4, 32, 4, 3).mean(axis=(1, 3))
     # Cycles' noise of 0.01, and the map's own texels: h^2 / 8 of second derivatives up to 8 at 0.05 radians
     assert np.abs(seen - expected).max() < 0.02 * expected.max()
+
+
+def test_a_bare_world_is_its_environment_and_stays_as_it_is() -> None:
+    world = lit_world("POINT")
+    before = world_light(world)
+    seen = sample_world(world, 16, bare=True).radiance
+    fine = equirect.direction_from_uv(texel_centres(32 * 4, 16 * 4))
+    expected = radiance_from(fine).reshape(16, 4, 32, 4, 3).mean(axis=(1, 3))
+    # As above
+    assert np.abs(seen - expected).max() < 0.02 * expected.max()
+    after = world_light(world)
+    assert before is not None
+    assert after is not None
+    assert after.strength == before.strength == 1.75
+    np.testing.assert_array_equal(after.turn, before.turn)
+    world.node_tree.nodes.clear()
+    with pytest.raises(SceneError, match="is more than a Background and an Environment Texture"):
+        sample_world(world, 16, bare=True)
 
 
 @pytest.mark.parametrize("change", ["location", "scale", "strength", "colour", "empty"])

@@ -27,7 +27,9 @@ def seen(colour):
 
 def two_slots():
     bare(view())
-    bpy.context.scene.view_settings.view_transform = "Standard"
+    scene = bpy.context.scene
+    scene.view_settings.view_transform = "Standard"
+    scene.rsibr_bake.kernel_pyramid.size = "256"
     cube = bpy.data.objects["Cube"]
     cube.data.materials.clear()
     for name, colour in (("Left", PURPLE), ("Right", TEAL)):
@@ -58,7 +60,6 @@ SHADED = """
 def scenario(told):
     cube = two_slots()
     yield from tab()
-    yield from push("quality='DRAFT'", share=0.2)
     yield from push("bpy.ops.rsibr.bake(", share=0.25)
     yield from done()
     yield from fresh()
@@ -86,7 +87,6 @@ def scenario(told):
     cube, world = two_slots(), bpy.context.scene.world
     freshness = session().freshness
     yield from tab()
-    yield from push("quality='DRAFT'", share=0.2)
     yield from push("bpy.ops.rsibr.bake(", share=0.25)
     yield from done()
     yield from fresh()

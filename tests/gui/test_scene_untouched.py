@@ -5,8 +5,8 @@ from collections.abc import Callable
 from rsibr.tests.gui.test_panel import PRELUDE
 
 CONTENTS = """
-APART = {"window_managers", "screens", "workspaces"}
-"What the mouse changes"
+APART = {"window_managers", "screens", "workspaces", "all_ids"}
+"What the mouse changes, and a list of all data-blocks"
 
 PASSING = {"rna_type", "bl_rna", "is_updated", "is_updated_data", "is_evaluated", "preview", "users"}
 PASSING |= {"depsgraph"}
@@ -45,8 +45,8 @@ def keep(value, prop, path, found, above):
     elif prop.type == "COLLECTION":
         found[path] = len(value)
         for number, each in enumerate(value):
-            if isinstance(each, bpy.types.ID):
-                found[f"{path}[{number}]"] = each.name
+            if each is None or isinstance(each, bpy.types.ID):
+                found[f"{path}[{number}]"] = each and each.name
             else:
                 walk(each, f"{path}[{number}]", found, above)
     elif isinstance(value, (str, int, float, bool, bytes)) or value is None:
@@ -95,11 +95,6 @@ def scenario(told):
     scene, cube = rich_scene()
     chosen = scene.rsibr_bake
     yield from drawn()
-    sidebar()
-    yield from drawn()
-    sidebar()[1].active_panel_category = "RSIBR"
-    for _ in range(5):
-        yield from drawn()
     before, living = contents(), particles(cube)
     told["properties"] = len(before)
     changed = told["changed"] = {}

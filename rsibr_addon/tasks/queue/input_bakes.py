@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,7 @@ from ...host.version import software
 from ...job import CommandJob
 from ...settings.baked_inputs import BakedInputsSettings
 from ..baked_inputs import wanted_pictures
-from .bake_request import HASH_LETTERS, ObjectBake, in_background
+from .bake_request import HASH_LETTERS, NAME_LETTERS, ObjectBake, in_background
 
 
 @dataclass
@@ -63,7 +64,8 @@ def inputs_file(item: Any, depsgraph: Any) -> Path | None:
         "software": software(),
     }
     letters = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:HASH_LETTERS]
-    return baked_folder() / f"inputs-{letters}.exr"  # without names, as copies share it
+    words = re.sub(r"[^\w.-]+", "-", item.name.lower())[:NAME_LETTERS]
+    return baked_folder() / f"{words}-inputs-{letters}.exr"
 
 
 def input_bake_of(scene: Any, item: Any, output: Path) -> InputBake:

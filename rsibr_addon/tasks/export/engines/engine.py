@@ -9,7 +9,7 @@ import numpy as np
 
 from ....core.conventions import Array
 from ....core.warned import warn
-from .settings import CubeSettings, EngineSettings
+from .settings import CubeSettings
 
 Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 """Directions of glTF and of engines with Y up, from Blender's."""
@@ -64,12 +64,12 @@ class Engine:
     use : str
         What to do with the file there, as a phrase in one line.
     settings : type
-        What can be chosen of it.
+        What can be chosen of it, derived from `CubeSettings`.
     """
 
     label: str
     use: str
-    settings: type[EngineSettings] = EngineSettings
+    settings: type[CubeSettings] = CubeSettings
 
     @property
     def endings(self) -> tuple[str, ...]:
@@ -97,8 +97,6 @@ class CubeEngine(Engine):
         Ending -> what writes the file.
     diffuse : int
         Width of the cube of diffuse light that it takes; 0 for none.
-    settings : type
-        Derived from `CubeSettings`.
     """
 
     axes: Array
@@ -106,7 +104,6 @@ class CubeEngine(Engine):
     least: int
     writers: Mapping[str, Write]
     diffuse: int = 0
-    settings: type[CubeSettings] = CubeSettings
 
     @property
     def endings(self) -> tuple[str, ...]:

@@ -12,6 +12,7 @@ from rsibr.rsibr_addon.device.kinds.kernel_pyramid import GpuPyramid
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.host.map_sets import use_map_set
 from rsibr.rsibr_addon.host.visible_surfaces import View
+from rsibr.rsibr_addon.host.world_light import WorldLight
 from rsibr.rsibr_addon.tasks.methods.live_materials import LiveFits
 from rsibr.rsibr_addon.tasks.viewport import own_materials
 from rsibr.rsibr_addon.tasks.viewport.previews import Previews
@@ -283,6 +284,26 @@ def test_geometry_that_nodes_make_has_the_materials_that_they_set(
     tree.links.new(instances.outputs[0], end.inputs[0])
     previews.scene_changed()
     check(draw(), BLUE, BLUE)
+
+
+def test_what_is_in_front_hides_what_has_another_strength_of_light(
+    sheet: bpy.types.Object, draw: Draw, view: View, previews: Previews, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Previews of each strength are drawn by themselves, and those of others as what hides them."""
+    above = sheet.copy()
+    above.data = sheet.data.copy()
+    for slot, name in enumerate(("second", "first")):
+        above.data.materials[slot] = bpy.data.materials[name]
+    above.location.z = 1.0
+    view.scene.collection.objects.link(above)
+    space = view.space
+    space.shading.type, space.overlay.show_overlays = "MATERIAL", False  # Blender leaves no depths
+    strengths = {"sheet": 1.0, above.name: 2.0}
+    monkeypatch.setattr(View, "light_of", lambda _, item: WorldLight(strengths[item.name], np.eye(3)))
+    check(draw(), GREEN, RED)
+    above.location.z = -1.0
+    previews.scene_changed()
+    check(draw(), RED, GREEN)
 
 
 def test_steady_frames_and_moved_objects_read_no_material(

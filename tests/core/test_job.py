@@ -33,7 +33,7 @@ def test_a_job_survives_json() -> None:
         ('{"format": 2, "arguments": ["capture"]}', "kind is missing"),
         (
             '{"format": 2, "kind": "views", "settings": {}, "output": "a"}',
-            "kind is not one of rad",
+            "kind is not one of kernel_pyramid",
         ),
         (
             '{"format": 2, "kind": "mip_chain", "settings": {"size": 3}, "output": "a"}',

@@ -29,7 +29,6 @@ class RSIBR_OT_bake_inputs(AtOnce, bpy.types.Operator):
         """Show what was baked before, and queue the other bakes."""
         depsgraph = context.evaluated_depsgraph_get()
         running = session()
-        running.previews.inputs.is_unasked = False
         bakes = not self.by_itself or bakes_inputs_by_itself()
         for item in running.previews.with_baked_inputs():
             try:

@@ -4,16 +4,11 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from ..core.options import Options
 from ..tasks.export.engines.engines import ENGINES
 from ..tasks.export.formats import FORMATS
 from . import options
 from .console import Console
-
-OWNERS = {
-    **{name: each.settings for name, each in FORMATS.items()},
-    **{name: each.settings for name, each in ENGINES.items()},
-}
-"""A format or an engine -> its options."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -32,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         choices=list(ENGINES),
         help=f"engine to write for, exactly what it loads, and what to do there: {uses} (default: none)",
     )
-    options.add_options_of(parser, OWNERS)
+    options.add_options_of(parser, _owners())
     suffixes = [each.suffix for each in FORMATS.values()]
     endings = dict.fromkeys([*suffixes, *(name for each in ENGINES.values() for name in each.endings)])
     names = "|".join(f"OUT{ending}" for ending in endings)
@@ -56,7 +51,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     from ..tasks.export.export import export, format_of
 
     source, output, engine = arguments.map_set, arguments.output, arguments.engine
-    settings = options.given_of(arguments, OWNERS, engine or format_of(output))
+    settings = options.given_of(arguments, _owners(), engine or format_of(output))
     if engine:
         steps = export_for_engine(source, output, engine, settings, arguments.force)
     else:
@@ -65,3 +60,9 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     for texture in textures:
         console.say(f"{texture}")
     return {"textures": [str(texture) for texture in textures]}
+
+
+def _owners() -> dict[str, type[Options]]:
+    """A format or an engine -> its options."""
+    formats = {name: each.settings for name, each in FORMATS.items()}
+    return formats | {name: each.settings for name, each in ENGINES.items()}

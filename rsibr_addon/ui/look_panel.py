@@ -5,6 +5,7 @@ import bpy
 from ..core.kinds.principled_material import PrincipledMaterial
 from ..core.options import Declared, declared_options
 from ..files.kinds.registry import look_types
+from ..host.bake_settings import bakes_inputs_by_itself
 from ..host.live_light import is_readable
 from ..host.option_properties import property_name, said_by
 from ..host.world_light import has_environment, holds_world, world_light
@@ -60,6 +61,8 @@ class RSIBR_PT_look(InSidebar, bpy.types.Panel):
         for message in previews.messages(item):
             if message not in told:
                 tell(layout, message, context.region.width)
+        if previews.inputs.lacks(item) and (previews.inputs.is_refused(item) or not bakes_inputs_by_itself()):
+            layout.operator("rsibr.bake_inputs")
         if previews.is_loading(item):
             layout.label(text="Loading...", icon="TIME")
         kind = previews.kind(item)

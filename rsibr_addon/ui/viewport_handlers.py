@@ -104,6 +104,7 @@ def _draw_again(_: Session) -> None:
 @_guarded
 def _ask_for_inputs(running: Session) -> None:
     """After edits have rested: show what is baked of materials as they are now, or have it baked."""
+    running.previews.inputs.is_unasked = False
     windows = bpy.context.window_manager.windows
     if running.previews.with_baked_inputs() and windows:
         with bpy.context.temp_override(window=windows[0]):

@@ -2,7 +2,6 @@
 
 import hashlib
 import json
-import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,7 +15,7 @@ from ...host.version import software
 from ...job import CommandJob
 from ...settings.baked_inputs import BakedInputsSettings
 from ..baked_inputs import wanted_pictures
-from .bake_request import HASH_LETTERS, NAME_LETTERS, ObjectBake, in_background
+from .bake_request import HASH_LETTERS, ObjectBake, in_background
 
 
 @dataclass
@@ -64,8 +63,7 @@ def inputs_file(item: Any, depsgraph: Any) -> Path | None:
         "software": software(),
     }
     letters = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:HASH_LETTERS]
-    words = re.sub(r"[^\w.-]+", "-", item.name.lower())[:NAME_LETTERS]
-    return baked_folder() / f"{words}-inputs-{letters}.exr"
+    return baked_folder() / f"inputs-{letters}.exr"  # without names, as copies share it
 
 
 def input_bake_of(scene: Any, item: Any, output: Path) -> InputBake:

@@ -43,6 +43,7 @@ class ShownInputs:
 
 
 NOTHING = ShownInputs({}, {})
+NONE = (None, NOTHING)
 
 
 def read_shown_inputs(path: Path) -> ShownInputs:
@@ -98,6 +99,7 @@ class InputBakes:
     _wishes: dict[int, _Wish] = field(default_factory=dict)
     _shown: dict[int, tuple[Path, ShownInputs]] = field(default_factory=dict)
     _coming: dict[Path, Future[ShownInputs]] = field(default_factory=dict)
+    _has_new: bool = False
 
     @property
     def is_busy(self) -> bool:
@@ -115,7 +117,7 @@ class InputBakes:
 
     def shown(self, item: Any, corners: int) -> ShownInputs:
         """What an object shows: the newest file that is whole, if its mesh has as many corners still."""
-        _, inputs = self._shown.get(item.session_uid, (None, NOTHING))
+        _, inputs = self._shown.get(item.session_uid, NONE)
         if inputs.unwrapping is not None and len(inputs.unwrapping[1]) != corners:
             return NOTHING
         return inputs
@@ -135,8 +137,13 @@ class InputBakes:
         if path is None:
             self._shown.pop(number, None)
             return True
-        if self._shown.get(number, (None,))[0] == path or path in self._coming:
+        if path in self._coming:
             return True
+        for shown in list(self._shown.values()):  # a copy of the object may show it
+            if shown[0] == path:
+                self._has_new |= self._shown.get(number) != shown
+                self._shown[number] = shown
+                return True
         if not is_whole(path):
             return False
         self._coming[path] = self.reader.submit(read_shown_inputs, path)
@@ -171,7 +178,7 @@ class InputBakes:
         bool
             Whether an object shows something new from now on.
         """
-        left, changed = PIECE_BYTES, False
+        left, changed, self._has_new = PIECE_BYTES, self._has_new, False
         for path, read in list(self._coming.items()):
             if not read.done():
                 continue
@@ -191,6 +198,11 @@ class InputBakes:
                 changed |= bool(users)
         return changed
 
+    def lacks(self, item: Any) -> bool:
+        """Whether an object does not show what it needs as it is now, by what is known."""
+        wish, (path, _) = self._wishes.get(item.session_uid, _Wish()), self._shown.get(item.session_uid, NONE)
+        return bool(wish.trouble) or (wish.path is not None and wish.path != path)
+
     def messages(self, item: Any, by_itself: bool) -> list[str]:
         """What an artist should know of an object's baked inputs.
 
@@ -200,13 +212,11 @@ class InputBakes:
         by_itself : bool
             Whether what is missing is baked without being asked for.
         """
-        wish, shown = self._wishes.get(item.session_uid), self._shown.get(item.session_uid)
+        wish, shown = self._wishes.get(item.session_uid, _Wish()), self._shown.get(item.session_uid)
         remarks = list(shown[1].remarks) if shown else []
-        if wish is None or (wish.path is None and not wish.trouble):
-            return []
         if wish.trouble:
             return [wish.trouble, *remarks]
-        if shown and shown[0] == wish.path:
+        if not self.lacks(item):
             return remarks
         what = "Material changed" if shown else "Materials need a bake"
         return [f"{what}: baking." if by_itself else f"{what}: press Bake Materials.", *remarks]

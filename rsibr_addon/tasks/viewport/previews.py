@@ -103,6 +103,7 @@ class Previews:
         """Forget Blender's data: after an undo, they are others."""
         self.scene_changed()
         self._layers.layers.clear()
+        self.inputs.is_unasked = True
 
     def kind(self, item: Any) -> str | None:
         """The kind of map set that shades an object; None before it is drawn."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from ....core.conventions import Array
 from ....core.warned import warn
-from .settings import CubeSettings
+from .settings import CubeSettings, EngineSettings
 
 Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 """Directions of glTF and of engines with Y up, from Blender's."""
@@ -64,12 +64,12 @@ class Engine:
     use : str
         What to do with the file there, as a phrase in one line.
     settings : type
-        What can be chosen of it, derived from `CubeSettings`.
+        What can be chosen of it.
     """
 
     label: str
     use: str
-    settings: type[CubeSettings] = CubeSettings
+    settings: type[EngineSettings] = EngineSettings
 
     @property
     def endings(self) -> tuple[str, ...]:
@@ -97,6 +97,8 @@ class CubeEngine(Engine):
         Ending -> what writes the file.
     diffuse : int
         Width of the cube of diffuse light that it takes; 0 for none.
+    settings : type
+        Derived from `CubeSettings`.
     """
 
     axes: Array
@@ -104,6 +106,7 @@ class CubeEngine(Engine):
     least: int
     writers: Mapping[str, Write]
     diffuse: int = 0
+    settings: type[CubeSettings] = CubeSettings
 
     @property
     def endings(self) -> tuple[str, ...]:

@@ -21,7 +21,7 @@ from ....files.radiance_pictures import write_radiance
 from ....files.version import rsibr
 from .engine import CubeEngine, Engine, EngineLight, PanoramaEngine
 from .engines import ENGINES
-from .settings import CubeSettings
+from .settings import CubeSettings, EngineSettings
 
 SIZE = 256
 """Width of the first mip of a picture's cube."""
@@ -31,7 +31,7 @@ ROUGHEST = (1.0,)
 
 
 def export_for_engine(
-    source: Path, output: Path, name: str, settings: CubeSettings | None = None, force: bool = False
+    source: Path, output: Path, name: str, settings: EngineSettings | None = None, force: bool = False
 ) -> Steps[list[Path]]:
     """Write light for an engine, into one file or several; all files appear, or none.
 
@@ -49,7 +49,7 @@ def export_for_engine(
     MapSetError, InputFileError
         The source cannot be read, or does not hold its environment.
     RangeError
-        It is of another kind, or too small for the engine; or a size is given for one that filters itself.
+        It is of another kind, or too small for the engine.
     OutputFileError
         The name is not one of the engine's, or a file exists.
 
@@ -68,15 +68,12 @@ def export_for_engine(
     yield Progress(0, 1, f"reading {source.name}")
     held = _read(source, engine)
     light = environment.from_map_set(source, held)
-    size = asked.size
-    match engine:
-        case CubeEngine():
+    match engine, asked:
+        case CubeEngine(), CubeSettings(size=size):
             filtered = yield from _filtered(light, engine, size or _size_of(source, held))
             with together():
                 return engine.writers[output.suffix.lower()](filtered, output, force)
-        case PanoramaEngine():
-            if size is not None:
-                raise RangeError(f"{engine.label} takes the environment as it is: omit the size.")
+        case PanoramaEngine(), _:
             moved = np.roll(light.radiance, -engine.quarters * light.radiance.shape[1] // 4, axis=1)
             write_radiance(output, moved, force)
     return [output]

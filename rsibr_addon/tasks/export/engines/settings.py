@@ -9,7 +9,12 @@ from ....files.textures import Up
 
 
 @dataclass(frozen=True, kw_only=True)
-class CubeSettings(Options):
+class EngineSettings(Options):
+    """What is chosen of an export for an engine: nothing, where it takes the environment as it is."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CubeSettings(EngineSettings):
     """How large a cube is."""
 
     size: int | None = option(

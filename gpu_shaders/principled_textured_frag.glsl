@@ -176,7 +176,7 @@ float map_spread()
   return min(level, 1.0) * strength * strength * mean_spread(mean, material.antialiasing.y);
 }
 
-// Half a step of 8 bits: what covers less is not there, and hides nothing.
+// Half a step of 8 bits: what covers less is not there and hides nothing, and what covers all but that is opaque.
 const float LEAST_ALPHA = 0.5 / 255.0;
 
 void main()
@@ -192,7 +192,7 @@ void main()
   float alpha = clamp(numbers[ALPHA], 0.0, 1.0);
 #ifdef TRANSLUCENT
   // Behind all that needs neighbours
-  if (alpha < LEAST_ALPHA) {
+  if ((alpha > 1.0 - LEAST_ALPHA) != (whole > 0.0) || alpha < LEAST_ALPHA) {
     discard;
   }
 #endif

@@ -50,3 +50,8 @@ class OwnMaterials:
 
     slots: tuple[DrawnMaterial, ...]
     antialiased: bool = True
+
+    @property
+    def is_opaque(self) -> bool:
+        """Whether all its materials are."""
+        return all(material.is_opaque for material in self.slots)

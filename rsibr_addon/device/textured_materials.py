@@ -70,7 +70,8 @@ def textured_program(fragment: str, samplers: Mapping[str, str], translucent: bo
     samplers : mapping of str to str
         Textures of what lights the material, as `mesh_program` takes them.
     translucent : bool
-        Whether it leaves out what covers nothing. A program that may do so is a fifth slower, everywhere.
+        Whether it leaves out what covers nothing, and draws what covers all if its constant `whole` is 1, and
+        the rest if that is 0. A program that leaves fragments out is a fifth slower, everywhere.
 
     Raises
     ------
@@ -84,6 +85,7 @@ def textured_program(fragment: str, samplers: Mapping[str, str], translucent: bo
     )
     if translucent:
         info.define("TRANSLUCENT")
+        info.push_constant("FLOAT", "whole")
     info.uniform_buf(1, "Material", "material")
     info.vertex_in(2, "VEC4", "tangent")
     info.vertex_in(3, "VEC4", "uv_a")

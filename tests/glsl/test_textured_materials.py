@@ -253,6 +253,40 @@ def test_what_is_cut_out_hides_nothing(content: GpuPyramid) -> None:
     np.testing.assert_array_equal(both, np.where(covered[..., None], alone, ground))
 
 
+def test_a_soft_edge_shows_what_lies_behind_it_in_the_same_mesh(content: GpuPyramid) -> None:
+    """Of two layers the front one is drawn first, with alpha from 0 to 1; the other one is whole there."""
+    ramp = np.repeat(np.linspace(0.0, 1.0, 5)[None, :, None], 4, axis=2)
+    leaf = replace(
+        PLAIN, alpha=Input(rows((0, 0, 0, 1, 0)), HOLES), metallic=Input(rows((0, 0, 0, 0, 1)), HOLES)
+    )
+    material = DrawnMaterial(leaf, {HOLES: buffers.texture(ramp)})
+    both = np.concatenate([SQUARE + [0.0, 0.0, 0.5], SQUARE])
+    right_edge = np.full_like(UV, 0.99)
+    mesh = GpuTexturedMesh(
+        both,
+        np.tile(UP, (8, 1)),
+        np.concatenate([TRIANGLES, TRIANGLES + 4]),
+        np.zeros(4, int),
+        np.concatenate([UV, right_edge]),
+        uv_maps=("UVMap",),
+    )
+    colour, depth = (
+        buffers.render_target(SIZE),
+        gpu.types.GPUTexture((SIZE, SIZE), format="DEPTH_COMPONENT32F"),
+    )
+    target = gpu.types.GPUFrameBuffer(depth_slot=depth, color_slots=(colour,))
+    with target.bind():
+        target.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
+        gpu.state.depth_test_set("LESS_EQUAL")
+        gpu.state.depth_mask_set(True)
+        content.draw(mesh, FROM_ABOVE, OwnMaterials((material,)))
+        gpu.state.depth_test_set("NONE")
+        gpu.state.depth_mask_set(False)
+        picture = buffers.pixels(target, SIZE)
+    np.testing.assert_allclose(picture[..., 3], 1.0, atol=1e-6)
+    np.testing.assert_allclose(picture[..., :3], reference(Surface(metallic=1.0)), atol=4e-3)
+
+
 def test_what_covers_in_part_lies_over_what_is_there(content: GpuPyramid) -> None:
     pane = DrawnMaterial(replace(PLAIN, alpha=constants(0.25)))
     metal = DrawnMaterial(replace(PLAIN, metallic=constants(1.0)))

@@ -111,7 +111,7 @@ class GpuPyramid:
     def _draw_slots(self, mesh: GpuMesh, draw: Draw, look: OwnMaterials) -> None:
         """Draw each slot's triangles with its own material.
 
-        What is not opaque is drawn after all that is, over what is there, and hides what is drawn later.
+        What covers in part is drawn after all that covers, over what is there, and hides what is drawn later.
         Where nothing is covered, nothing is hidden.
 
         Raises
@@ -129,10 +129,16 @@ class GpuPyramid:
         try:
             if opaque:
                 gpu.state.blend_set("NONE")
-                self._draw_with(opaque_shader(), opaque, mesh, draw, look)
+                shader = opaque_shader()
+                shader.bind()
+                self._draw_with(shader, opaque, mesh, draw, look)
             if others:
                 gpu.state.blend_set("ALPHA_PREMULT")
-                self._draw_with(translucent_shader(), others, mesh, draw, look)
+                shader = translucent_shader()
+                for whole in (1.0, 0.0):
+                    shader.bind()
+                    shader.uniform_float("whole", whole)
+                    self._draw_with(shader, others, mesh, draw, look)
         finally:
             gpu.state.blend_set(blending)
 
@@ -144,7 +150,6 @@ class GpuPyramid:
         draw: Draw,
         look: OwnMaterials,
     ) -> None:
-        shader.bind()
         self._light(shader)
         for slot in slots:
             self._materials.bind(shader, look.slots[slot], mesh.uv_maps, look.antialiased)

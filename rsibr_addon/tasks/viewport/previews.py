@@ -331,10 +331,15 @@ class Previews:
         with stage.drawing():
             for mesh, placed in behind:
                 draw_occluder(mesh, placed)
-            for each in group:
+            for each in sorted(group, key=lambda each: not _is_opaque(each.looks[other])):
                 surface, look = each.drawable.surface, each.looks[other]
                 if look is not None:
                     try:
                         each.map_set.gpu_map_set.draw(each.drawable.mesh, each.placed, look)
                     except Exception as error:
                         self.faults.note(surface.item, error)
+
+
+def _is_opaque(look: Any) -> bool:
+    """Whether it hides all that is behind it; what does not is drawn over that."""
+    return not isinstance(look, OwnMaterials) or look.is_opaque

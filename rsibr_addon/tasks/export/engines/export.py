@@ -12,6 +12,7 @@ from ....core.filtering.irradiance import turned_harmonics
 from ....core.kinds.mip_chain.ggx import ggx_mips
 from ....core.maps import cube_map
 from ....core.progress import Progress, Steps
+from ....files.atomic import check_target
 from ....files.kinds import environment, mip_chain
 from ....files.kinds.registry import STORED
 from ....files.map_set import read_map_set
@@ -65,6 +66,7 @@ def export_for_engine(
         raise OutputFileError(
             f"{output} does not end in {known}, as {engine.label} wants: give a name that does."
         )
+    check_target(output, force)
     yield Progress(0, 1, f"reading {source.name}")
     held = _read(source, engine)
     light = environment.from_map_set(source, held)

@@ -174,6 +174,7 @@ def test_the_written_scene_gives_the_same_bake(make: Callable[[Path], None], tmp
 
 def test_what_only_this_blender_holds_is_told_before_a_bake(tmp_path: Path) -> None:
     textured(tmp_path)
+    bpy.context.scene.rsibr_bake.kind = "radiance_views"
     request_for(bpy.context.scene.rsibr_bake, bpy.context.scene, bpy.context.object)
     painted = bpy.data.images["rust.png"]
     painted.pixels.foreach_set(noise(4, 8 * 8 * 4))

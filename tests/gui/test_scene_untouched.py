@@ -9,7 +9,7 @@ APART = {"window_managers", "screens", "workspaces", "all_ids"}
 "What the mouse changes, and a list of all data-blocks"
 
 PASSING = {"rna_type", "bl_rna", "is_updated", "is_updated_data", "is_evaluated", "preview", "users"}
-PASSING |= {"depsgraph"}
+PASSING |= {"depsgraph", "bindcode", "has_data"}
 "What Blender keeps for itself"
 
 def contents():

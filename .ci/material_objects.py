@@ -152,8 +152,8 @@ def cushion() -> bpy.types.Object:
         return np.stack([0.8 * flat * x, 0.8 * flat * y, 0.45 * tall], axis=-1)
 
     hide = made.leather()
-    material = Material("Leather", {"Base Color": hide["color"], "Roughness": 0.45}, 3.0)
-    item = _made_of(_grid("Cushion", at, 128, 64), material.bumped(hide["height"], 0.01))
+    material = Material("Leather", {"Base Color": hide["color"], "Roughness": 0.45}, 2.0)
+    item = _made_of(_grid("Cushion", at, 128, 64), material.bumped(hide["height"], 0.005))
     item.rotation_euler = (0.5, 0.3, 0.4)
     return item
 
@@ -162,7 +162,8 @@ def suzanne() -> bpy.types.Object:
     """Suzanne in a checker of gold and plastic."""
     bpy.ops.mesh.primitive_monkey_add(size=1.5)
     item = bpy.context.object
-    item.modifiers.new("Smooth", "SUBSURF").levels = 3
+    smooth = item.modifiers.new("Smooth", "SUBSURF")
+    smooth.levels = smooth.render_levels = 3
     item.data.shade_smooth()
     is_gold = made.checker(16)
     colors = made.mixed(is_gold, (0.05, 0.2, 0.3), GOLD)

@@ -28,6 +28,7 @@ void main()
                                      rises,
                                      surface,
                                      seen.normal,
+                                     seen.normal,
                                      seen.mirror_normal,
                                      seen.mirror_normal,
                                      seen.view_dir);

@@ -217,6 +217,7 @@ void main()
                                      rises,
                                      surface,
                                      seen.normal,
+                                     normalize(seen.outside ? world_normal : -world_normal),
                                      seen.mirror_normal,
                                      seen_coat.mirror_normal,
                                      seen.view_dir);

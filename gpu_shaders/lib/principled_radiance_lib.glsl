@@ -1,6 +1,7 @@
 // Twin of rsibr_addon/core/kinds/kernel_pyramid/shading.py. Layer 0 of a family's texture (see
 // device/kinds/kernel_pyramid.py) holds the tilts of its lobes, then come for each kernel a layer of each
 // function, with the weights of these lobes.
+#include "lib/bumped_diffuse_lib.glsl"
 #include "lib/directions_lib.glsl"
 #include "lib/lobe_axes_lib.glsl"
 #include "lib/oren_nayar_lib.glsl"
@@ -111,11 +112,13 @@ vec3 diffuse_radiance(sampler2D atlas,
                       float roughness,
                       float mu,
                       vec3 normal,
+                      vec3 smooth_normal,
                       vec3 mirror_dir)
 {
   vec3 color = max(base_color, 0.0);
   vec2 ab = facets(roughness);
-  vec2 uv = octahedral_uv(normal);
+  vec4 left = bumped_cosine(normal, smooth_normal);
+  vec2 uv = octahedral_uv(left.xyz);
   int number = kernel_count(places) + 1;
   vec3 white = PI * pyramid_radiance(atlas, places, number, uv);
   vec3 radiance = ab.x * white;
@@ -126,11 +129,11 @@ vec3 diffuse_radiance(sampler2D atlas,
         atlas, places, leaning, LEANING_LOBES, 1, 1.0, mu, white_facets, normal, mirror_dir);
     radiance += ab.y * (bounces(color, roughness, mu) * lost + leant);
   }
-  return color * max(radiance, 0.0);
+  return left.w * color * max(radiance, 0.0);
 }
 
-// Covered by the surface's alpha. The normals are those of `Seen`: for diffuse light, and for the rest; and that
-// of the coat's own.
+// Covered by the surface's alpha. The normals are those of `Seen`: for diffuse light, the surface's own
+// where that is bumped, and for the rest; and that of the coat's own.
 vec3 principled_radiance(sampler2D atlas,
                          sampler2D places,
                          sampler2DArray ggx,
@@ -139,6 +142,7 @@ vec3 principled_radiance(sampler2D atlas,
                          sampler2D rises,
                          Surface surface,
                          vec3 normal,
+                         vec3 smooth_normal,
                          vec3 mirror_normal,
                          vec3 coat_normal,
                          vec3 view_dir)
@@ -155,6 +159,7 @@ vec3 principled_radiance(sampler2D atlas,
                                                   surface.diffuse_roughness,
                                                   clamp(dot(normal, view_dir), 1e-4, 1.0),
                                                   normal,
+                                                  smooth_normal,
                                                   reflect_dir(view_dir, normal));
   }
   // One loop for both, so that the program has the lobes' code once

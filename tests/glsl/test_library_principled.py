@@ -6,10 +6,11 @@ from functools import cache
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.brdf import fresnel_powers, oren_nayar, principled
+from rsibr.rsibr_addon.core.brdf.bumped_diffuse import bumped_cosine
 from rsibr.rsibr_addon.core.brdf.principled import Layers, Surface, layers_of
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.errors import ShapeError
-from rsibr.rsibr_addon.core.geometry.directions import dot, reflect
+from rsibr.rsibr_addon.core.geometry.directions import dot, normalize, reflect
 from rsibr.rsibr_addon.core.geometry.sides import seen_surface
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid import shading
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import bake_pyramid, width_of
@@ -189,6 +190,16 @@ def coefficients(powers: np.ndarray, *beside: np.ndarray) -> np.ndarray:
 
 
 TWINS = {
+    "bumped_cosine": Twin(
+        "bumped_diffuse_lib.glsl",
+        "result_0 = bumped_cosine(in_0.xyz, in_1.xyz);",
+        lambda: [unit_vectors(41), unit_vectors(42)],
+        lambda normal, smooth: np.concatenate(
+            [(found := bumped_cosine(normal, smooth))[0], found[1][:, None]], axis=1
+        ),
+        # Axes of normals that are opposite to each other have lengths from .07
+        20 * ULP,
+    ),
     "facets": Twin(
         "oren_nayar_lib.glsl",
         "result_0.xy = facets(in_0.x);",
@@ -399,7 +410,7 @@ def assert_near(found: np.ndarray, expected: np.ndarray, peak: float) -> None:
 def shaded(light: Pyramid, normal: np.ndarray, view_dir: np.ndarray, inputs: list[np.ndarray]) -> np.ndarray:
     code = SURFACE + (
         "result_0.rgb = principled_radiance(atlas, places, ggx, leaning, albedos, rises, surface, in_6.xyz, "
-        "in_6.xyz, in_6.xyz, in_7.xyz);"
+        "in_6.xyz, in_6.xyz, in_6.xyz, in_7.xyz);"
     )
     facing = seen_surface(normal, view_dir).normal
     return evaluate(LIBRARY, code, [*inputs, facing, view_dir], 1, samplers_of(light))[:, 0, :3]
@@ -491,16 +502,19 @@ def test_ggx_radiance() -> None:
 def test_diffuse_radiance() -> None:
     normal, mirror_dir, mu = directions()
     color, roughness = numbers(50, columns=3)[:POINTS], often_zero(51)[:POINTS]
+    smooth = normalize(normal + 0.7 * unit_vectors(52)[:POINTS])
     code = (
         "result_0.rgb = diffuse_radiance(atlas, places, leaning, in_0.rgb, in_1.x, in_2.x, in_3.xyz,"
-        "                                in_4.xyz);"
+        "                                in_4.xyz, in_5.xyz);"
     )
     textures = {name: samplers()[name] for name in ("atlas", "places", "leaning")}
-    found = evaluate(LIBRARY, code, [color, roughness, mu, normal, mirror_dir], 1, textures)[:, 0, :3]
+    arguments = [color, roughness, mu, normal, smooth, mirror_dir]
+    found = evaluate(LIBRARY, code, arguments, 1, textures)[:, 0, :3]
     surface = Surface(base_color=color, diffuse_roughness=roughness[:, 0])
     all_of_it = Layers(*[np.zeros((POINTS, 5, 3))] * 2, np.ones((POINTS, 3)), np.zeros((POINTS, 3)))
+    view_dir = reflect(mirror_dir, normal)
     expected = shading._diffuse(
-        pyramid(), families().leaning, surface, all_of_it, normal, reflect(mirror_dir, normal), mu[:, 0]
+        pyramid(), families().leaning, surface, all_of_it, normal, smooth, view_dir, mu[:, 0]
     )
     assert_near(found, expected, expected.max())
 

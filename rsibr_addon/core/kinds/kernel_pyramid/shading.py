@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...brdf.bumped_diffuse import bumped_cosine
 from ...brdf.fresnel_powers import powers_of
 from ...brdf.oren_nayar import bounces, facets
 from ...brdf.principled import Layers, Surface, layers_of
@@ -65,6 +66,7 @@ def principled_radiance(
     view_dir: ArrayLike,
     facet: ArrayLike | None = None,
     coat_normal: ArrayLike | None = None,
+    smooth_normal: ArrayLike | None = None,
 ) -> Array:
     """Radiance of surface points of Principled materials.
 
@@ -80,6 +82,8 @@ def principled_radiance(
         Unit normals of the facets: see `core.kinds`.
     coat_normal : array_like, shape (N, 3), optional
         Unit vectors; the coat's normals where they are not `normal`.
+    smooth_normal : array_like, shape (N, 3), optional
+        Unit vectors; the surface's own normals where `normal` is bumped.
 
     Returns
     -------
@@ -102,7 +106,8 @@ def principled_radiance(
     coat_mu = np.clip(dot(coat_normal, view_dir), _GRAZING, 1.0)
     layers = layers_of(surface, mu, families, coat_mu)
     own_mu = np.clip(dot(seen.normal, view_dir), _GRAZING, 1.0)
-    diffuse = _diffuse(pyramid, families.leaning, surface, layers, seen.normal, view_dir, own_mu)
+    smooth = seen.normal if smooth_normal is None else seen_surface(smooth_normal, view_dir, facet).normal
+    diffuse = _diffuse(pyramid, families.leaning, surface, layers, seen.normal, smooth, view_dir, own_mu)
     radiance = layers.emission + diffuse
     for roughness, coefficients, layer_normal in (
         (surface.roughness, layers.base, seen.mirror_normal),
@@ -160,6 +165,7 @@ def _diffuse(
     surface: Surface,
     layers: Layers,
     normal: Array,
+    smooth_normal: Array,
     view_dir: Array,
     mu: Array,
 ) -> Array:
@@ -167,7 +173,8 @@ def _diffuse(
     color, roughness = np.maximum(surface.base_color, 0.0), np.asarray(surface.diffuse_roughness, np.float64)
     a, b = (np.broadcast_to(value, mu.shape)[:, None] for value in facets(roughness))
     again = np.broadcast_to(bounces(color, roughness, mu), normal.shape)
-    white, leant = lookup_diffuse(pyramid, normal)
+    axis, share = bumped_cosine(normal, smooth_normal)
+    white, leant = lookup_diffuse(pyramid, axis)
     radiance = (a + again * (1.0 - np.pi * a)) * np.pi * white - again * b * leant
     is_rough = b[:, 0] > 0.0
     axes = normal[is_rough], reflect(view_dir, normal)[is_rough]
@@ -175,7 +182,7 @@ def _diffuse(
     radiance[is_rough] += b[is_rough] * _lobes(
         pyramid, leaning, np.ones(len(ones)), mu[is_rough], ones, *axes
     )
-    return layers.diffuse * color * np.maximum(radiance, 0.0)
+    return layers.diffuse * color * share[:, None] * np.maximum(radiance, 0.0)
 
 
 def lookup_diffuse(pyramid: Pyramid, normal: Array) -> tuple[Array, Array]:

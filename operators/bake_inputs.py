@@ -10,6 +10,8 @@ from ..rsibr_addon.tasks.queue.input_bakes import InputBake, input_bake_of, inpu
 from . import background
 from .at_once import AtOnce
 
+TOO_LONG = "The materials of {} have chains of nodes that are too long to follow: bake them to images."
+
 CANCELLED = "The bake of the materials was cancelled: press Bake Materials to have it."
 
 
@@ -33,8 +35,10 @@ class RSIBR_OT_bake_inputs(AtOnce, bpy.types.Operator):
         for item in running.previews.with_baked_inputs():
             try:
                 _bake(context.scene, item, depsgraph, bakes, self.by_itself)
-            except RsibrError as error:
+            except (RsibrError, OSError) as error:
                 running.previews.inputs.refuse(item, str(error))
+            except RecursionError:
+                running.previews.inputs.refuse(item, TOO_LONG.format(item.name))
 
 
 def _bake(

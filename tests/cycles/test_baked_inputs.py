@@ -20,6 +20,7 @@ from rsibr.rsibr_addon.settings.baked_inputs import BakedInputsSettings
 from rsibr.rsibr_addon.tasks.baked_inputs import bake_inputs
 from rsibr.tests.json_command import json_result
 from rsibr.tests.open_file import linked_cube, open_file_state
+from rsibr.tests.written_pictures import write_png
 
 SIZE = 64
 SETTINGS = BakedInputsSettings(size=SIZE, samples=1)
@@ -292,3 +293,35 @@ def test_what_has_no_faces_is_refused(cube: Cube, tmp_path: Path) -> None:
     cube.item.data.clear_geometry()
     with pytest.raises(SceneError, match="Cube has no faces"):
         baked(tmp_path)
+
+
+@pytest.mark.filterwarnings("ignore:The UV map of Cube reaches beyond")
+def test_tiles_of_an_image_are_baked(cube: Cube, tmp_path: Path) -> None:
+    """A face on the second tile of a UDIM image has that tile's colour, on an unwrapping of its own."""
+    for number, grey in ((1001, 51), (1002, 204)):
+        write_png(tmp_path / f"tile.{number}.png", np.full((4, 4, 3), grey, np.uint8))
+    image = bpy.data.images.load(str(tmp_path / "tile.1001.png"))
+    image.source, image.colorspace_settings.name = "TILED", "Non-Color"
+    image.tiles.new(tile_number=1002)
+    cube.link(cube.add("TexImage", image=image).outputs["Color"], "Base Color")
+    mesh = cube.item.data
+    for corner in mesh.polygons[2].loop_indices:
+        mesh.uv_layers[0].uv[corner].vector.x += 1.0
+    texels, middle = in_middles(baked(tmp_path), (0, ("base_color",)), cube.item)
+    is_second = np.all(np.isclose(middle @ mesh.polygons[2].normal, 1.0, atol=0.01)[:, None], axis=1)
+    assert np.count_nonzero(is_second) == 2
+    # Half the precision of 8 bits
+    wanted = np.where(is_second, 0.8, 0.2)[:, None] * np.ones(3)
+    np.testing.assert_allclose(texels, wanted, atol=2e-3)
+
+
+def test_a_linked_material_is_baked(cube: Cube, tmp_path: Path) -> None:
+    cube.link(cube.coordinates("Object"), "Base Color")
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "library.blend"))
+    bpy.ops.wm.read_homefile(use_factory_startup=True)
+    with bpy.data.libraries.load(str(tmp_path / "library.blend"), link=True) as (_, wanted):
+        wanted.materials = ["Material"]
+    item = bpy.context.object
+    item.data.materials[0] = wanted.materials[0]
+    texels, middle = in_middles(baked(tmp_path), (0, ("base_color",)), item)
+    np.testing.assert_allclose(texels, middle, atol=BESIDE)

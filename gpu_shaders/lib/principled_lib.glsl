@@ -1,6 +1,6 @@
 // Twin of rsibr_addon/core/brdf/principled.py. The texture `albedos` (see device/kinds/kernel_pyramid.py) has
-// a column for each width and a row for each elevation. Layer 0 holds the directional albedos of GGX times the
-// powers from 2 onwards; layer 1 that of GGX itself, and twice its integral over mu.
+// a column for each width and a row for each elevation. Layer 0 holds the directional albedos of GGX times
+// the powers from 2 onwards; layer 1 that of GGX itself, and twice its integral over mu.
 #include "lib/family_lib.glsl"
 #include "lib/fresnel_powers_lib.glsl"
 

@@ -1,6 +1,7 @@
 """The program that draws a material whose inputs are textures, and what it reads of one."""
 
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any
 from weakref import WeakKeyDictionary
 
@@ -111,14 +112,15 @@ class MaterialBinding:
         ] = WeakKeyDictionary()
         self._nothing: gpu.types.GPUTexture | None = None
 
-    def bind(
+    @contextmanager
+    def bound(
         self,
         shader: gpu.types.GPUShader,
         material: DrawnMaterial,
         uv_maps: tuple[str, ...],
         antialiased: bool,
-    ) -> None:
-        """Set a material's block and images.
+    ) -> Iterator[None]:
+        """Within, a program draws with a material; Blender's images are looked up as before afterwards.
 
         Parameters
         ----------
@@ -145,20 +147,23 @@ class MaterialBinding:
         shader.uniform_block("material", block)
         if self._nothing is None:
             self._nothing = buffers.texture(np.zeros((1, 1, 4), np.float32))
-        for number in range(MOST_TEXTURES):
-            image = self._nothing
-            if number < len(textures):
-                image = _placed(material.textures[textures[number]], textures[number])
-            shader.uniform_sampler(f"image_{number}", image)
-
-
-def _placed(image: gpu.types.GPUTexture, texture: Texture) -> gpu.types.GPUTexture:
-    """The image, looked up as the texture asks for; Blender's own draws say each time how they do."""
-    image.extend_mode(EXTENSIONS[texture.extension])
-    image.filter_mode(not texture.closest)
-    # Mesa's software driver blurs what is looked up so, four times as slowly
-    image.anisotropic_filter(False)
-    return image
+        images = [material.textures[texture] for texture in textures]
+        try:
+            for number in range(MOST_TEXTURES):
+                image = self._nothing
+                if number < len(images):
+                    image = images[number]
+                    image.extend_mode(EXTENSIONS[textures[number].extension])
+                    image.filter_mode(not textures[number].closest)
+                    # Mesa's software driver blurs what is looked up so
+                    image.anisotropic_filter(False)
+                shader.uniform_sampler(f"image_{number}", image)
+            yield
+        finally:
+            for image in images:
+                image.extend_mode("REPEAT")
+                image.filter_mode(True)
+                image.anisotropic_filter(True)
 
 
 def textures_of(inputs: PrincipledInputs) -> tuple[Texture, ...]:

@@ -10,7 +10,12 @@ from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.errors import ShapeError
 from rsibr.rsibr_addon.core.geometry.directions import transformed_normal
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import principled_radiance
-from rsibr.rsibr_addon.core.materials.normals import SurfacePoints, bumped_normal, shading_normal
+from rsibr.rsibr_addon.core.materials.normals import (
+    SurfacePoints,
+    bumped_normal,
+    mapped_normal,
+    shading_normal,
+)
 from rsibr.rsibr_addon.core.materials.principled import (
     Baked,
     Bump,
@@ -211,6 +216,25 @@ def test_normals_are_what_the_reference_says(content: GpuPyramid, normal: Normal
     wrong = np.abs(picture[..., :3] - expected).max(axis=-1) > 0.01 * expected.max()
     # Where a tenth of a pixel crosses a line between texels, a bump's slope is another
     assert np.count_nonzero(wrong) <= (0.15 * SIZE**2 if isinstance(normal, Bump) else 0)
+
+
+@pytest.mark.parametrize("coat", ["surface", "base", "own"])
+def test_coats_have_their_own_normal(content: GpuPyramid, coat: str) -> None:
+    image = np.broadcast_to([0.7, 0.4, 0.9, 1.0], (2, 2, 4))
+    tilted = NormalMap(Input(COLOR, MAP), constants(1.0))
+    own = NormalMap(constants(0.35, 0.5, 0.95), constants(1.0))
+    coated = replace(PLAIN, coat_weight=constants(1.0), coat_roughness=constants(0.3), normal=tilted)
+    coated = replace(coated, coat_normal={"surface": None, "base": tilted, "own": own}[coat])
+    look = OwnMaterials((DrawnMaterial(coated, {MAP: buffers.texture(image)}),), antialiased=False)
+    picture = drawn(content, square(tangents=np.tile(TANGENT, (4, 1))), look)
+    base = mapped_normal(image[0, 0, :3], [1.0], UP, TANGENT)
+    mapped = mapped_normal([0.35, 0.5, 0.95], [1.0], UP, TANGENT)
+    over = {"surface": UP, "base": base, "own": mapped}[coat]
+    points = (each[None] for each in (base, FROM_ABOVE.eye[:3], UP, over))
+    expected = principled_radiance(
+        pyramid(), families(), Surface(coat_weight=1.0, coat_roughness=0.3), *points
+    )
+    np.testing.assert_allclose(picture[..., :3], np.broadcast_to(expected, (SIZE, SIZE, 3)), atol=2e-3)
 
 
 def test_each_slot_has_its_own_material(content: GpuPyramid) -> None:

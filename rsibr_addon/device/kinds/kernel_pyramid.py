@@ -152,8 +152,8 @@ class GpuPyramid:
     ) -> None:
         self._light(shader)
         for slot in slots:
-            self._materials.bind(shader, look.slots[slot], mesh.uv_maps, look.antialiased)
-            mesh.draw_slot(shader, draw, slot, last=slot == len(look.slots) - 1)
+            with self._materials.bound(shader, look.slots[slot], mesh.uv_maps, look.antialiased):
+                mesh.draw_slot(shader, draw, slot, last=slot == len(look.slots) - 1)
 
     def _light(self, shader: gpu.types.GPUShader) -> None:
         for name, texture in zip(SAMPLERS, self.textures, strict=True):

@@ -27,5 +27,7 @@ class MaterialNotes:
 
     def _of(self, material: Any) -> tuple[str, ...]:
         if material.session_uid not in self._read:
-            self._read[material.session_uid] = shown_material(material).messages
+            shown = shown_material(material)
+            baked = f"Material {material.name} has a bake in the background for {shown.unbaked}."
+            self._read[material.session_uid] = (*([baked] if shown.unbaked else []), *shown.messages)
         return self._read[material.session_uid]

@@ -38,12 +38,15 @@ class ShownMaterial:
         What is not shown of it, and why.
     has_baked : bool
         Whether inputs of it have to be baked.
+    unbaked : str
+        Those that are not there yet, as a part of a sentence; empty for none.
     """
 
     name: str
     drawn: DrawnMaterial
     messages: tuple[str, ...] = ()
     has_baked: bool = False
+    unbaked: str = ""
 
     @property
     def textures(self) -> tuple[Texture, ...]:
@@ -120,7 +123,12 @@ class Materials:
         if has_baked:
             self._inputs.need(evaluated.original)
         needs = _needs(shown)
-        messages = [message for each in shown for message in each.messages]
+        messages = [
+            f"Until it is baked, material {each.name} is shown with Blender's default for {each.unbaked}."
+            for each in shown
+            if each.unbaked
+        ]
+        messages += [message for each in shown for message in each.messages]
         messages += _missing_maps(evaluated, shown, needs, inputs.unwrapping)
         slots = tuple(each.drawn for each in shown)
         return ShownMaterials(slots, needs, tuple(dict.fromkeys(messages)), inputs.unwrapping, has_baked)
@@ -172,7 +180,8 @@ def shown_material(
     if isinstance(inputs.coat_normal, Bump) and inputs.coat_normal != inputs.normal:
         reader.unread["coat_normal"] = "a bump of its own"
     drawn = DrawnMaterial(inputs, ImageTextures(textures_of(inputs), image_of, baked))
-    return ShownMaterial(name, drawn, tuple(_messages(name, inputs, reader)), has_baked)
+    messages = tuple(_messages(name, inputs, reader))
+    return ShownMaterial(name, drawn, messages, has_baked, _told(reader.unbaked))
 
 
 class _Reader:
@@ -211,10 +220,8 @@ class _Reader:
 
 def _messages(name: str, inputs: PrincipledInputs, reader: _Reader) -> list[str]:
     messages = []
-    for begin, fields in (("Until it is baked, material", reader.unbaked), ("Material", reader.unread)):
-        if fields:
-            told = [f"{LABELS[field]} ({reason})" for field, reason in fields.items()]
-            messages.append(f"{begin} {name} is shown with Blender's default for {_listed(told)}.")
+    if reader.unread:
+        messages.append(f"Material {name} is shown with Blender's default for {_told(reader.unread)}.")
     if inputs.missing:
         messages.append(f"Material {name} is shown without {_listed(inputs.missing)}.")
     messages += [
@@ -222,6 +229,11 @@ def _messages(name: str, inputs: PrincipledInputs, reader: _Reader) -> list[str]
         for image in reader.lost
     ]
     return messages
+
+
+def _told(fields: Mapping[str, str]) -> str:
+    """Fields and reasons as a part of a sentence; empty for none."""
+    return _listed([f"{LABELS[field]} ({reason})" for field, reason in fields.items()]) if fields else ""
 
 
 def _listed(things: Sequence[str]) -> str:

@@ -64,7 +64,10 @@ def refract_each(view_dir: np.ndarray, normal: np.ndarray, eta: np.ndarray) -> n
 
 
 def weighted(role: Role, direction: np.ndarray, cosine: np.ndarray) -> np.ndarray:
-    """Weight times table through the reference: of the diffuse table, which goes by the normal."""
+    """Weight times table through the reference: of the diffuse table, which goes by the normal.
+
+    Cosines are not negative, as the reference turns the normal to the eye.
+    """
     weights = np.zeros_like(WEIGHTS)
     weights[0] = WEIGHTS[list(Role).index(role)]
     tables = ReflectionTables({Role.DIFFUSE: IMAGE}, weights)
@@ -142,7 +145,7 @@ TWINS = {
         "vec3(-sqrt(1.0 - in_4.x * in_4.x), 0.0, in_4.x), corners);",
         lambda: [
             *footprints(),
-            single(np.c_[RNG.uniform(-0.2, 1.0, COUNT), RNG.integers(0, 2, COUNT).astype(np.float64)]),
+            single(np.c_[RNG.uniform(0.0, 1.0, COUNT), RNG.integers(0, 2, COUNT).astype(np.float64)]),
         ],
         weighted_mean,
         # Boxes off by 3e-6, at worst over one texel, of which neighbours differ by up to 1
@@ -155,7 +158,7 @@ TWINS = {
         f"result_0.xyz = weighted_table(in_1.y, image, weights, TABLE_{role.name}, in_1.x, in_0.xyz);",
         lambda: [
             DIRECTIONS,
-            single(np.c_[RNG.uniform(-0.2, 1.0, COUNT), RNG.integers(0, 2, COUNT).astype(np.float64)]),
+            single(np.c_[RNG.uniform(0.0, 1.0, COUNT), RNG.integers(0, 2, COUNT).astype(np.float64)]),
         ],
         lambda direction, more, role=role: more[:, 1:] * weighted(role, direction, more[:, :1]),
         3.0 * (FILTERING + 2 * ROWS * ARCTANGENT),

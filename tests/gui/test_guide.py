@@ -147,6 +147,12 @@ def scenario(told):
     told["shaded"] = bool(bpy.context.object.rsibr.map_set)
     yield from drawn()
     told["messages"] = session().previews.messages(bpy.context.object)
+    # As in Blender's material properties
+    inputs = bpy.context.object.active_material.node_tree.nodes["Principled BSDF"].inputs
+    inputs["Base Color"].default_value = (0.5, 0.03, 0.02, 1)
+    inputs["Roughness"].default_value, inputs["Coat Weight"].default_value = 0.4, 1.0
+    for _ in range(3):
+        yield from drawn()
     picture("guide-preview", left=250)
 """
 

@@ -2,16 +2,31 @@
 
 from typing import Any
 
+from ...device.own_materials import OwnMaterials
 from ...files.kinds.registry import look_types
 from ...host.option_properties import options_of, said_by
 from ...host.visible_surfaces import Surface
 from ..methods.kinds import KINDS
+from .contents import Drawable
 from .map_sets import ViewportMapSet
 
 
 def wants_own(item: Any, kind: str) -> bool:
     """Whether either look of an object asks for its own materials."""
-    return KINDS[kind].own and any(getattr(group, kind).own for group in (item.rsibr, item.rsibr.other))
+    return KINDS[kind].own and any(_settings(item, kind, other).own for other in (False, True))
+
+
+def own_look(drawable: Drawable, kind: str, other: bool) -> OwnMaterials | None:
+    """A look that shows an object's own materials; None where it asks for none."""
+    if not (KINDS[kind].own and drawable.materials):
+        return None
+    settings = _settings(drawable.surface.item, kind, other)
+    return OwnMaterials(drawable.materials.slots, settings.antialiased) if settings.own else None
+
+
+def _settings(item: Any, kind: str, other: bool) -> Any:
+    """The properties that say an object's look."""
+    return getattr(item.rsibr.other if other else item.rsibr, kind)
 
 
 class Looks:
@@ -55,7 +70,7 @@ class Looks:
 
     def _said(self, item: Any, kind: str, other: bool) -> Any:
         """The look that an object's properties say; it is checked once, as every frame asks for it."""
-        group = getattr(item.rsibr.other if other else item.rsibr, kind)
+        group = _settings(item, kind, other)
         said, shown = (kind, said_by(self._types[kind], group)), (item.session_uid, other)
         before, look = self._made.get(shown, (None, None))
         if before != said:

@@ -19,7 +19,7 @@ from .blender_pictures import BlenderPictures
 from .contents import Contents, Drawable, LayerContents
 from .displays import Displays
 from .faults import Faults
-from .looks import Looks, wants_own
+from .looks import Looks, own_look, wants_own
 from .map_sets import MapSets, ViewportMapSet
 
 
@@ -163,7 +163,8 @@ class Previews:
             contents = self._collected(view)
         self._map_sets.begin_frame()
         seen = self._seen(contents, view)
-        if any(each.materials is None and self._shows_own(each.surface) for each, _ in seen):
+        lacking = [each.surface for each, map_set in seen if KINDS[map_set.kind].own and not each.materials]
+        if any(map(self._shows_own, lacking)):
             contents = self._collected(view)  # a map set has come that wants its objects' materials
             seen = self._seen(contents, view)
         if not seen:
@@ -312,17 +313,14 @@ class Previews:
     def _looks_of(self, drawable: Drawable, map_set: ViewportMapSet, wanted: set[bool]) -> dict[bool, Any]:
         """The looks that are wanted of an object, by whether it is the other one; empty after a fault."""
         try:
-            looks = {other: self._looks.of(drawable.surface, map_set, other) for other in wanted}
+            return {
+                other: own_look(drawable, map_set.kind, other)
+                or self._looks.of(drawable.surface, map_set, other)
+                for other in wanted
+            }
         except Exception as error:
             self.faults.note(drawable.surface.item, error)
             return {}
-        if not (KINDS[map_set.kind].own and drawable.materials):
-            return looks
-        slots = drawable.materials.slots
-        return {
-            other: OwnMaterials(slots, look.antialiased) if look.own else look
-            for other, look in looks.items()
-        }
 
     def _set(
         self, stage: Stage, behind: list[tuple[GpuMesh, Draw]], group: list[_Shown], other: bool

@@ -54,6 +54,7 @@ vec2 texture_place(int number)
 void add_texels(int number, vec4 texel)
 {
   vec4 range = material.ranges[number];
+  texel.rgb *= (material.mapping[2 * number + 1].w > 0.0) ? texel.a : 1.0;
   for (int row = int(range.x); row < int(range.y); row++) {
     numbers[int(material.targets[row].x)] += dot(material.rows[row], texel);
   }

@@ -200,9 +200,16 @@ def _image(socket: bpy.types.NodeSocket, groups: Groups) -> Input:
     mapping: Affine = (*matrix[0].xy, matrix[0].w, *matrix[1].xy, matrix[1].w)
     library = image.library.filepath if image.library else ""
     closest = node.interpolation == "Closest"
-    texture = Texture(image.name, library, uv_map, mapping, node.extension, closest)
+    covered = _is_covered(image) and not node.outputs["Alpha"].is_linked
+    texture = Texture(image.name, library, uv_map, mapping, node.extension, closest, covered=covered)
     rows = ALPHA if is_alpha else RGB
     return Input(rows, texture)
+
+
+def _is_covered(image: bpy.types.Image) -> bool:
+    """Whether Cycles multiplies an image's colours by alpha, where the node's alpha is not linked."""
+    has_alpha = image.depth in (32, 64, 128)
+    return has_alpha and image.alpha_mode == "STRAIGHT" and not image.colorspace_settings.is_data
 
 
 RGB: tuple[Row, ...] = ((1.0, 0.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0, 0.0))

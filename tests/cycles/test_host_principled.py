@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.conventions import Array
 from rsibr.rsibr_addon.core.errors import SceneError
+from rsibr.rsibr_addon.core.light.transfer_curve import linear_from_srgb
 from rsibr.rsibr_addon.core.materials.principled import Baked, Bump, Input, NormalMap
 from rsibr.rsibr_addon.core.materials.sampling import evaluate
 from rsibr.rsibr_addon.host.principled import principled
@@ -108,6 +109,31 @@ def test_an_image_lies_where_cycles_has_it(
     nodes.link(mapping.outputs[0], image.inputs["Vector"])
     nodes.link(image.outputs["Color"], "Base Color")
     check(nodes, "Base Color", "base_color")
+
+
+@pytest.mark.parametrize("linked", [False, True])
+@pytest.mark.parametrize("mode", ["STRAIGHT", "CHANNEL_PACKED", "NONE"])
+def test_what_alpha_hides_is_black_unless_alpha_is_taken(nodes: Nodes, mode: str, linked: bool) -> None:
+    image = bpy.data.images.new("holes", TEXELS.shape[1], TEXELS.shape[0], alpha=True)
+    texels = np.round(255.0 * TEXELS) / 255.0
+    texels[..., 3] = np.indices(TEXELS.shape[:2]).sum(axis=0) % 2
+    image.pixels.foreach_set(texels.astype(np.float32).ravel())
+    image.update()
+    image.pack()
+    image.alpha_mode = mode
+    node = nodes.add("TexImage", image=image, interpolation="Closest")
+    nodes.link(node.outputs["Color"], "Base Color")
+    if linked:
+        nodes.link(node.outputs["Alpha"], "Alpha")
+    described = principled(nodes.material).base_color
+    assert isinstance(described, Input)
+    assert described.texture is not None
+    assert described.texture.covered == (mode == "STRAIGHT" and not linked)
+    if not linked:  # a bake of the colour alone takes no alpha
+        centre = (np.arange(SIZE) + 0.5) / SIZE
+        linear = np.concatenate([linear_from_srgb(texels[..., :3]), texels[..., 3:]], axis=-1)
+        ours = evaluate(described, linear, np.stack(np.meshgrid(centre, centre), axis=-1))
+        np.testing.assert_allclose(ours, baked(nodes, "Base Color"), atol=4e-3)
 
 
 def inverted(nodes: Nodes, color: bpy.types.NodeSocket) -> bpy.types.NodeSocket:

@@ -142,7 +142,9 @@ TEXTURED = replace(
 @pytest.mark.parametrize("extension", ["REPEAT", "EXTEND", "CLIP", "MIRROR"])
 @pytest.mark.parametrize("closest", [False, True])
 def test_a_picture_is_what_the_reference_says(content: GpuPyramid, extension: str, closest: bool) -> None:
-    first, second = (replace(texture, extension=extension, closest=closest) for texture in (PLACED, OTHER))
+    # Alpha is multiplied after it is interpolated, where texels are
+    changes = {"extension": extension, "closest": closest, "covered": closest}
+    first, second = (replace(texture, **changes) for texture in (PLACED, OTHER))
     inputs = replace(
         TEXTURED,
         **{
@@ -230,7 +232,7 @@ def test_coats_have_their_own_normal(content: GpuPyramid, coat: str) -> None:
     base = mapped_normal(image[0, 0, :3], [1.0], UP, TANGENT)
     mapped = mapped_normal([0.35, 0.5, 0.95], [1.0], UP, TANGENT)
     over = {"surface": UP, "base": base, "own": mapped}[coat]
-    points = (each[None] for each in (base, FROM_ABOVE.eye[:3], UP, over))
+    points = (each[None] for each in (base, FROM_ABOVE.eye[:3], UP, over, UP))
     expected = principled_radiance(
         pyramid(), families(), Surface(coat_weight=1.0, coat_roughness=0.3), *points
     )

@@ -38,6 +38,8 @@ class Texture:
         Whether a texel is one colour all over; bilinear otherwise.
     bake : str
         File of baked inputs that it is a picture of (`files.baked_inputs`); empty for an image of Blender's.
+    covered : bool
+        Whether colours are multiplied by alpha.
     """
 
     image: str
@@ -47,6 +49,7 @@ class Texture:
     extension: Extension = "REPEAT"
     closest: bool = False
     bake: str = ""
+    covered: bool = False
 
 
 @dataclass(frozen=True)

@@ -20,6 +20,8 @@ def sample(texture: Texture, texels: Array, uv: Array) -> Array:
     -------
     ndarray, shape (..., 4)
     """
+    if texture.covered:
+        texels = np.concatenate([texels[..., :3] * texels[..., 3:], texels[..., 3:]], axis=-1)
     height, width = texels.shape[:2]
     a, b, c, d, e, f = texture.mapping
     u, v = uv[..., 0], uv[..., 1]

@@ -17,17 +17,16 @@ export async function loadCompressed(url) {
     return environment(image, format);
 }
 
-// NAME.ktx2: half floats, or floats where the light needs them, for all graphics cards
+// NAME.ktx2: half floats, for all graphics cards
 export async function loadUncompressed(url) {
-    const { levels, pixelWidth, typeSize } = read(new Uint8Array(await (await fetch(url)).arrayBuffer()));
-    const [Numbers, type] = typeSize === 2 ? [Uint16Array, THREE.HalfFloatType] : [Float32Array, THREE.FloatType];
+    const { levels, pixelWidth } = read(new Uint8Array(await (await fetch(url)).arrayBuffer()));
     const faces = [0, 1, 2, 3, 4, 5].map((face) => {
         const mipmaps = levels.map(({ levelData }, mip) => {
             const width = pixelWidth >> mip, length = 4 * width * width;
-            const data = new Numbers(levelData.slice().buffer, face * length * typeSize, length);
+            const data = new Uint16Array(levelData.slice().buffer, 2 * face * length, length);
             return { data, width, height: width };
         });
         return { mipmaps, width: pixelWidth, height: pixelWidth };
     });
-    return environment(faces, THREE.RGBAFormat, type);
+    return environment(faces, THREE.RGBAFormat, THREE.HalfFloatType);
 }

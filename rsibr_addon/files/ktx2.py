@@ -7,6 +7,7 @@ in the order of v, so that a lookup at our (u, v) finds the texel in every inter
 import struct
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from enum import StrEnum
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +19,7 @@ from .textures import Texture
 
 IDENTIFIER = b"\xabKTX 20\xbb\r\n\x1a\n"
 
-RGBSDA, BC6H = 1, 133
+_RGBSDA, _BC6H = 1, 133
 """The data format's models of colour."""
 
 HALF, FLOAT = 97, 109
@@ -32,8 +33,20 @@ BC6H_UFLOAT, BC6H_SFLOAT = 143, 144
 """Vulkan's BC6H_UFLOAT_BLOCK and BC6H_SFLOAT_BLOCK."""
 
 
+class Texels(StrEnum):
+    """What holds a texel.
+
+    FITTING takes 16-bit floats where these can hold the texture, else 32-bit floats. HALF takes 16-bit floats
+    in any case, and BC6H compresses: nothing may be beyond `core.bc6h.encode.LARGEST` then.
+    """
+
+    FITTING = "fitting"
+    HALF = "half"
+    BC6H = "bc6h"
+
+
 @dataclass(frozen=True)
-class _Texels:
+class _Stored:
     """How texels are stored.
 
     Attributes
@@ -62,9 +75,9 @@ def write_ktx2(
     texture: Texture,
     notes: Mapping[str, str],
     force: bool = False,
-    compressed: bool = False,
+    texels: Texels = Texels.FITTING,
 ) -> None:
-    """Write a texture, as 16-bit floats where these can hold it, else as 32-bit floats; alpha is 1.
+    """Write a texture; alpha is 1, where there is one.
 
     Parameters
     ----------
@@ -75,25 +88,25 @@ def write_ktx2(
         Notes for readers, by their keys.
     force : bool
         Whether an existing file is replaced.
-    compressed : bool
-        Whether it is written as BC6H instead: see `core.bc6h.encode`. Nothing is beyond its `LARGEST` then.
+    texels : Texels
 
     Raises
     ------
     OutputFileError
         See `written_aside`.
     """
-    texels = _blocks(texture) if compressed else _floats(texture.is_half)
-    pixels = [texels.encoded(level) for level in texture.levels]
+    half = texels is Texels.HALF or texture.is_half
+    stored = _blocks(texture) if texels is Texels.BC6H else _floats(half)
+    pixels = [stored.encoded(level) for level in texture.levels]
     layers, height, width = texture.levels[0].shape[:3]
     orientation = "rd" if texture.is_cube else "ru"
-    described = texels.description
+    described = stored.description
     noted = _key_values({"KTXorientation": orientation, **notes})
     described_at = _HEADER.size + len(pixels) * _LEVEL.size
     noted_at = described_at + len(described)
     head = _HEADER.pack(
         IDENTIFIER,
-        *(texels.number, texels.unit),
+        *(stored.number, stored.unit),
         *(width, height, 0),
         *((0, 6) if texture.is_cube else (layers, 1)),
         *(len(pixels), 0),
@@ -103,7 +116,7 @@ def write_ktx2(
     # The smallest mip comes first, so that a reader can show something early
     places, end = [0] * len(pixels), noted_at + len(noted)
     for level in reversed(range(len(pixels))):
-        places[level] = -(-end // texels.size) * texels.size
+        places[level] = -(-end // stored.size) * stored.size
         end = places[level] + len(pixels[level])
     index = b"".join(
         _LEVEL.pack(place, len(level), len(level)) for place, level in zip(places, pixels, strict=True)
@@ -115,7 +128,7 @@ def write_ktx2(
             file.write(mip)
 
 
-def _floats(half: bool) -> _Texels:
+def _floats(half: bool) -> _Stored:
     bits, red_green_blue_alpha = 16 if half else 32, (0, 1, 2, 15)
     samples = [
         (position * bits, bits, channel, True) for position, channel in enumerate(red_green_blue_alpha)
@@ -126,18 +139,18 @@ def _floats(half: bool) -> _Texels:
         texels[..., :3] = level
         return texels.tobytes()
 
-    described = _description(RGBSDA, (0, 0), bits // 2, samples)
-    return _Texels(HALF if half else FLOAT, bits // 8, bits // 2, described, encoded)
+    described = _description(_RGBSDA, (0, 0), bits // 2, samples)
+    return _Stored(HALF if half else FLOAT, bits // 8, bits // 2, described, encoded)
 
 
-def _blocks(texture: Texture) -> _Texels:
+def _blocks(texture: Texture) -> _Stored:
     signed = any(bool((level < 0.0).any()) for level in texture.levels)
-    described = _description(BC6H, (3, 3), 16, [(0, 128, 0, signed)])
+    described = _description(_BC6H, (3, 3), 16, [(0, 128, 0, signed)])
 
     def encoded(level: Array) -> bytes:
         return b"".join(bc6h_blocks(layer, signed).tobytes() for layer in level)
 
-    return _Texels(BC6H_SFLOAT if signed else BC6H_UFLOAT, 1, 16, described, encoded)
+    return _Stored(BC6H_SFLOAT if signed else BC6H_UFLOAT, 1, 16, described, encoded)
 
 
 def _description(

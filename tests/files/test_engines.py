@@ -355,6 +355,20 @@ def test_light_beyond_an_encoding_is_cut_and_told(tmp_path: Path) -> None:
     assert max(level.max() for level in levels) == 64512.0
 
 
+@pytest.mark.parametrize(
+    ("scale", "told"),
+    [(1e6, "a half float ends at 65504"), (1e-7, "half floats round it by more than a thousandth")],
+)
+@pytest.mark.parametrize("name", ["three", "bevy"])
+def test_engines_that_need_half_floats_get_them(name: str, scale: float, told: str, tmp_path: Path) -> None:
+    write_radiance(tmp_path / "sky.exr", scale * sky(64))
+    with pytest.warns(RsibrWarning, match=told):
+        paths = drain(
+            export_for_engine(tmp_path / "sky.exr", tmp_path / "sky.ktx2", name, CubeSettings(size=16))
+        )
+    assert {read_ktx2(path).format for path in paths} == {97}
+
+
 def pngs_of(data: bytes, places: list[dict[str, int]], folder: Path) -> list[np.ndarray]:
     """Radiance of RGBD pictures, row 0 on top, as Babylon.js decodes it."""
     made = []

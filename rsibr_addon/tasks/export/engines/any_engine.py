@@ -10,7 +10,7 @@ import numpy as np
 from ....core.bc6h.encode import LARGEST
 from ....core.kinds.mip_chain.ggx import ROUGHNESS_RULES
 from ....files.dds import write_dds
-from ....files.ktx2 import write_ktx2
+from ....files.ktx2 import Texels, write_ktx2
 from ....files.textures import Texture, Up
 from .engine import MIRRORED_X, MIRRORED_Z, Y_UP, CubeEngine, EngineLight, mips_down_to, within
 from .settings import AnySettings
@@ -27,10 +27,10 @@ def write_as_ktx2(settings: AnySettings, light: EngineLight, output: Path, force
         "roughness": light.roughness,
         "harmonics": light.harmonics.tolist(),
     }
-    compressed = settings.texels == "bc6h"
-    mips = within(light.mips, LARGEST, light.name, "BC6H") if compressed else light.mips
+    texels = Texels.BC6H if settings.texels == "bc6h" else Texels.FITTING
+    mips = within(light.mips, LARGEST, light.name, "BC6H") if texels is Texels.BC6H else light.mips
     notes = {"KTXwriter": light.software, "rsibr": json.dumps(note, allow_nan=False)}
-    write_ktx2(output, Texture(mips, is_cube=True), notes, force, compressed)
+    write_ktx2(output, Texture(mips, is_cube=True), notes, force, texels)
     return [output]
 
 

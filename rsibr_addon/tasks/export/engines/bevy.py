@@ -3,9 +3,9 @@
 from pathlib import Path
 
 from ....core.kinds.mip_chain.ggx import linear_roughness
-from ....files.ktx2 import write_ktx2
+from ....files.ktx2 import Texels, write_ktx2
 from ....files.textures import Texture
-from .engine import MIRRORED_Z, Y_UP, CubeEngine, EngineLight, mips_down_to
+from .engine import MIRRORED_Z, Y_UP, CubeEngine, EngineLight, as_halves, mips_down_to
 
 LAST = 8
 """Width of the last mip: four texels to a quarter turn hold the widest lobe."""
@@ -16,7 +16,8 @@ def write(light: EngineLight, output: Path, force: bool) -> list[Path]:
     assert light.diffuse is not None
     diffuse = output.with_stem(f"{output.stem}-diffuse")
     for path, mips in ((output, light.mips), (diffuse, (light.diffuse,))):
-        write_ktx2(path, Texture(mips, is_cube=True), {"KTXwriter": light.software}, force)
+        texture = Texture(as_halves(mips, light.name), is_cube=True)
+        write_ktx2(path, texture, {"KTXwriter": light.software}, force, Texels.HALF)
     return [output, diffuse]
 
 

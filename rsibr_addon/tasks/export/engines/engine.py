@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ....core.conventions import Array
+from ....core.half_floats import half_holds
 from ....core.warned import warn
 from .settings import CubeSettings, EngineSettings
 
@@ -19,6 +20,8 @@ MIRRORED_X = np.diag([-1.0, 1.0, 1.0])
 
 MIRRORED_Z = np.diag([1.0, 1.0, -1.0])
 """For engines that look cubes up by (x, y, -z)."""
+
+LARGEST_HALF = float(np.finfo(np.float16).max)
 
 
 @dataclass(frozen=True)
@@ -135,6 +138,20 @@ class PanoramaEngine(Engine):
 def mips_down_to(size: int, last: int) -> int:
     """Number of mips from faces of `size` texels to faces of `last`; both are powers of 2."""
     return (size // last).bit_length()
+
+
+def as_halves(mips: tuple[Array, ...], name: str) -> tuple[Array, ...]:
+    """The mips, as half floats can hold them; for engines that cannot interpolate 32-bit floats everywhere.
+
+    Warns
+    -----
+    RsibrWarning
+        Something was cut, or is so dark that it loses precision.
+    """
+    cut = within(mips, LARGEST_HALF, name, "a half float")
+    if not half_holds(cut):
+        warn(f"{name} is so dark that half floats round it by more than a thousandth: make it brighter.")
+    return cut
 
 
 def within(mips: tuple[Array, ...], largest: float, name: str, encoding: str) -> tuple[Array, ...]:

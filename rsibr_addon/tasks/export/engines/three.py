@@ -5,9 +5,9 @@ from pathlib import Path
 from ....core.bc6h.encode import LARGEST
 from ....core.kinds.mip_chain.ggx import quadratic_roughness
 from ....files.dds import write_dds
-from ....files.ktx2 import write_ktx2
+from ....files.ktx2 import Texels, write_ktx2
 from ....files.textures import Texture
-from .engine import MIRRORED_X, Y_UP, CubeEngine, EngineLight, mips_down_to, within
+from .engine import MIRRORED_X, Y_UP, CubeEngine, EngineLight, as_halves, mips_down_to, within
 
 LAST = 8
 """Width of the last mip, that of roughness 1, from which diffuse light comes too."""
@@ -21,7 +21,8 @@ def write_compressed(light: EngineLight, output: Path, force: bool) -> list[Path
 
 def write_uncompressed(light: EngineLight, output: Path, force: bool) -> list[Path]:
     """Write NAME.ktx2: see `CubeEngine.writers`."""
-    write_ktx2(output, Texture(light.mips, is_cube=True), {"KTXwriter": light.software}, force)
+    mips = as_halves(light.mips, light.name)
+    write_ktx2(output, Texture(mips, is_cube=True), {"KTXwriter": light.software}, force, Texels.HALF)
     return [output]
 
 

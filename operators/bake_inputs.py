@@ -70,5 +70,6 @@ def _bake(
                 bake.tidy()
     if (same := session().bakes.unfinished(output)) is not None:
         same.items.append(item.session_uid)
-        return
-    background.submit(input_bake_of(scene, item, output))
+    else:
+        background.submit(input_bake_of(scene, item, output))
+    inputs.ask(item)

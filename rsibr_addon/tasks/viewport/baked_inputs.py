@@ -76,10 +76,13 @@ class _Wish:
         The file that it needs as it is now; None where it needs none, or that is not known.
     trouble : str
         Why there will be none, in a sentence.
+    is_coming : bool
+        Whether it was asked of a background Blender.
     """
 
     path: Path | None = None
     trouble: str = ""
+    is_coming: bool = False
 
 
 @dataclass
@@ -149,6 +152,10 @@ class InputBakes:
         self._coming[path] = self.reader.submit(read_shown_inputs, path)
         return True
 
+    def ask(self, item: Any) -> None:
+        """Say that what an object wishes was asked of a background Blender."""
+        self._wishes[item.session_uid].is_coming = True
+
     def refuse(self, item: Any, trouble: str) -> None:
         """Say why an object will have no bake as it is now; what it shows stays."""
         wish = self._wishes.setdefault(item.session_uid, _Wish())
@@ -210,7 +217,7 @@ class InputBakes:
         ----------
         item : bpy.types.Object
         by_itself : bool
-            Whether what is missing is baked without being asked for.
+            Whether what is missing is asked for by itself.
         """
         wish, shown = self._wishes.get(item.session_uid, _Wish()), self._shown.get(item.session_uid)
         remarks = list(shown[1].remarks) if shown else []
@@ -219,7 +226,10 @@ class InputBakes:
         if not self.lacks(item):
             return remarks
         what = "Material changed" if shown else "Materials need a bake"
-        return [f"{what}: baking." if by_itself else f"{what}: press Bake Materials.", *remarks]
+        return [
+            f"{what}: baking." if by_itself or wish.is_coming else f"{what}: press Bake Materials.",
+            *remarks,
+        ]
 
     def keep(self, items: set[int]) -> None:
         """Forget all objects but these."""

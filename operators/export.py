@@ -112,7 +112,7 @@ class _ExportForEngine(_Export):
     def draw(self: Any, context: bpy.types.Context) -> None:
         """Show the options, and what to do with the file in the engine."""
         self.layout.prop(self, "engine")
-        for line in wrap(f"There, {ENGINES[self.engine].use}.", COLUMNS):
+        for line in wrap(f"There, {ENGINES[self.engine].use}.", COLUMNS, break_on_hyphens=False):
             self.layout.label(text=line)
         for declared in declared_options(ENGINES[self.engine].settings):
             self.layout.prop(self, declared.name)

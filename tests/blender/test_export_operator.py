@@ -8,6 +8,7 @@ import pytest
 import rsibr
 from rsibr.operators.export import EXPORT_FOR_ENGINE
 from rsibr.rsibr_addon.command_line.main import run
+from rsibr.rsibr_addon.core.options import declared_options
 from rsibr.rsibr_addon.tasks.export.engines.engines import ENGINES
 from rsibr.tests.files.test_export import chain_file
 from rsibr.tests.open_file import open_file_state
@@ -71,3 +72,18 @@ def test_the_name_in_the_dialog_ends_as_the_engine_wants(engine: str, name: str,
     dialog.ending = lambda: EXPORT_FOR_ENGINE.ending(dialog)
     assert EXPORT_FOR_ENGINE.check(dialog, bpy.context) == (name != wanted)
     assert dialog.filepath == wanted
+
+
+@pytest.mark.usefixtures("registered")
+@pytest.mark.parametrize("engine", ENGINES)
+def test_the_dialog_shows_what_the_engine_takes_and_what_to_do_there(engine: str) -> None:
+    shown, told = [], []
+    layout = SimpleNamespace(prop=lambda _, name: shown.append(name), label=lambda text: told.append(text))
+    EXPORT_FOR_ENGINE.draw(SimpleNamespace(engine=engine, layout=layout), bpy.context)
+    options = {each.name for each in declared_options(ENGINES[engine].settings)}
+    assert shown[0] == "engine"
+    assert set(shown[1:]) == options
+    assert set(shown) <= set(bpy.ops.rsibr.export_for_engine.get_rna_type().properties.keys())
+    assert ENGINES[engine].use in " ".join(told)
+    # As wide as a sidebar of Blender's file dialog shows
+    assert max(map(len, told)) <= 40

@@ -57,7 +57,7 @@ def write(light: EngineLight, output: Path, force: bool) -> list[Path]:
 
 ENGINE = CubeEngine(
     label="Babylon.js",
-    use="set CubeTexture.CreateFromPrefilteredData(URL, scene) as scene.environmentTexture",
+    use="make a CubeTexture of it, and set that as scene.environmentTexture",
     axes=MIRRORED_X @ Y_UP,
     roughness=roughness,
     least=16,

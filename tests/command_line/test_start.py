@@ -48,6 +48,7 @@ COMMANDS = {
     "tables": ("bake", "reflection-tables", *LIGHT, "--material", "matte", "-o", "tables.rsibr.exr"),
     "fit": ("fit", "--brdf", "phong:ks=.5,n=4", *FEW, "-o", "a.json"),
     "export": ("export", "mips.rsibr.exr", "-o", "a.ktx2"),
+    "engine": ("export", "mips.rsibr.exr", "--for", "three", "--size", "16", "-o", "a.dds"),
     "brackets": ("illuminate", "brackets", "light.hdr", "light.hdr", "--times", "1,2", "-o", "b.exr"),
 }
 """What needs no Blender."""

@@ -28,7 +28,8 @@ def walk(struct, path, found, above):
         return
     for prop in struct.bl_rna.properties:
         name = prop.identifier
-        if name in PASSING or name.startswith("rsibr"):
+        # How much of a simulation is in memory: Blender may compute it anew
+        if name in PASSING or name.startswith("rsibr") or f"{path}.{name}".endswith("point_cache.info"):
             continue
         try:
             value = getattr(struct, name)
@@ -78,8 +79,8 @@ def rich_scene():
     text = bpy.data.objects.new("Text", bpy.data.curves.new("Text", "FONT"))
     scene.collection.objects.link(text)
     scene.collection.children.link(bpy.data.collections.new("Empty"))
-    scene.frame_set(5)
-    scene.frame_set(6)
+    for frame in range(1, 7):
+        scene.frame_set(frame)
     bpy.context.view_layer.objects.active = cube
     for item in scene.objects:
         item.select_set(item in (cube, text))
@@ -87,7 +88,7 @@ def rich_scene():
 
 def particles(cube):
     evaluated = cube.evaluated_get(bpy.context.evaluated_depsgraph_get())
-    return len(evaluated.particle_systems[0].particles)
+    return sum(each.alive_state == "ALIVE" for each in evaluated.particle_systems[0].particles)
 """
 
 BUTTONS = """
@@ -105,7 +106,8 @@ def scenario(told):
             yield from drawn()
         now = contents()
         differing = [path for path in before.keys() | now.keys() if before.get(path) != now.get(path)]
-        if differing or particles(cube) != living:
+        told["particles"] = told.get("particles", True) and particles(cube) == living > 0
+        if differing:
             changed[name] = [[path, str(before.get(path)), str(now.get(path))] for path in differing[:8]]
 
     def press_all(buttons):
@@ -149,4 +151,4 @@ def scenario(told):
 def test_no_button_changes_anything_but_ours(told: Callable[[str], dict]) -> None:
     answer = told(PRELUDE + CONTENTS + SCENE + BUTTONS)
     assert answer.pop("properties") > 5000
-    assert answer == {"changed": {}, "shaded": True, "bakes": [["done", ""]]}
+    assert answer == {"changed": {}, "particles": True, "shaded": True, "bakes": [["done", ""]]}

@@ -67,6 +67,9 @@ bench: $(READY)
 	$(PYTHON) .ci/bench_fits.py
 	$(PYTHON) .ci/bench_lobes.py
 	$(PYTHON) .ci/bench_mips.py
+	$(PYTHON) .ci/bench_materials.py
+	$(PYTHON) .ci/bench_own_materials.py
+	$(PYTHON) .ci/show_materials.py
 	$(PYTHON) .ci/bench_viewport.py
 
 clean:

@@ -5,14 +5,14 @@ Writes docs/images/materials-ENVIRONMENT.jpg, and the table of objects in docs/m
 
 import argparse
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
 import numpy as np
 from docs_table import DOCS, write_table
-from material_objects import SHOWN, SPHERES
+from material_objects import SHOWN, SPHERES, suzanne
 from material_studio import Light, Studio, error, start
 from rsibr.rsibr_addon.core.conventions import Array
 from rsibr.rsibr_addon.host.scenes import temporary_scene
@@ -40,7 +40,8 @@ class Seen:
         ours, split = error(self.ours, self.alone), error(self.split, self.alone)
         ratio = f" ({split / ours:.1f}x)" if ours > 0.0 else ""
         shadows = apart(self.alone, self.shadowed)
-        return f"| {self.name} | {environment} | {ours:.1%} | {split:.1%}{ratio} | {shadows:.1%} |"
+        own, other = (f"{each:.1%}" if each > 0.0 else "below the noise" for each in (ours, split))
+        return f"| {self.name} | {environment} | {own} | {other}{ratio} | {shadows:.1%} |"
 
     def strip(self) -> Array:
         """Ours, Cycles, the split sum, and what both differ from Cycles by, side by side."""
@@ -59,9 +60,11 @@ def apart(first: list[Array], second: list[Array]) -> float:
     return float(np.sqrt(max(np.sum((a - c) * (b - d)) / np.sum(c * d), 0.0)))
 
 
-def pictures(studio: Studio, samples: int) -> Iterator[Seen]:
-    """All objects, one after the other."""
-    for make in (*SPHERES, *SHOWN):
+def pictures(
+    studio: Studio, makers: Iterable[Callable[[], bpy.types.Object]], samples: int
+) -> Iterator[Seen]:
+    """Objects, one after the other."""
+    for make in makers:
         item = make()
         ours, split = studio.ours(item), studio.ours(item, split=True)
         alone, shadowed = (
@@ -85,18 +88,21 @@ def save_jpeg(path: Path, rgb: Array) -> None:
 def main() -> None:
     """Draw the sheets, and print and write the table."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--environments", nargs="*", default=["forest", "city"])
-    parser.add_argument("--samples", type=int, default=96)
-    parser.add_argument("--size", type=int, default=160)
+    parser.add_argument(
+        "--environments", nargs="*", default=["forest", "city"], help="all objects in the first"
+    )
+    parser.add_argument("--samples", type=int, default=64)
+    parser.add_argument("--size", type=int, default=120)
     parser.add_argument("--images", type=Path, default=DOCS / "images")
     chosen = parser.parse_args()
     view = start()
     lines = ["| object | environment | ours | split sum | its own shadows |", "|---|---|---:|---:|---:|"]
     for name in chosen.environments:
+        shown = SHOWN if name == chosen.environments[0] else (suzanne,)
         with tempfile.TemporaryDirectory() as folder:
             studio = Studio(view, Light(load_environment(name), Path(folder)), chosen.size)
             strips = []
-            for seen in pictures(studio, chosen.samples):
+            for seen in pictures(studio, (*SPHERES, *shown), chosen.samples):
                 lines.append(seen.row(name))
                 print(lines[-1], flush=True)
                 strips.append(seen.strip())

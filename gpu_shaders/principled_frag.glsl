@@ -1,4 +1,5 @@
 // Twin of core/kinds/kernel_pyramid/shading.py `principled_radiance`, of one material.
+#include "lib/footprint_lib.glsl"
 #include "lib/principled_radiance_lib.glsl"
 #include "lib/sides_lib.glsl"
 #include "lib/spread_lib.glsl"
@@ -6,7 +7,9 @@
 void main()
 {
   Seen seen = seen_surface(draw.eye, draw.model, world_position, world_normal, gl_FrontFacing);
-  float spread = look.coating.z * pixel_spread(dFdx(seen.normal), dFdy(seen.normal));
+  vec3 across, up;
+  pixel_sides(seen.normal, look.coating.z, across, up);
+  float spread = pixel_spread(across, up);
   Surface surface = Surface(look.base.rgb,
                             look.base.a,
                             widened_roughness(look.boundary.x, spread),

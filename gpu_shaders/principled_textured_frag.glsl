@@ -1,6 +1,7 @@
-// Twin of rsibr_addon/core/materials and of core/kinds/kernel_pyramid/shading.py `principled_radiance`: a material
-// whose inputs are affine in the texels of textures. The uniform block `material` and the textures `image_0` to
-// `image_7` are those of device/textured_materials.py.
+// Twin of rsibr_addon/core/materials and of core/kinds/kernel_pyramid/shading.py `principled_radiance`: a
+// material whose inputs are affine in the texels of textures. The uniform block `material` and the textures
+// `image_0` to `image_7` are those of device/textured_materials.py.
+#include "lib/footprint_lib.glsl"
 #include "lib/principled_radiance_lib.glsl"
 #include "lib/shading_normal_lib.glsl"
 #include "lib/sides_lib.glsl"
@@ -60,8 +61,8 @@ void add_texels(int number, vec4 texel)
   }
 }
 
-// Makes the numbers of all inputs. Each texture is sampled once; `count` is the same for all fragments, so that
-// derivatives exist.
+// Makes the numbers of all inputs. Each texture is sampled once; `count` is the same for all fragments, so
+// that derivatives exist.
 void evaluate_inputs()
 {
   for (int number = 0; number < NUMBERS; number++) {
@@ -99,14 +100,14 @@ vec3 color_of(int number)
   return vec3(numbers[number], numbers[number + 1], numbers[number + 2]);
 }
 
-// How much higher a pixel's neighbours on the right and above are, by the slope of the first texture's texels: of
-// the four around a point where that is magnified, else of four a texel of its mip apart.
+// How much higher neighbours on the right and above are, by the slope of the first texture's texels:
+// of the four around a point where that is magnified, else of four a texel of its mip apart.
 vec2 height_rises()
 {
   vec2 place = texture_place(0);
   vec2 size = vec2(textureSize(image_0, 0));
-  vec2 right = dFdx(place);
-  vec2 above = dFdy(place);
+  vec2 right, above;
+  pixel_sides(place, right, above);
   float span = max(max(length(right * size), length(above * size)), 1.0);
   vec2 texel = place * size - 0.5;
   vec2 low = (span > 1.0) ? texel - 0.5 * span : floor(texel);
@@ -139,8 +140,8 @@ vec3 shading_normal()
     normal = world_mapped_normal(color_of(NORMAL_COLOR), numbers[NORMAL_STRENGTH]);
   }
   if ((changes & BUMPED) != 0) {
-    vec3 right = dFdx(world_position);
-    vec3 above = dFdy(world_position);
+    vec3 right, above;
+    pixel_sides(world_position, 1.0, right, above);
     // Steps near 1: squares of those of a close view would vanish in single precision
     float scale = 1.0 / max(max(length(right), length(above)), 1e-30);
     vec2 rises = scale * numbers[BUMP_DISTANCE] * height_rises();
@@ -162,22 +163,25 @@ vec3 coat_shading_normal(vec3 normal)
   return normalize(world_normal);
 }
 
-// Spread of the normals of a normal map within a pixel that holds several texels: its texture is one of the first
-// two. What is magnified has texels that differ, but one normal everywhere.
+// Spread of the normals of a normal map within a pixel that holds several texels: its texture is one of the
+// first two. What is magnified has texels that differ, but one normal everywhere.
 float map_spread()
 {
   int number = int(material.antialiasing.z);
   if (number < 0) {
     return 0.0;
   }
-  vec2 texel = texture_place(number) * vec2((number == 0) ? textureSize(image_0, 0) : textureSize(image_1, 0));
-  float level = log2(max(max(length(dFdx(texel)), length(dFdy(texel))), 1.0));
+  ivec2 size = (number == 0) ? textureSize(image_0, 0) : textureSize(image_1, 0);
+  vec2 right, above;
+  pixel_sides(texture_place(number) * vec2(size), right, above);
+  float level = log2(max(max(length(right), length(above)), 1.0));
   float strength = numbers[NORMAL_STRENGTH];
   vec3 mean = 2.0 * color_of(NORMAL_COLOR) - 1.0;
   return min(level, 1.0) * strength * strength * mean_spread(mean, material.antialiasing.y);
 }
 
-// Half a step of 8 bits: what covers less is not there and hides nothing, and what covers all but that is opaque.
+// Half a step of 8 bits: what covers less is not there and hides nothing, and what covers all but that is
+// opaque.
 const float LEAST_ALPHA = 0.5 / 255.0;
 
 void main()
@@ -188,8 +192,11 @@ void main()
   Seen seen = seen_surface(draw.eye, draw.model, world_position, base_normal, gl_FrontFacing);
   Seen seen_coat = seen_surface(draw.eye, draw.model, world_position, coat_normal, gl_FrontFacing);
   float antialiased = material.antialiasing.x;
-  float spread = antialiased * (pixel_spread(dFdx(seen.normal), dFdy(seen.normal)) + map_spread());
-  float coat_spread = antialiased * pixel_spread(dFdx(seen_coat.normal), dFdy(seen_coat.normal));
+  vec3 across, up;
+  pixel_sides(seen.normal, antialiased, across, up);
+  float spread = pixel_spread(across, up) + antialiased * map_spread();
+  pixel_sides(seen_coat.normal, antialiased, across, up);
+  float coat_spread = pixel_spread(across, up);
   float alpha = clamp(numbers[ALPHA], 0.0, 1.0);
 #ifdef TRANSLUCENT
   // Behind all that needs neighbours

@@ -1,5 +1,5 @@
-// A mesh in world space, as mesh_vert.glsl has it, with what textures need: UV maps, and the normal and tangent
-// in the object's space, where normal maps are applied.
+// A mesh in world space, as mesh_vert.glsl has it, with what textures need: UV maps, and the normal and
+// tangent in the object's space, where normal maps are applied.
 #include "lib/directions_lib.glsl"
 
 void main()

@@ -8,7 +8,8 @@
 // differ in their last bits from those that it hands out, and depths by up to six.
 const float DEPTH_TOLERANCE = 8.0 / 16777216.0;
 
-// The scale of differences: its corner beside the line, and its size, in pixels; numbers are written above it.
+// The scale of differences: its corner beside the line, and its size, in pixels; numbers are written above
+// it.
 const vec2 SCALE_PLACE = vec2(24.0, 24.0);
 const vec2 SCALE_SIZE = vec2(192.0, 12.0);
 

@@ -7,6 +7,13 @@ void pixel_sides(vec3 direction, float antialiased, out vec3 across, out vec3 up
   up = antialiased * dFdy(direction);
 }
 
+// The same of a place on a texture.
+void pixel_sides(vec2 place, out vec2 across, out vec2 up)
+{
+  across = dFdx(place);
+  up = dFdy(place);
+}
+
 // Corners counterclockwise from the left one at the bottom; across and up are the pixel's whole sides.
 void parallelogram(vec3 middle, vec3 across, vec3 up, out vec3 corners[4])
 {

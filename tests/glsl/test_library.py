@@ -98,7 +98,15 @@ DRAW = {
         lambda: [eyes(), inner_points()],
         lambda eye, position: normalize(eye[:, :3] - eye[:, 3:] * position),
         1e-6,
-    )
+    ),
+    "emitted": Twin(
+        "draw_lib.glsl",
+        "result_0.xyz = emitted(in_0.xyz, in_1);",
+        lambda: [inner_points(), eyes()],
+        # What no light would scale back is kept finite
+        lambda emission, strength: emission / np.maximum(strength[:, :1], 1e-6),
+        lambda emission, strength: 4.0 * ULP * np.abs(emission / np.maximum(strength[:, :1], 1e-6))[:, None],
+    ),
 }
 
 

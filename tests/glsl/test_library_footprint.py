@@ -80,3 +80,12 @@ def test_pixel_sides() -> None:
     found = evaluate("footprint_lib.glsl", code, [np.repeat([[0.0], [1.0]], 1024, axis=0)], results=2)
     np.testing.assert_array_equal(found[:1024], np.zeros((1024, 2, 4)))
     np.testing.assert_array_equal(found[1024:, :, :2], np.broadcast_to(np.diag([1.0, 4.0]), (1024, 2, 2)))
+
+
+def test_pixel_sides_of_a_place() -> None:
+    code = """
+        vec2 place = vec2(gl_FragCoord.x, 4.0 * gl_FragCoord.y);
+        pixel_sides(place, result_0.xy, result_1.xy);
+    """
+    found = evaluate("footprint_lib.glsl", code, [np.zeros((1024, 1))], results=2)
+    np.testing.assert_array_equal(found[..., :2], np.broadcast_to(np.diag([1.0, 4.0]), (1024, 2, 2)))

@@ -71,14 +71,19 @@ def asked(page: str, question: dict[str, Any], files: Path) -> dict[str, Any]:
     serving = threading.Thread(target=server.serve_forever)
     serving.start()
     address = f"http://127.0.0.1:{server.server_port}/tests/{page}"
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
+    with (
+        tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile,
+        tempfile.TemporaryFile("w+", errors="replace") as log,  # a pipe that nobody reads would fill up
+    ):
         command = [*CHROMIUM, f"--user-data-dir={profile}", "--remote-debugging-port=0", address]
-        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=log)
         try:
             answered = server.answered.wait(PATIENCE)  # type: ignore[attr-defined]
         finally:
             process.terminate()
-            _, told = process.communicate()
+            process.wait()
+            log.seek(0)
+            told = log.read()
             server.shutdown()
             server.server_close()
             serving.join()

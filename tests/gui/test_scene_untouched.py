@@ -10,6 +10,8 @@ APART = {"window_managers", "screens", "workspaces", "all_ids"}
 
 PASSING = {"rna_type", "bl_rna", "is_updated", "is_updated_data", "is_evaluated", "preview", "users"}
 PASSING |= {"depsgraph", "bindcode", "has_data"}
+# How much of a simulation is in memory: any property of an object that is set has Blender compute it anew
+PASSING |= {"info", "is_frame_skip", "is_outdated"}
 "What Blender keeps for itself"
 
 def contents():
@@ -28,8 +30,7 @@ def walk(struct, path, found, above):
         return
     for prop in struct.bl_rna.properties:
         name = prop.identifier
-        # How much of a simulation is in memory: Blender may compute it anew
-        if name in PASSING or name.startswith("rsibr") or f"{path}.{name}".endswith("point_cache.info"):
+        if name in PASSING or name.startswith("rsibr"):
             continue
         try:
             value = getattr(struct, name)

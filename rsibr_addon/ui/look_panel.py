@@ -50,7 +50,7 @@ class RSIBR_PT_look(InSidebar, bpy.types.Panel):
         layout.use_property_split = True
         layout.use_property_decorate = False
         world = context.scene.world
-        if not holds_world(item):
+        if item.rsibr.map_set and not holds_world(item):
             layout.prop(item.rsibr, "follow_world")
             if item.rsibr.follow_world and has_environment(world) and world_light(world) is None:
                 tell(layout, NOT_FOLLOWED, context.region.width)

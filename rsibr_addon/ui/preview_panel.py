@@ -93,7 +93,7 @@ def _draw_freshness(layout: bpy.types.UILayout, item: bpy.types.Object, width: i
     stale = freshness.of(item)
     if stale is not None:
         _draw_stale(layout, stale, width)
-    elif item.session_uid in freshness.stale:
+    elif item.session_uid in freshness.stale and not session().previews.inputs.lacks(item):
         layout.label(text="Up to date", icon="CHECKMARK")
     others = sum(each is not None for each in freshness.stale.values()) - (stale is not None)
     if others:

@@ -67,12 +67,14 @@ def test_a_bake_is_shown_and_stays_until_another_is_there(
     assert previews.inputs.is_unasked
     assert previews.with_baked_inputs() == [sheet]
     (told,) = previews.messages(sheet)
-    assert "Until it is baked, material first is shown with Blender's default for Emission Color" in told
+    assert "Until its bake is done, material first shows Blender's default for Emission Color" in told
     first, second = tmp_path / "first.exr", tmp_path / "second.exr"
     assert not previews.inputs.wish(sheet, first)
     assert previews.messages(sheet)[0] == "Materials need a bake: baking."
     assert previews.inputs.wish(sheet, bake(sheet, first))
     assert lit_rows(draw()) == LOWER + UPPER
+    assert previews.take_news()  # for the panel, which was drawn before the bake was there
+    assert not previews.take_news()
     told = previews.messages(sheet)
     assert len(told) == (not has_uv_map)
     assert all("faces are baked one by one" in each for each in told)
@@ -105,7 +107,7 @@ def test_faces_that_were_added_are_not_shown_by_the_places_of_others(
     sheet.modifiers.new("Triangulate", "TRIANGULATE")
     previews.scene_changed()
     assert lit_rows(draw()) == UPPER + UPPER  # Blender's default, white
-    assert any("Until it is baked" in each for each in previews.messages(sheet))
+    assert any("Until its bake is done" in each for each in previews.messages(sheet))
 
 
 def test_a_damaged_bake_is_told(

@@ -103,16 +103,17 @@ class InputBakes:
     _shown: dict[int, tuple[Path, ShownInputs]] = field(default_factory=dict)
     _coming: dict[Path, Future[ShownInputs]] = field(default_factory=dict)
     _has_new: bool = False
+    _has_come: bool = False
 
     @property
     def is_busy(self) -> bool:
-        """Whether a file is on its way, so that `is_news` is to be asked."""
+        """Whether a file is on its way, so that `take_news` is to be asked."""
         return bool(self._coming)
 
-    @property
-    def is_news(self) -> bool:
-        """Whether a redraw would show more than the last one."""
-        return any(each.done() for each in self._coming.values())
+    def take_news(self) -> bool:
+        """Whether a redraw, or its panel, would show more than the last one."""
+        has_come, self._has_come = self._has_come, False
+        return has_come or any(each.done() for each in self._coming.values())
 
     def need(self, item: Any) -> None:
         """Say that inputs of an object have to be baked: which is asked of it soon, if it was not."""
@@ -195,15 +196,19 @@ class InputBakes:
                     if left > 0:
                         left -= image.upload(left)
             except (RsibrError, OSError) as error:
-                del self._coming[path]
+                self._come(path)
                 self.ended(path, str(error))
                 continue
             if all(image.is_whole for image in inputs.images.values()):
-                del self._coming[path]
+                self._come(path)
                 users = [number for number, wish in self._wishes.items() if wish.path == path]
                 self._shown.update(dict.fromkeys(users, (path, inputs)))
                 changed |= bool(users)
         return changed
+
+    def _come(self, path: Path) -> None:
+        del self._coming[path]
+        self._has_come = True
 
     def lacks(self, item: Any) -> bool:
         """Whether an object does not show what it needs as it is now, by what is known."""

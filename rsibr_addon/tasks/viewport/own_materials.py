@@ -124,7 +124,7 @@ class Materials:
             self._inputs.need(evaluated.original)
         needs = _needs(shown)
         messages = [
-            f"Until it is baked, material {each.name} is shown with Blender's default for {each.unbaked}."
+            f"Until its bake is done, material {each.name} shows Blender's default for {each.unbaked}."
             for each in shown
             if each.unbaked
         ]

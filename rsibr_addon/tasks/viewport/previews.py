@@ -117,7 +117,7 @@ class Previews:
 
     def take_news(self) -> bool:
         """Whether a redraw would show more than the last one."""
-        return self._map_sets.take_news() or self.inputs.is_news
+        return any([self._map_sets.take_news(), self.inputs.take_news()])
 
     def is_loading(self, item: Any) -> bool:
         """Whether an object's map set is on its way."""

@@ -13,7 +13,7 @@ from .scenes import temporary_scene
 from .working_space import working_from_rec709
 
 
-def save_png(path: Path, rgba: Array) -> None:
+def save_png(path: Path, rgba: Array, exposure: float = 0.0, view_transform: str = "Standard") -> None:
     """Write scene-linear radiance as an 8-bit sRGB picture.
 
     Parameters
@@ -23,6 +23,10 @@ def save_png(path: Path, rgba: Array) -> None:
     rgba : ndarray, shape (height, width, 4)
         Scene-linear Rec. 709 radiance premultiplied by coverage, and coverage in [0, 1]; row 0 is
         the bottom row.
+    exposure : float
+        In stops.
+    view_transform : str
+        As Blender names it.
 
     Raises
     ------
@@ -33,14 +37,15 @@ def save_png(path: Path, rgba: Array) -> None:
 
     Notes
     -----
-    Through the view transform "Standard" without exposure or dither: the sRGB curve of radiance
-    clipped to [0, 1] and nothing else, so 0.18 becomes 118 of 255. Alpha is straight, as PNG has
-    it. Blender writes into a temporary folder, because it cuts paths off after 1023 bytes.
+    By default the sRGB curve of radiance clipped to [0, 1] and nothing else, so 0.18 becomes 118 of 255;
+    without dither. Alpha is straight, as PNG has it. Blender writes into a temporary folder, because it cuts
+    paths off after 1023 bytes.
     """
     height, width = rgba.shape[:2]
     with temporary_folder() as folder, temporary_scene() as scene:
         scene.display_settings.display_device = "sRGB"
-        scene.view_settings.view_transform = "Standard"
+        scene.view_settings.view_transform = view_transform
+        scene.view_settings.exposure = exposure
         scene.render.dither_intensity = 0.0
         settings = scene.render.image_settings
         settings.media_type = "IMAGE"

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 from ..core.geometry.camera import Camera
-from ..core.options import Options, option
+from ..core.options import Choice, Options, option
 from .light import Clamp
 
 
@@ -54,6 +54,29 @@ class PreviewOptions(SceneOptions, Clamp):
         help="Frames around the object: a contact sheet in OUT and a movie beside it, OUT.mp4",
         least=2,
         none="a single picture",
+    )
+    exposure: float = option(
+        0.0,
+        label="Exposure",
+        help="How much brighter a PNG or a movie is; EXR holds radiance as it is",
+        unit="stops",
+        least=-32.0,
+        most=32.0,
+        soft_least=-10.0,
+        soft_most=10.0,
+        metavar="STOPS",
+    )
+    view_transform: str = option(
+        "Standard",
+        label="View Transform",
+        help="How a PNG or a movie shows radiance",
+        choices={
+            "Standard": Choice("Standard", "as it is, up to white"),
+            "AgX": Choice("AgX", "as film, which keeps detail in lamps"),
+            "Filmic": Choice("Filmic", "as AgX's predecessor"),
+            "Khronos PBR Neutral": Choice("Khronos PBR Neutral", "keeps the colours of materials"),
+            "False Color": Choice("False Color", "colours for brightness"),
+        },
     )
 
     def __post_init__(self) -> None:

@@ -39,7 +39,7 @@ def preview(
         A map set of any kind.
     output : Path
         NAME.exr for linear radiance, premultiplied, with coverage in alpha; NAME.png for a picture
-        through the view transform "Standard".
+        through the settings' exposure and view transform.
     look : object, optional
         Look of the map set's kind, see `files.kinds.registry.look_types`; by default the kind's best.
 
@@ -51,7 +51,7 @@ def preview(
     yield Progress(0, 2, f"reading {map_set.name}")
     draw = _Studio(map_set, settings, look)
     yield Progress(1, 2, f"drawing {output.name}")
-    _write_picture(output, draw(settings.camera(settings.view)), force)
+    _write_picture(output, draw(settings.camera(settings.view)), settings, force)
     return output
 
 
@@ -101,14 +101,14 @@ def turntable(
         for number, (camera, frame) in enumerate(zip(cameras, frames, strict=True)):
             yield Progress(number, frame_count + 1, f"drawing frame {number + 1} of {frame_count}")
             picture = draw(camera)
-            save_png(frame, picture)
+            save_png(frame, picture, settings.exposure, settings.view_transform)
             if number in shown:
                 sheet.append(picture)
         yield Progress(frame_count, frame_count + 1, f"writing {movie.name}")
         with together():
             with written_aside(movie, force) as aside:
                 save_movie(aside, frames)
-            _write_picture(output, contact_sheet(sheet, SHEET_COLUMNS), force)
+            _write_picture(output, contact_sheet(sheet, SHEET_COLUMNS), settings, force)
     return output, movie
 
 
@@ -147,9 +147,9 @@ def _check_picture_target(path: Path, force: bool) -> None:
     check_target(path, force, (".exr", ".png"))
 
 
-def _write_picture(path: Path, rgba: Array, force: bool) -> None:
+def _write_picture(path: Path, rgba: Array, settings: PreviewOptions, force: bool) -> None:
     if path.suffix.lower() == ".exr":
         write_exr(path, rgba, force)
         return
     with written_aside(path, force) as aside:
-        save_png(aside, rgba)
+        save_png(aside, rgba, settings.exposure, settings.view_transform)

@@ -12,11 +12,14 @@ from rsibr.rsibr_addon.core.geometry.camera import Camera
 from rsibr.rsibr_addon.core.geometry.directions import reflect
 from rsibr.rsibr_addon.core.kinds.environment import EnvironmentLook
 from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, ViewsLook, Warping
+from rsibr.rsibr_addon.core.light.transfer_curve import srgb_from_linear
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.files.pictures import read_exr
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
+from rsibr.rsibr_addon.host.display import displayed_colours
+from rsibr.rsibr_addon.host.scenes import temporary_scene
 from rsibr.rsibr_addon.settings.drawing import PreviewOptions
 from rsibr.rsibr_addon.tasks.preview import preview, turntable
 from rsibr.tests.mirror_capture import (
@@ -88,6 +91,25 @@ def test_png_and_exr_agree(tmp_path: Path, stored_bytes: Callable) -> None:
     opaque = linear[..., 3] == 1.0
     brightest = np.argmax(np.where(opaque, linear[..., 0], 0.0))
     assert np.where(opaque, shown[..., 0], 0.0).flat[brightest] == shown[opaque, 0].max()
+
+
+def test_exposure_and_view_transform_are_those_of_blender(tmp_path: Path, stored_bytes: Callable) -> None:
+    path = write_mirror_capture(tmp_path / "mirror.rsibr.exr", size=32)
+    shown = {}
+    for name, more in {"plain": {}, "darker": {"exposure": -1.0}, "agx": {"view_transform": "AgX"}}.items():
+        settings = PreviewOptions(view=VIEW, size=SIZE, **more)
+        shown[name] = stored_bytes(drain(preview(path, settings, tmp_path / f"{name}.png")))
+        linear = read_exr(drain(preview(path, settings, tmp_path / f"{name}.exr")))
+        np.testing.assert_array_equal(linear, read_exr(tmp_path / "plain.exr"))
+    opaque = linear[..., 3] == 1.0
+    halved = 255.0 * srgb_from_linear(np.minimum(0.5 * linear[..., :3], 1.0))
+    np.testing.assert_allclose(shown["darker"][opaque, :3], halved[opaque], atol=1.0)
+    # AgX mixes the colours of bright light and has no straight part
+    with temporary_scene() as scene:
+        scene.view_settings.view_transform = "AgX"
+        agx = 255.0 * displayed_colours(scene, linear[..., :3])
+    np.testing.assert_allclose(shown["agx"][opaque, :3], agx[opaque], atol=1.0)
+    assert np.abs(agx - shown["plain"][..., :3])[opaque].mean() > 2.0
 
 
 def test_perspective_looks_from_the_eye(tmp_path: Path) -> None:

@@ -2,10 +2,8 @@
 
 import bpy
 
-from .sentences import tell
+from .sentences import SOLID, tell
 from .sidebar import InSidebar
-
-SOLID = "Solid shading has neither lamps nor world: choose Material Preview or Rendered for their light."
 
 
 class RSIBR_PT_live(InSidebar, bpy.types.Panel):

@@ -11,7 +11,7 @@ from ..host.option_properties import property_name, said_by
 from ..host.world_light import has_environment, holds_world, world_light
 from ..session.running import session
 from ..tasks.methods.kinds import KINDS
-from .sentences import tell
+from .sentences import SOLID, tell
 from .sidebar import InSidebar
 
 NOT_FOLLOWED = (
@@ -79,6 +79,9 @@ class RSIBR_PT_look(InSidebar, bpy.types.Panel):
         if not view.split:
             return
         layout.prop(view, "beyond")
+        beside_blender = view.beyond == "blender" or (view.beyond, view.compared) == ("difference", "blender")
+        if beside_blender and context.space_data.shading.type == "SOLID":
+            tell(layout, SOLID, context.region.width, icon="INFO")
         if view.beyond == "difference":
             layout.prop(view, "compared")
             layout.prop(view, "difference")

@@ -6,6 +6,9 @@ LETTER_WIDTH, MARGIN = 7, 60
 """Mean width of a letter in a panel, and width of a region's margins and an icon; in pixels at Blender's own
 scale."""
 
+SOLID = "Solid shading has neither lamps nor world: choose Material Preview or Rendered for their light."
+"""What of Blender's own shading surprises beside a preview, or as light."""
+
 
 def tell(layout: bpy.types.UILayout, message: str, width: int, icon: str = "ERROR") -> None:
     """A sentence, broken into lines; Blender would cut it off.

@@ -19,7 +19,7 @@ def scenario(told):
     sheet = bpy.data.objects.new("sheet", mesh)
     bpy.context.collection.objects.link(sheet)
     sheet.rotation_euler = (0.3, 0.2, 0.0)
-    sheet.rsibr.map_set = "/job/mirror.rsibr.exr"
+    sheet.rsibr.map_set = "/job/sides.rsibr.exr"
 
     def shown(name):
         yield from drawn()
@@ -47,7 +47,7 @@ def scenario(told):
 
 
 def test_both_sides(told: Callable[[str], dict], job: Path) -> None:
-    write_mirror_capture(job / "mirror.rsibr.exr", view_count=42)
+    write_mirror_capture(job / "sides.rsibr.exr", view_count=42)
     answer = told(SCENARIO)
     assert set(answer) == {"front", "back", "mirrored back", "mirrored front", "mirrored instance"}
     # Seen from above, the sheet's normal is that of its turn about x, then about y

@@ -1,7 +1,6 @@
 """A fault in any call of Blender, or any read of its data, costs the preview, is told once, and passes."""
 
 import dis
-import gc
 import itertools
 import os
 import sys
@@ -178,28 +177,14 @@ def shade(
     return choose
 
 
-@pytest.fixture
-def collected() -> Iterator[Callable[[], int]]:
-    """Have garbage collected by a call alone: what the GPU frees in the midst of a frame may spoil it."""
-    gc.collect()
-    gc.disable()
-    yield gc.collect
-    gc.enable()
-
-
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:Maps of 4 texels blur")
 @pytest.mark.parametrize("where", [CALLS, READS])
 def test_a_fault_in_any_call_or_read_is_told_once_and_passes(
-    where: int,
-    shade: Callable[..., Any],
-    frame: Callable[..., Any],
-    capsys: pytest.CaptureFixture[str],
-    collected: Callable[[], int],
+    where: int, shade: Callable[..., Any], frame: Callable[..., Any], capsys: pytest.CaptureFixture[str]
 ) -> None:
     done = set[Place]()
     for map_set in (*map_sets(), None):
-        collected()
         item = shade(map_set)
         release_programs()
         expected, names, state = frame(Previews(LiveFits(), AtOnce()), None, where)

@@ -1,5 +1,7 @@
 """Whether UV maps will do for a bake, and the unwrapping that always does."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.conventions import Array
@@ -30,6 +32,17 @@ def test_a_centre_is_covered_as_often_as_a_search_says() -> None:
     assert np.array_equal(covering(uv, size), found)
 
 
+def test_counting_takes_no_memory_for_every_triangle() -> None:
+    many = np.tile(SQUARE, (24, 1, 1))
+    tracemalloc.start()
+    counts = covering(many, 512)
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert np.array_equal(counts, 24 * (1 - np.eye(512, dtype=int)))
+    # All boxes have 48 * 2^18 texels
+    assert most < 2**28
+
+
 @pytest.mark.parametrize("mirrored", [False, True])
 def test_a_square_in_two_halves_covers_all_but_the_seam_once(mirrored: bool) -> None:
     counts = covering(SQUARE[..., ::-1] if mirrored else SQUARE, 8)
@@ -50,6 +63,11 @@ def test_a_square_in_two_halves_covers_all_but_the_seam_once(mirrored: bool) -> 
 )
 def test_what_a_uv_map_does_wrong_is_told(uv: Array, fault: str) -> None:
     assert fault_of(uv, np.ones(len(uv))) == fault
+
+
+def test_thousands_of_faces_that_each_fill_the_picture_are_told_at_once() -> None:
+    many = np.tile(SQUARE, (10000, 1, 1))
+    assert fault_of(many, np.ones(len(many))) == "overlaps"
 
 
 def test_a_face_without_extent_needs_no_place() -> None:

@@ -1,5 +1,8 @@
 """Where on a picture a surface is baked: whether a UV map will do, and an unwrapping that always does."""
 
+from collections.abc import Iterator
+from itertools import pairwise
+
 import numpy as np
 
 from ..conventions import Array, Indices
@@ -12,6 +15,9 @@ SHARE = 2e-3
 
 LOOKED_AT = 512
 """Width of the picture on which overlaps are looked for."""
+
+AT_ONCE = 2**19
+"""Texels of triangles' boxes that are looked at together; they take some 200 bytes each."""
 
 LEAST_CELL = 2
 """Logarithm of the width of the smallest cell: a border of one texel, and two within it."""
@@ -32,12 +38,29 @@ def covering(uv: Array, size: int) -> Indices:
     ndarray of int, shape (size, size)
         Row 0 at the bottom. A centre on an edge lies in neither of its triangles.
     """
+    counts: Indices = np.zeros((size, size), int)
+    for some in _covered(uv, size):
+        counts += some
+    return counts
+
+
+def _covered(uv: Array, size: int) -> Iterator[Indices]:
+    """The counts of `covering`, of a part of the triangles at a time."""
     corners = np.asarray(uv, np.float64) * size - 0.5  # now the centres are whole numbers
     low = np.clip(np.ceil(corners.min(axis=1)), 0, size).astype(int)
     high = np.clip(np.floor(corners.max(axis=1)) + 1, 0, size).astype(int)
-    wide, tall = np.maximum(high - low, 0).T
-    triangle = np.repeat(np.arange(len(corners)), wide * tall)
-    place = np.arange(len(triangle)) - np.repeat(np.cumsum(wide * tall) - wide * tall, wide * tall)
+    extent = np.maximum(high - low, 0)
+    part = np.cumsum(extent.prod(axis=1)) // AT_ONCE
+    ends = np.flatnonzero(np.diff(part, append=-1)) + 1
+    for begin, end in pairwise([0, *ends.tolist()]):
+        yield _inside(corners[begin:end], low[begin:end], extent[begin:end], size)
+
+
+def _inside(corners: Array, low: Indices, extent: Indices, size: int) -> Indices:
+    """How many of some triangles each centre lies in, by the boxes around them."""
+    wide, texels = extent[:, 0], extent.prod(axis=1)
+    triangle = np.repeat(np.arange(len(corners)), texels)
+    place = np.arange(len(triangle)) - np.repeat(np.cumsum(texels) - texels, texels)
     row, column = np.divmod(place, wide[triangle])
     row, column = row + low[triangle, 1], column + low[triangle, 0]
     sides = []
@@ -72,10 +95,13 @@ def fault_of(uv: Array, areas: Array) -> str:
     flat = np.abs(a * d - b * c) < 1e-12
     if areas[flat].sum() > SHARE * areas.sum():
         return "has faces without area"
-    counts = covering(uv, LOOKED_AT)
-    if np.count_nonzero(counts > 1) > SHARE * np.count_nonzero(counts):
-        return "overlaps"
-    return ""
+    counts = np.zeros((LOOKED_AT, LOOKED_AT), int)
+    for some in _covered(uv, LOOKED_AT):
+        counts += some
+        # However much the rest covers: thousands of faces may each fill the picture
+        if np.count_nonzero(counts > 1) > SHARE * counts.size:
+            return "overlaps"
+    return "overlaps" if np.count_nonzero(counts > 1) > SHARE * np.count_nonzero(counts) else ""
 
 
 def fitting_size(faces: int, size: int) -> int:

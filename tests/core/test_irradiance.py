@@ -8,6 +8,7 @@ from rsibr.rsibr_addon.core.conventions import Array, texel_centres
 from rsibr.rsibr_addon.core.errors import RangeError, ShapeError
 from rsibr.rsibr_addon.core.filtering.harmonics.analysis import analyse_environment
 from rsibr.rsibr_addon.core.filtering.irradiance import (
+    diffuse_terms,
     irradiance_exact,
     irradiance_from_harmonics,
     irradiance_matrix,
@@ -121,11 +122,22 @@ def test_the_matrix_says_the_same() -> None:
     np.testing.assert_allclose(found, irradiance_from_harmonics(nine, NORMALS), rtol=0, atol=1e-13)
 
 
+def test_terms_say_the_same_over_pi() -> None:
+    nine = RNG.normal(size=(9, 3))
+    x, y, z = NORMALS.T
+    products = [np.ones_like(x), y, z, x, x * y, y * z, 3.0 * z**2 - 1.0, x * z, x**2 - y**2]
+    found = np.stack(products, axis=-1) @ diffuse_terms(nine)
+    expected = irradiance_from_harmonics(nine, NORMALS) / np.pi
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-13)
+
+
 def test_a_wrong_number_of_coefficients_is_refused() -> None:
     with pytest.raises(ShapeError, match="8 coefficients"):
         irradiance_from_harmonics(np.zeros((8, 3)), NORMALS)
     with pytest.raises(ShapeError, match="25 coefficients"):
         irradiance_matrix(np.zeros((25, 3)))
+    with pytest.raises(ShapeError, match="25 coefficients"):
+        diffuse_terms(np.zeros((25, 3)))
 
 
 @pytest.mark.slow

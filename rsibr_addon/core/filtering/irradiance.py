@@ -83,30 +83,35 @@ def irradiance_from_harmonics(coefficients: ArrayLike, normal: ArrayLike) -> Arr
     ShapeError
         The number of coefficients is not a square.
     """
+    convolved = irradiance_coefficients(coefficients)
+    irradiance: Array = real_harmonics(normal, round(np.sqrt(len(convolved))) - 1) @ convolved
+    return irradiance
+
+
+def irradiance_coefficients(coefficients: ArrayLike) -> Array:
+    """Coefficients of the irradiance from those of the radiance.
+
+    Parameters
+    ----------
+    coefficients : array_like, shape ((degree + 1)**2, channels)
+        Coefficients of `real_harmonics`: nine for degree 2.
+
+    Returns
+    -------
+    ndarray, shape ((degree + 1)**2, channels), float64
+        A_l L_lm of [Ramamoorthi2001] Eq. 5: of the irradiance itself, not divided by pi.
+
+    Raises
+    ------
+    ShapeError
+        The number of coefficients is not a square.
+    """
     coefficients = np.asarray(coefficients, dtype=np.float64)
     degree = round(np.sqrt(len(coefficients))) - 1
     if (degree + 1) ** 2 != len(coefficients):
         raise ShapeError(f"{len(coefficients)} coefficients are not those of any degree: give 9, or 25.")
     a = np.repeat(zonal_coefficients(cosine_lobe(), degree), 2 * np.arange(degree + 1) + 1)
-    irradiance: Array = real_harmonics(normal, degree) @ (a[:, None] * coefficients)
-    return irradiance
-
-
-def irradiance_coefficients(coefficients: ArrayLike) -> Array:
-    """Coefficients of the irradiance from those of the radiance, up to degree 2.
-
-    Parameters
-    ----------
-    coefficients : array_like, shape (9, channels)
-        Coefficients of `real_harmonics`.
-
-    Returns
-    -------
-    ndarray, shape (9, channels), float64
-        A_l L_lm of [Ramamoorthi2001] Eq. 5: of the irradiance itself, not divided by pi.
-    """
-    a = np.repeat(zonal_coefficients(cosine_lobe(), 2), [1, 3, 5])
-    convolved: Array = a[:, None] * np.asarray(coefficients, dtype=np.float64)
+    convolved: Array = a[:, None] * coefficients
     return convolved
 
 
@@ -123,15 +128,18 @@ def diffuse_terms(coefficients: ArrayLike) -> Array:
     ndarray, shape (9, channels), float64
         Factors of 1, y, z, x, xy, yz, 3 z^2 - 1, xz and x^2 - y^2, whose sum is the irradiance of
         `irradiance_from_harmonics` over pi: what a white matte surface of normal (x, y, z) reflects.
+
+    Raises
+    ------
+    ShapeError
+        The coefficients are not nine.
     """
-    # Each harmonic where its product is 1, or 2 for 3 z^2 - 1
-    s, t = np.sqrt(0.5), 1.0
-    where = np.array(
-        [[0, 0, t], [0, t, 0], [0, 0, t], [t, 0, 0], [s, s, 0], [0, s, s], [0, 0, t], [s, 0, s], [t, 0, 0]]
-    )
-    product = np.array([1.0, 1.0, 1.0, 1.0, 0.5, 0.5, 2.0, 0.5, 1.0])
-    basis = np.einsum("kk->k", real_harmonics(where, 2)) / product
-    terms: Array = basis[:, None] * irradiance_coefficients(coefficients) / np.pi
+    convolved = irradiance_coefficients(coefficients)
+    if len(convolved) != 9:
+        raise ShapeError(f"{len(convolved)} coefficients are not those of degree 2: give nine.")
+    # [Ramamoorthi2001] Eq. 3
+    factors = np.sqrt(np.array([1.0, 3.0, 3.0, 3.0, 15.0, 15.0, 1.25, 15.0, 3.75]) / (4.0 * np.pi))
+    terms: Array = factors[:, None] * convolved / np.pi
     return terms
 
 
@@ -157,21 +165,14 @@ def irradiance_matrix(coefficients: ArrayLike) -> Array:
     -----
     [Ramamoorthi2001] Eq. 12, which a shader evaluates with four products of a vector.
     """
-    coefficients = np.asarray(coefficients, dtype=np.float64)
-    if len(coefficients) != 9:
-        raise ShapeError(f"{len(coefficients)} coefficients are not those of degree 2: give nine.")
-    a0, a1, a2 = zonal_coefficients(cosine_lobe(), 2)
-    l00, l1m1, l10, l11, l2m2, l2m1, l20, l21, l22 = coefficients
-    c1, c2 = a2 * np.sqrt(15.0 / (16.0 * np.pi)), a1 * np.sqrt(3.0 / (16.0 * np.pi))
-    c4, c5 = a0 * np.sqrt(1.0 / (4.0 * np.pi)), a2 * np.sqrt(5.0 / (16.0 * np.pi))
-    c3 = 3.0 * c5
+    one, y, z, x, xy, yz, zz, xz, xx_yy = np.pi * diffuse_terms(coefficients)
     rows = [
-        [c1 * l22, c1 * l2m2, c1 * l21, c2 * l11],
-        [c1 * l2m2, -c1 * l22, c1 * l2m1, c2 * l1m1],
-        [c1 * l21, c1 * l2m1, c3 * l20, c2 * l10],
-        [c2 * l11, c2 * l1m1, c2 * l10, c4 * l00 - c5 * l20],
+        [2.0 * xx_yy, xy, xz, x],
+        [xy, -2.0 * xx_yy, yz, y],
+        [xz, yz, 6.0 * zz, z],
+        [x, y, z, 2.0 * (one - zz)],
     ]
-    return np.moveaxis(np.array(rows), -1, 0)
+    return 0.5 * np.moveaxis(np.array(rows), -1, 0)
 
 
 def turned_harmonics(coefficients: Array, rotation: Array) -> Array:

@@ -13,6 +13,12 @@ const float DEPTH_TOLERANCE = 8.0 / 16777216.0;
 const vec2 SCALE_PLACE = vec2(24.0, 24.0);
 const vec2 SCALE_SIZE = vec2(192.0, 12.0);
 
+// Radiance is covered by alpha. What Blender shows of nothing has none.
+vec3 uncovered(vec4 seen)
+{
+  return (seen.a > 0.0) ? seen.rgb / seen.a : seen.rgb;
+}
+
 void main()
 {
   vec2 on_scale = (gl_FragCoord.xy - vec2(max(left, 0.0), 0.0) - SCALE_PLACE) / SCALE_SIZE;
@@ -32,10 +38,10 @@ void main()
     discard;
   }
   gl_FragDepth = max(texelFetch(depths, pixel, 0).r - DEPTH_TOLERANCE, 0.0);
-  // Radiance is covered; what is behind covers the rest
-  vec3 shown = displayed(display, scale * seen.rgb / seen.a);
+  vec3 shown = displayed(display, scale * uncovered(seen));
   if (full > 0.0) {
-    vec3 apart = abs(displayed(display, others_scale * texelFetch(others, pixel, 0).rgb) - shown);
+    vec4 other = texelFetch(others, pixel, 0);
+    vec3 apart = abs(displayed(display, others_scale * uncovered(other)) - shown);
     shown = heat(max(apart.r, max(apart.g, apart.b)) / full);
     seen.a = 1.0;
   }

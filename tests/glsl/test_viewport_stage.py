@@ -181,6 +181,24 @@ def test_a_difference_is_that_on_the_display() -> None:
     assert error.max() < 2.0 * 0.003 * 12.0 * 2.3
 
 
+@pytest.mark.parametrize("alpha", [0.5, 1.0])
+def test_what_covers_in_part_differs_by_its_light_alone(alpha: float) -> None:
+    subject = GpuPyramid(pyramid(), families())
+    with screen() as target:
+        first, second, sight = Stage(), Stage(), current_sight()
+        for stage, coverage in ((first, 0.5), (second, alpha)):
+            with stage.drawing():
+                surface = Surface(emission=(0.3, 0.5, 0.4), alpha=coverage)
+                subject.draw(GpuMesh(*sphere()), sight.on(np.eye(4), STRAIGHT), surface)
+        difference = Difference(second.radiance, 1.0, 0.25)
+        first.show(buffers.table_texture(table()), 1.0, (0.0, 1.0), True, difference)
+        picture = buffers.pixels(target, SIZE)
+    _, inside = expected(STRAIGHT, 1.0)
+    free = np.arange(SIZE)[:, None] > 40
+    none = linear_from_srgb(heat(np.zeros(1)))
+    np.testing.assert_allclose(picture[inside & free, :3] - none, 0.0, atol=1e-3)
+
+
 def test_one_mesh_is_drawn_where_each_draw_of_a_frame_says() -> None:
     mesh, views = GpuMesh(*sphere(0.25)), GpuRadianceViews(VIEWS)
 

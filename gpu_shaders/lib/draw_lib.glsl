@@ -2,10 +2,10 @@
 // homogeneous position of the eye in the map set's world: (direction, 0) when orthographic; strength, whose x
 // the picture is multiplied by when it is brought to the display.
 
-// What a material emits, before that.
+// What a material emits, before that; the least strength is that of device/drawing.py.
 vec3 emitted(vec3 emission, vec4 strength)
 {
-  return emission / max(strength.x, 1e-6);
+  return emission / max(strength.x, 1e-9);
 }
 
 vec3 view_direction(vec4 eye, vec3 world_position)

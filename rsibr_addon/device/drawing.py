@@ -12,6 +12,9 @@ from ..core.conventions import Array, Indices
 from . import buffers, shaders
 from .textures import GpuTexture
 
+LEAST_STRENGTH = 1e-9
+"""That of a world without light: not even a sun is seen, and what materials emit stays finite beside it."""
+
 
 @dataclass(frozen=True)
 class Draw:
@@ -26,8 +29,8 @@ class Draw:
         Rotation from the world to that of the map set, for a world that was turned since the bake. It is for
         shading alone: it turns position, normal and `eye`.
     strength : float
-        Factor of the picture on its way to the display. What a material emits is divided by it: only the
-        world's light has it.
+        Factor of the picture on its way to the display, from `LEAST_STRENGTH`. What a material emits is
+        divided by it: only the world's light has it.
     """
 
     model: Array

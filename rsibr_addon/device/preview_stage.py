@@ -14,7 +14,7 @@ import gpu
 import numpy as np
 
 from ..core.conventions import Array
-from .drawing import Draw, GpuMesh
+from .drawing import LEAST_STRENGTH, Draw, GpuMesh
 from .passes import screen_triangle
 from .stage_shaders import composite_shader, occluder_shader
 
@@ -48,9 +48,9 @@ class Sight:
             World from object coordinates.
         turn : ndarray, shape (3, 3)
         strength : float
-            As in `Draw`.
+            Of the world's light; raised to `LEAST_STRENGTH`.
         """
-        return Draw(model, self.view, self.projection, self.eye, turn, strength)
+        return Draw(model, self.view, self.projection, self.eye, turn, max(strength, LEAST_STRENGTH))
 
 
 def current_sight() -> Sight:

@@ -13,6 +13,7 @@ from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.resample import bilinear
 from rsibr.rsibr_addon.device import buffers
+from rsibr.rsibr_addon.device.drawing import LEAST_STRENGTH
 from rsibr.rsibr_addon.device.kinds.radiance_views import _albedo_texels, _layers
 from rsibr.rsibr_addon.device.textures import GpuTexture
 from rsibr.tests.glsl.evaluation import Samplers, evaluate
@@ -91,6 +92,10 @@ def inner_points() -> np.ndarray:
     return single(unit_vectors(2) * np.random.default_rng(6).random((COUNT, 1)))
 
 
+def emitted(emission: np.ndarray, strength: np.ndarray) -> np.ndarray:
+    return emission / np.maximum(strength[:, :1], LEAST_STRENGTH)
+
+
 DRAW = {
     "view_direction": Twin(
         "draw_lib.glsl",
@@ -104,8 +109,8 @@ DRAW = {
         "result_0.xyz = emitted(in_0.xyz, in_1);",
         lambda: [inner_points(), eyes()],
         # What no light would scale back is kept finite
-        lambda emission, strength: emission / np.maximum(strength[:, :1], 1e-6),
-        lambda emission, strength: 4.0 * ULP * np.abs(emission / np.maximum(strength[:, :1], 1e-6))[:, None],
+        emitted,
+        lambda emission, strength: 4.0 * ULP * np.abs(emitted(emission, strength))[:, None],
     ),
 }
 

@@ -306,6 +306,13 @@ def test_what_is_in_front_hides_what_has_another_strength_of_light(
     check(draw(), RED, GREEN)
 
 
+def test_what_is_emitted_shows_in_a_world_without_light(
+    sheet: bpy.types.Object, draw: Draw, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(View, "light_of", lambda *_: WorldLight(0.0, np.eye(3)))
+    check(draw(), RED, GREEN)
+
+
 def test_steady_frames_and_moved_objects_read_no_material(
     sheet: bpy.types.Object, draw: Draw, previews: Previews, monkeypatch: pytest.MonkeyPatch
 ) -> None:

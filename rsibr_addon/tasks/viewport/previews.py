@@ -32,8 +32,6 @@ class _Shown:
     drawable : Drawable
     map_set : ViewportMapSet
     placed : Draw
-    strength : float
-        Strength of the world that it follows.
     looks : dict
         Whether it is the other look -> the look; None for one that is not there yet.
     """
@@ -41,7 +39,6 @@ class _Shown:
     drawable: Drawable
     map_set: ViewportMapSet
     placed: Draw
-    strength: float
     looks: dict[bool, Any]
 
 
@@ -188,18 +185,12 @@ class Previews:
             if each.is_seen(view)
         ]
         shown = [
-            _Shown(
-                each,
-                map_set,
-                sight.on(each.surface.matrix, light.turn, light.strength),
-                light.strength,
-                looks,
-            )
+            _Shown(each, map_set, sight.on(each.surface.matrix, light.turn, light.strength), looks)
             for (each, map_set, looks), light in zip(looked, lights, strict=True)
         ]
-        for side, strength in product(sides, dict.fromkeys(each.strength for each in shown)):
-            group = [each for each in shown if each.strength == strength]
-            others = [(each.drawable.mesh, each.placed) for each in shown if each.strength != strength]
+        for side, strength in product(sides, dict.fromkeys(each.placed.strength for each in shown)):
+            group = [each for each in shown if each.placed.strength == strength]
+            others = [(each.drawable.mesh, each.placed) for each in shown if each.placed.strength != strength]
             behind = [] if has_depth else hiding + others
             self._set(self._stage, behind, group, side.other)
             if side.difference and not side.from_blender:

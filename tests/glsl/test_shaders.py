@@ -32,6 +32,8 @@ PROGRAMS = [
     environment.environment_shader,
     lobe_stack.lobe_stack_shader,
     kernel_pyramid.principled_shader,
+    kernel_pyramid.opaque_shader,
+    kernel_pyramid.translucent_shader,
     preview.sample_means_shader,
     textures.texels_shader,
     stage_shaders.composite_shader,

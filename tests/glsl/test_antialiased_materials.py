@@ -10,7 +10,9 @@ from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import bake_pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.look import PrincipledLook
 from rsibr.rsibr_addon.core.maps import equirect
+from rsibr.rsibr_addon.core.materials.packing import CHANNELS
 from rsibr.rsibr_addon.core.materials.principled import Input, NormalMap, PrincipledInputs, Texture
+from rsibr.rsibr_addon.core.materials.stand_ins import PLAIN
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.context import ensure_context
@@ -20,7 +22,7 @@ from rsibr.rsibr_addon.device.own_materials import DrawnMaterial, OwnMaterials
 from rsibr.rsibr_addon.device.textured_mesh import GpuTexturedMesh
 from rsibr.tests.glsl.test_library_principled import families
 from rsibr.tests.glsl.test_preview_renderer import fine_sphere
-from rsibr.tests.glsl.test_textured_materials import COLOR, PLAIN, constants
+from rsibr.tests.glsl.test_textured_materials import constants
 
 SAMPLES = 8
 """Along each axis of a pixel."""
@@ -93,7 +95,7 @@ def bumpy(bumps: int, texels: int) -> tuple[GpuTexturedMesh, PrincipledInputs, d
     image.update()
     image.pack()
     texture = Texture("bumps")
-    normal = NormalMap(Input(COLOR, texture), constants(1.0))
+    normal = NormalMap(Input(CHANNELS, texture), constants(1.0))
     inputs = replace(PLAIN, metallic=constants(1.0), roughness=constants(0.22), normal=normal)
     return mesh, inputs, {texture: gpu.texture.from_image(image)}
 

@@ -7,11 +7,13 @@ import gpu
 import numpy as np
 from rsibr.rsibr_addon.core.brdf.principled import Surface
 from rsibr.rsibr_addon.core.light.transfer_curve import linear_from_srgb
+from rsibr.rsibr_addon.core.materials.packing import CHANNELS
 from rsibr.rsibr_addon.core.materials.principled import Input, Texture
+from rsibr.rsibr_addon.core.materials.stand_ins import PLAIN
 from rsibr.rsibr_addon.device.kinds.kernel_pyramid import GpuPyramid
 from rsibr.rsibr_addon.device.own_materials import DrawnMaterial, OwnMaterials
 from rsibr.tests.glsl.evaluation import evaluate
-from rsibr.tests.glsl.test_textured_materials import COLOR, PLAIN, assert_shows, content, drawn, square
+from rsibr.tests.glsl.test_textured_materials import assert_shows, content, drawn, square
 
 __all__ = ["content"]
 
@@ -25,7 +27,7 @@ def test_images_of_blender_are_linear_and_have_mips(content: GpuPyramid) -> None
     image.update()
     texture = Texture("checker", extension="EXTEND", closest=True)
     on_gpu = gpu.texture.from_image(image)
-    inputs = replace(PLAIN, base_color=Input(COLOR, texture))
+    inputs = replace(PLAIN, base_color=Input(CHANNELS, texture))
     picture = drawn(content, square(), OwnMaterials((DrawnMaterial(inputs, {texture: on_gpu}),)))
     # Rounded to bytes of sRGB at each of five mips
     assert_shows(picture, Surface(base_color=np.full(3, linear_from_srgb(np.array([0.2, 0.8])).mean())))
@@ -40,7 +42,7 @@ def test_images_of_blender_stay_as_they_were(content: GpuPyramid) -> None:
     image.update()
     texture = Texture("columns", extension="EXTEND", closest=True)
     on_gpu = gpu.texture.from_image(image)
-    inputs = replace(PLAIN, base_color=Input(COLOR, texture))
+    inputs = replace(PLAIN, base_color=Input(CHANNELS, texture))
     drawn(content, square(), OwnMaterials((DrawnMaterial(inputs, {texture: on_gpu}),)))
     on_gpu.anisotropic_filter(False)  # Mesa blurs by it
     beyond = np.array([[1.4, 0.5], [-0.6, 0.5]], np.float32)

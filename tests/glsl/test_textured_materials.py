@@ -16,15 +16,17 @@ from rsibr.rsibr_addon.core.materials.normals import (
     mapped_normal,
     shading_normal,
 )
+from rsibr.rsibr_addon.core.materials.packing import CHANNELS
 from rsibr.rsibr_addon.core.materials.principled import (
     Baked,
     Bump,
     Input,
     Normal,
     NormalMap,
-    PrincipledInputs,
     Texture,
+    constant,
 )
+from rsibr.rsibr_addon.core.materials.stand_ins import PLAIN
 from rsibr.rsibr_addon.core.materials.surfaces import surface_at, value_at
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.context import ensure_context
@@ -46,38 +48,7 @@ FROM_ABOVE = Draw(
 
 
 def constants(*numbers: float) -> Input:
-    return Input(tuple((0.0, 0.0, 0.0, 0.0, number) for number in numbers))
-
-
-PLAIN = PrincipledInputs(
-    base_color=constants(0.8, 0.8, 0.8),
-    metallic=constants(0.0),
-    roughness=constants(0.5),
-    ior=constants(1.5),
-    specular_level=constants(0.5),
-    specular_tint=constants(1.0, 1.0, 1.0),
-    diffuse_roughness=constants(0.0),
-    coat_weight=constants(0.0),
-    coat_roughness=constants(0.03),
-    coat_ior=constants(1.5),
-    coat_tint=constants(1.0, 1.0, 1.0),
-    sheen_weight=constants(0.0),
-    sheen_roughness=constants(0.5),
-    sheen_tint=constants(1.0, 1.0, 1.0),
-    emission_color=constants(1.0, 1.0, 1.0),
-    emission_strength=constants(0.0),
-    alpha=constants(1.0),
-    normal=None,
-    coat_normal=None,
-)
-"""Blender's defaults."""
-
-
-def rows(*numbers: tuple[float, ...]) -> tuple[tuple[float, float, float, float, float], ...]:
-    return tuple((*number,) for number in numbers)  # type: ignore[misc]
-
-
-COLOR = rows((1, 0, 0, 0, 0), (0, 1, 0, 0, 0), (0, 0, 1, 0, 0))
+    return constant(numbers)
 
 
 @pytest.fixture(scope="module")
@@ -130,11 +101,11 @@ PLACED = Texture("first", mapping=(1.7, -0.6, 0.3, 0.5, 2.1, -0.4))
 OTHER = Texture("second", uv_map="other")
 TEXTURED = replace(
     PLAIN,
-    base_color=Input(rows((0.9, 0, 0, 0, 0), (0, 0, 0.7, 0, 0.1), (0, 0.5, 0, 0, 0)), PLACED),
-    metallic=Input(rows((0, 0, 0, 1, -0.1)), PLACED),
-    roughness=Input(rows((0, -0.8, 0, 0, 0.9)), OTHER),
-    coat_weight=Input(rows((0.5, 0, 0.3, 0, 0)), OTHER),
-    emission_color=Input(COLOR, OTHER),
+    base_color=Input(((0.9, 0, 0, 0, 0), (0, 0, 0.7, 0, 0.1), (0, 0.5, 0, 0, 0)), PLACED),
+    metallic=Input(((0, 0, 0, 1, -0.1),), PLACED),
+    roughness=Input(((0, -0.8, 0, 0, 0.9),), OTHER),
+    coat_weight=Input(((0.5, 0, 0.3, 0, 0),), OTHER),
+    emission_color=Input(CHANNELS, OTHER),
     emission_strength=constants(0.05),
 )
 
@@ -171,8 +142,8 @@ def test_a_picture_is_what_the_reference_says(content: GpuPyramid, extension: st
 HEIGHT = Texture("height", mapping=(1.3, 0.2, 0.1, -0.3, 0.9, 0.2))
 MAP = Texture("normal", mapping=(0.8, -0.2, 0.1, 0.3, 0.7, 0.2), extension="MIRROR")
 TANGENT = np.array([0.8, 0.6, 0.0, -1.0])
-NORMAL_MAP = NormalMap(Input(COLOR, MAP), constants(0.7))
-BUMP = Bump(Input(rows((0.2, 0.5, 0, 0, 0)), HEIGHT), constants(0.8), constants(0.3), invert=True)
+NORMAL_MAP = NormalMap(Input(CHANNELS, MAP), constants(0.7))
+BUMP = Bump(Input(((0.2, 0.5, 0, 0, 0),), HEIGHT), constants(0.8), constants(0.3), invert=True)
 TURN = np.array([[0.0, 1, 0], [-1, 0, 0], [0, 0, 1]])
 
 
@@ -223,7 +194,7 @@ def test_normals_are_what_the_reference_says(content: GpuPyramid, normal: Normal
 @pytest.mark.parametrize("coat", ["surface", "base", "own"])
 def test_coats_have_their_own_normal(content: GpuPyramid, coat: str) -> None:
     image = np.broadcast_to([0.7, 0.4, 0.9, 1.0], (2, 2, 4))
-    tilted = NormalMap(Input(COLOR, MAP), constants(1.0))
+    tilted = NormalMap(Input(CHANNELS, MAP), constants(1.0))
     own = NormalMap(constants(0.35, 0.5, 0.95), constants(1.0))
     coated = replace(PLAIN, coat_weight=constants(1.0), coat_roughness=constants(0.3), normal=tilted)
     coated = replace(coated, coat_normal={"surface": None, "base": tilted, "own": own}[coat])
@@ -260,7 +231,7 @@ HOLES = Texture("holes", closest=True)
 
 def test_what_is_cut_out_hides_nothing(content: GpuPyramid) -> None:
     """A leaf of squares and holes, in front of a surface that is drawn later."""
-    leaf = replace(PLAIN, alpha=Input(rows((0, 0, 0, 1, 0)), HOLES), base_color=constants(0.1, 0.6, 0.1))
+    leaf = replace(PLAIN, alpha=Input(((0, 0, 0, 1, 0),), HOLES), base_color=constants(0.1, 0.6, 0.1))
     texture = buffers.texture(np.repeat(CHECKER[..., None], 4, axis=2))
     in_front, behind = (
         OwnMaterials((DrawnMaterial(leaf, {HOLES: texture}),)),
@@ -291,9 +262,7 @@ def test_what_is_cut_out_hides_nothing(content: GpuPyramid) -> None:
 def test_a_soft_edge_shows_what_lies_behind_it_in_the_same_mesh(content: GpuPyramid) -> None:
     """Of two layers the front one is drawn first, with alpha from 0 to 1; the other one is whole there."""
     ramp = np.repeat(np.linspace(0.0, 1.0, 5)[None, :, None], 4, axis=2)
-    leaf = replace(
-        PLAIN, alpha=Input(rows((0, 0, 0, 1, 0)), HOLES), metallic=Input(rows((0, 0, 0, 0, 1)), HOLES)
-    )
+    leaf = replace(PLAIN, alpha=Input(((0, 0, 0, 1, 0),), HOLES), metallic=Input(((0, 0, 0, 0, 1),), HOLES))
     material = DrawnMaterial(leaf, {HOLES: buffers.texture(ramp)})
     both = np.concatenate([SQUARE + [0.0, 0.0, 0.5], SQUARE])
     right_edge = np.full_like(UV, 0.99)
@@ -354,7 +323,7 @@ def test_what_is_emitted_is_as_bright_in_a_world_of_any_strength(content: GpuPyr
 def test_a_uv_map_that_is_not_there_is_zero(content: GpuPyramid) -> None:
     image = texels(3)
     texture = Texture("first", uv_map="gone", extension="EXTEND")
-    inputs = replace(PLAIN, base_color=Input(COLOR, texture))
+    inputs = replace(PLAIN, base_color=Input(CHANNELS, texture))
     look = OwnMaterials((DrawnMaterial(inputs, {texture: buffers.texture(image)}),))
     assert_shows(drawn(content, square(), look), Surface(base_color=image[0, 0, :3]))
 
@@ -364,7 +333,7 @@ def test_what_cannot_be_drawn_is_told(content: GpuPyramid) -> None:
     fields = ("roughness", "metallic", "ior", "coat_weight", "coat_roughness", "coat_ior", "alpha")
     fields += ("specular_level", "diffuse_roughness")
     crowded = replace(
-        PLAIN, **{name: Input(COLOR[:1], texture) for name, texture in zip(fields, many, strict=True)}
+        PLAIN, **{name: Input(CHANNELS[:1], texture) for name, texture in zip(fields, many, strict=True)}
     )
     with pytest.raises(ShapeError, match="9 textures, and previews take 8"):
         drawn(content, square(), OwnMaterials((DrawnMaterial(crowded),)))

@@ -87,7 +87,9 @@ def reference(
     normal = np.broadcast_to(normal, view_dir.shape)
     if smooth_normal is not None:
         smooth_normal = np.broadcast_to(smooth_normal, view_dir.shape)
-    shown = principled_radiance(pyramid(), families(), surface, normal, view_dir, smooth_normal=smooth_normal)
+    shown = principled_radiance(
+        pyramid(), families(), surface, normal, view_dir, facet=smooth_normal, smooth_normal=smooth_normal
+    )
     return shown.reshape(SIZE, SIZE, 3)
 
 
@@ -149,8 +151,12 @@ TURN = np.array([[0.0, 1, 0], [-1, 0, 0], [0, 0, 1]])
 
 @pytest.mark.parametrize("normal", [NORMAL_MAP, BUMP, replace(BUMP, normal=NORMAL_MAP)])
 @pytest.mark.parametrize("turned", [False, True])
-def test_normals_are_what_the_reference_says(content: GpuPyramid, normal: Normal, turned: bool) -> None:
-    """Of an object that is turned and stretched, or in a world that is turned."""
+@pytest.mark.parametrize("outside", [True, False])
+def test_normals_are_what_the_reference_says(
+    content: GpuPyramid, normal: Normal, turned: bool, outside: bool
+) -> None:
+    """Of an object that is turned and stretched, in a world that is turned; of either side."""
+    up, triangles = (UP, TRIANGLES) if outside else (-UP, TRIANGLES[:, ::-1])
     model, turn = np.eye(4), np.eye(3)
     if turned:
         model[:3, :3] = [[2.0, -1.0, 0.0], [0.8, 1.6, 0.0], [0.3, 0.2, 1.0]]
@@ -161,14 +167,15 @@ def test_normals_are_what_the_reference_says(content: GpuPyramid, normal: Normal
     inputs = replace(PLAIN, normal=normal, metallic=constants(0.5), roughness=constants(0.6))
     textures = {texture: buffers.texture(values) for texture, values in images.items()}
     draw = replace(FROM_ABOVE, model=model, turn=turn)
-    mesh = square(tangents=np.tile(TANGENT, (4, 1)))
+    tangents = np.tile(TANGENT, (4, 1))
+    mesh = GpuTexturedMesh(SQUARE, np.tile(up, (4, 1)), triangles, np.zeros(2, int), UV, tangents, ("UVMap",))
     picture = drawn(content, mesh, OwnMaterials((DrawnMaterial(inputs, textures),), antialiased=False), draw)
 
     to_object = np.linalg.inv(model[:2, :2])
     place = (2.0 * texel_centres(SIZE, SIZE).reshape(-1, 2) - 1.0) @ to_object.T
     steps = np.broadcast_to(2.0 / SIZE * to_object.T[:, None], (2, len(place), 2))
     points = SurfacePoints(
-        np.broadcast_to(UP, (len(place), 3)),
+        np.broadcast_to(up, (len(place), 3)),
         np.broadcast_to(TANGENT, (len(place), 4)),
         {"": 0.5 + 0.5 * place},
         np.concatenate([steps, np.zeros((2, len(place), 1))], axis=-1) @ model[:3, :3].T,
@@ -182,7 +189,7 @@ def test_normals_are_what_the_reference_says(content: GpuPyramid, normal: Normal
         here = value_at(normal.height, images, points.uv)
         rises = [-0.3 * (value_at(normal.height, images, moved) - here) / 0.1 for moved in uv]
         shown = bumped_normal(shown, points.position_steps, rises, np.full((len(place), 1), 0.8))
-    own = transformed_normal(model[:3, :3], UP)
+    own = transformed_normal(model[:3, :3], up)
     own /= np.linalg.norm(own)
     surface = Surface(metallic=0.5, roughness=0.6)
     expected = reference(surface, shown @ turn.T, draw.view_dir, own @ turn.T)

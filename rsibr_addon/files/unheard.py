@@ -32,16 +32,18 @@ def unheard() -> Iterator[None]:
     to the process's stderr; so does libpng. All threads share that stderr, and others have their own to say
     there: it is bent for the main thread alone.
     """
-    own: Any = _WithoutThread(sys.stdout, threading.get_ident())
-    with _bent, contextlib.redirect_stdout(own):
-        if threading.current_thread() is not threading.main_thread():
-            yield
-            return
-        with open(os.devnull, "wb") as nowhere:
-            kept = os.dup(2)
-            os.dup2(nowhere.fileno(), 2)
-            try:
+    with _bent:
+        # Only now: another thread's would drop what that thread prints later
+        own: Any = _WithoutThread(sys.stdout, threading.get_ident())
+        with contextlib.redirect_stdout(own):
+            if threading.current_thread() is not threading.main_thread():
                 yield
-            finally:
-                os.dup2(kept, 2)
-                os.close(kept)
+                return
+            with open(os.devnull, "wb") as nowhere:
+                kept = os.dup(2)
+                os.dup2(nowhere.fileno(), 2)
+                try:
+                    yield
+                finally:
+                    os.dup2(kept, 2)
+                    os.close(kept)

@@ -34,3 +34,22 @@ def test_other_threads_are_heard(capfd: pytest.CaptureFixture[str]) -> None:
     printed.set()
     thread.join()
     assert capfd.readouterr() == ("from a script\n", "of its errors\nfrom beneath Python\n")
+
+
+def test_a_thread_is_heard_after_its_turn(capfd: pytest.CaptureFixture[str]) -> None:
+    inside, printed = threading.Event(), threading.Event()
+
+    def read() -> None:
+        with unheard():
+            inside.set()
+            printed.wait()
+
+    thread = threading.Thread(target=read)
+    with unheard():
+        thread.start()
+        assert not inside.wait(0.1)  # it comes here, and waits for its turn
+    inside.wait()
+    sys.stdout.write("from a command\n")
+    printed.set()
+    thread.join()
+    assert capfd.readouterr() == ("from a command\n", "")

@@ -8,7 +8,7 @@ a UV map of the object, or on an unwrapping of their own, which the part ``corne
 import hashlib
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TypedDict
 
@@ -17,7 +17,7 @@ import numpy as np
 from ..core.conventions import Array
 from ..core.errors import InputFileError, SchemaError
 from ..core.materials.packing import Picture
-from ..core.materials.principled import Texture
+from ..core.materials.principled import PrincipledInputs, Texture
 from ..core.schema import decode, loads
 from .atomic import written_aside
 from .exr import Part, read_attributes, read_parts, write_parts
@@ -30,6 +30,8 @@ CORNERS = "corners"
 
 ROW = 4096
 """Corners in a row of that part."""
+
+INPUTS = frozenset(field.name for field in fields(PrincipledInputs))
 
 
 class _Description(TypedDict):
@@ -131,16 +133,18 @@ def read_baked_inputs(path: Path) -> BakedInputs:
     corners, count = None, described["corners"]
     if count:
         found = parts.pop(CORNERS, None)
-        if found is None or found.channels.keys() != set("UV") or found.channels["U"].size < count:
+        if found is None or found.channels.keys() != set("UV") or not 0 < count <= found.channels["U"].size:
             raise _unknown(path)
         corners = np.stack([found.channels[axis].ravel()[:count] for axis in "UV"], axis=-1)
     pictures = {}
     for name, part in parts.items():
-        slot, *fields = name.split()
-        if not slot.isdecimal() or part.channels.keys() != set("RGB"):
+        slot, _, held = name.partition(" ")
+        picture = tuple(held.split())
+        is_known = slot.isdecimal() and INPUTS.issuperset(picture) and 1 <= len(picture) <= len("RGB")
+        if not is_known or part.channels.keys() != set("RGB"):
             raise _unknown(path)
         texels = np.stack([part.channels[axis] for axis in "RGB"], axis=-1)
-        pictures[int(slot), tuple(fields)] = texels.astype(np.float32, copy=False)
+        pictures[int(slot), picture] = texels.astype(np.float32, copy=False)
     return BakedInputs(pictures, described["uv_map"], corners, tuple(described["remarks"]))
 
 

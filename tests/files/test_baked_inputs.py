@@ -1,5 +1,6 @@
 """Files of baked inputs, written and read, and what is none."""
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -7,6 +8,8 @@ import pytest
 from rsibr.rsibr_addon.core.errors import InputFileError, OutputFileError
 from rsibr.rsibr_addon.core.materials.principled import Texture
 from rsibr.rsibr_addon.files.baked_inputs import (
+    ATTRIBUTE,
+    CORNERS,
     BakedInputs,
     is_whole,
     read_baked_inputs,
@@ -14,6 +17,7 @@ from rsibr.rsibr_addon.files.baked_inputs import (
     unwrapping_name,
     write_baked_inputs,
 )
+from rsibr.rsibr_addon.files.exr import Part, write_parts
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 
 RNG = np.random.default_rng(5)
@@ -21,6 +25,8 @@ PICTURES = {
     (0, ("base_color",)): RNG.uniform(-1.0, 9.0, (8, 8, 3)).astype(np.float32),
     (2, ("metallic", "roughness")): RNG.uniform(0.0, 1.0, (8, 8, 3)).astype(np.float32),
 }
+CHANNELS = {name: np.zeros((2, 2), np.float32) for name in "RGB"}
+DESCRIPTION = json.dumps({"uv_map": "UVMap", "corners": 0, "remarks": []})
 
 
 @pytest.mark.parametrize("corners", [None, RNG.uniform(0.0, 1.0, (5000, 2)).astype(np.float32)])
@@ -55,6 +61,26 @@ def test_what_holds_none_is_refused(tmp_path: Path) -> None:
     assert not is_whole(path)
     write_radiance(path, np.ones((4, 8, 3), np.float32))
     assert not is_whole(path)
+    with pytest.raises(InputFileError, match="holds no baked inputs"):
+        read_baked_inputs(path)
+
+
+@pytest.mark.parametrize(
+    "name", ["", "0", "base_color", "x base_color", "0 colour", "0 metallic roughness ior alpha"]
+)
+def test_parts_of_other_names_are_refused(name: str, tmp_path: Path) -> None:
+    path = tmp_path / "a.exr"
+    write_parts(path, [Part(name, CHANNELS, {ATTRIBUTE: DESCRIPTION})])
+    with pytest.raises(InputFileError, match="holds no baked inputs"):
+        read_baked_inputs(path)
+
+
+@pytest.mark.parametrize("count", [-1, 9])
+def test_corners_that_are_not_there_are_refused(count: int, tmp_path: Path) -> None:
+    path = tmp_path / "a.exr"
+    description = json.dumps({"uv_map": "", "corners": count, "remarks": []})
+    first = Part("0 base_color", CHANNELS, {ATTRIBUTE: description})
+    write_parts(path, [first, Part(CORNERS, {axis: np.zeros((2, 4), np.float32) for axis in "UV"})])
     with pytest.raises(InputFileError, match="holds no baked inputs"):
         read_baked_inputs(path)
 

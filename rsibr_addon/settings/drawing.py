@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from ..core.geometry.camera import Camera
 from ..core.options import Choice, Options, option
-from .light import Clamp
+from .light import Clamp, exposure_option
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,16 +55,8 @@ class PreviewOptions(SceneOptions, Clamp):
         least=2,
         none="a single picture",
     )
-    exposure: float = option(
-        0.0,
-        label="Exposure",
-        help="How much brighter a PNG or a movie is; EXR holds radiance as it is",
-        unit="stops",
-        least=-32.0,
-        most=32.0,
-        soft_least=-10.0,
-        soft_most=10.0,
-        metavar="STOPS",
+    exposure: float = exposure_option(
+        0.0, "How much brighter a PNG or a movie is; EXR holds radiance as it is"
     )
     view_transform: str = option(
         "Standard",

@@ -98,33 +98,40 @@ class LightColour(Options):
             raise RangeError("A card and a white balance both tell the colour of light: give one of them.")
 
 
-def _exposure(default: float | None, none: str = "") -> float | None:
-    exposure: float | None = option(
+def exposure_option(default: float | None, help: str, **more: Any) -> Any:
+    """How much brighter something is made, in stops; `more` is told to `option`."""
+    return option(
         default,
         label="Exposure",
-        help="How much brighter light is made than it was taken, or than a card makes it",
+        help=help,
         unit="stops",
         least=-32.0,
         most=32.0,
         soft_least=-10.0,
         soft_most=10.0,
-        none=none,
-        switch=Choice("Set Exposure", "Make light brighter than it was taken, in stops") if none else None,
-        start=0.0 if none else None,
         metavar="STOPS",
+        **more,
     )
-    return exposure
+
+
+LIGHT_EXPOSURE = "How much brighter light is made than it was taken, or than a card makes it"
 
 
 @dataclass(frozen=True, kw_only=True)
 class KnownScale(LightColour):
     """How light is scaled whose brightness is known."""
 
-    exposure: float | None = _exposure(0.0)
+    exposure: float | None = exposure_option(0.0, LIGHT_EXPOSURE)
 
 
 @dataclass(frozen=True, kw_only=True)
 class UnknownScale(LightColour):
     """How light is scaled that photographs do not tell the brightness of."""
 
-    exposure: float | None = _exposure(None, "a white card that is turned to the most light is white")
+    exposure: float | None = exposure_option(
+        None,
+        LIGHT_EXPOSURE,
+        none="a white card that is turned to the most light is white",
+        switch=Choice("Set Exposure", "Make light brighter than it was taken, in stops"),
+        start=0.0,
+    )

@@ -84,7 +84,7 @@ def test_exposure_leaves_light_as_it_was_taken(tmp_path: Path) -> None:
     for stops, factor in ((0, 1.0), (2, 4.0), (-1, 0.5)):
         assert illuminate("ball", source, *GIVEN, "--exposure", stops, "-o", out, "--force") == 0
         assert np.median(np.abs(read_radiance(out) / (factor * EXPECTED) - 1.0)) < 0.02
-    assert "1 stops darker" in describe_radiance(out).comments
+    assert "1 stop darker" in describe_radiance(out).comments
 
 
 def test_a_card_shows_its_albedo(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:

@@ -83,7 +83,10 @@ def scale_of(
         told.append("{:g}, {:g}, {:g} became grey".format(*settings.white_balance))
     if settings.exposure:
         gains = gains * 2.0**settings.exposure
-        told.append(f"{abs(settings.exposure):g} stops {'brighter' if settings.exposure > 0.0 else 'darker'}")
+        stops = "stop" if abs(settings.exposure) == 1.0 else "stops"
+        told.append(
+            f"{abs(settings.exposure):g} {stops} {'brighter' if settings.exposure > 0.0 else 'darker'}"
+        )
     if settings.exposure is None and card is None:
         white, why = white_card(gains * radiance), CARD_IS_WHITE
         if cut_off and (lit := brightest_lit(gains * radiance)) > white:

@@ -1,7 +1,7 @@
 """An engine that has no preset: the user says how it looks cubes up."""
 
 import json
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -46,23 +46,21 @@ class AnyEngine(CubeEngine):
     """Takes what is asked for."""
 
     def chosen(self, settings: AnySettings) -> CubeEngine:
-        """See `Engine`."""
-        rule = ROUGHNESS_RULES[settings.rule]
-        return replace(
-            self,
-            axes=MIRRORS[settings.mirror] @ AXES[settings.up],
-            roughness=lambda size: rule(mips_down_to(size, settings.last)),
-            least=2 * settings.last,
-            writers={".ktx2": partial(write_as_ktx2, settings), ".dds": partial(write_as_dds, settings)},
-        )
+        """See `CubeEngine`."""
+        return _asked_for(settings)
 
 
-ENGINE = AnyEngine(
-    label="Any",
-    use="look the cube up as was chosen: the page on any engine of the documentation has the lines",
-    settings=AnySettings,
-    axes=Y_UP,
-    roughness=lambda size: ROUGHNESS_RULES["linear"](mips_down_to(size, 8)),
-    least=16,
-    writers={".ktx2": partial(write_as_ktx2, AnySettings()), ".dds": partial(write_as_dds, AnySettings())},
-).chosen(AnySettings())
+def _asked_for(settings: AnySettings) -> AnyEngine:
+    rule = ROUGHNESS_RULES[settings.rule]
+    return AnyEngine(
+        label="Any",
+        use="look the cube up as was chosen: the page on any engine of the documentation has the lines",
+        settings=AnySettings,
+        axes=MIRRORS[settings.mirror] @ AXES[settings.up],
+        roughness=lambda size: rule(mips_down_to(size, settings.last)),
+        least=2 * settings.last,
+        writers={".ktx2": partial(write_as_ktx2, settings), ".dds": partial(write_as_dds, settings)},
+    )
+
+
+ENGINE = _asked_for(AnySettings())

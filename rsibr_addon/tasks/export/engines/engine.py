@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -57,8 +57,8 @@ Write = Callable[[EngineLight, Path, bool], list[Path]]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Engine:
-    """A preset.
+class Preset:
+    """What is said of an engine.
 
     Attributes
     ----------
@@ -66,26 +66,14 @@ class Engine:
         The engine's own name.
     use : str
         What to do with the file there, as a phrase in one line.
-    settings : type
-        What can be chosen of it.
     """
 
     label: str
     use: str
-    settings: type[EngineSettings] = EngineSettings
-
-    @property
-    def endings(self) -> tuple[str, ...]:
-        """Endings of its files' names, in small letters, the usual one first."""
-        raise NotImplementedError
-
-    def chosen(self, settings: Any) -> "Engine":
-        """The preset with what was chosen of it besides a size."""
-        return self
 
 
 @dataclass(frozen=True, kw_only=True)
-class CubeEngine(Engine):
+class CubeEngine(Preset):
     """An engine that takes light filtered, as a cube.
 
     Attributes
@@ -97,11 +85,11 @@ class CubeEngine(Engine):
     least : int
         Smallest width of the first mip.
     writers : mapping of str to callable
-        Ending -> what writes the file.
+        Ending -> what writes the file; the usual one first.
     diffuse : int
         Width of the cube of diffuse light that it takes; 0 for none.
     settings : type
-        Derived from `CubeSettings`.
+        What can be chosen of it.
     """
 
     axes: Array
@@ -113,12 +101,16 @@ class CubeEngine(Engine):
 
     @property
     def endings(self) -> tuple[str, ...]:
-        """See `Engine`."""
+        """Endings of its files' names, in small letters, the usual one first."""
         return tuple(self.writers)
+
+    def chosen(self, settings: Any) -> "CubeEngine":
+        """The engine with what was chosen of it besides a size."""
+        return self
 
 
 @dataclass(frozen=True, kw_only=True)
-class PanoramaEngine(Engine):
+class PanoramaEngine(Preset):
     """An engine that filters light itself, from a latitude-longitude picture.
 
     Attributes
@@ -127,12 +119,13 @@ class PanoramaEngine(Engine):
         By how many quarters of its width a picture of Blender's is moved to the left.
     """
 
+    endings: ClassVar[tuple[str, ...]] = (".exr", ".hdr")
+    settings: ClassVar[type[EngineSettings]] = EngineSettings
+
     quarters: int
 
-    @property
-    def endings(self) -> tuple[str, ...]:
-        """See `Engine`."""
-        return ".exr", ".hdr"
+
+Engine = CubeEngine | PanoramaEngine
 
 
 def mips_down_to(size: int, last: int) -> int:

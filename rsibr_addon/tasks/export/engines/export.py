@@ -59,8 +59,8 @@ def export_for_engine(
     RsibrWarning
         Something is brighter than the engine's texels can be.
     """
-    asked = settings or ENGINES[name].settings()
-    engine = ENGINES[name].chosen(asked)
+    engine = ENGINES[name]
+    asked = settings or engine.settings()
     if output.suffix.lower() not in engine.endings:
         known = " or ".join(engine.endings)
         raise OutputFileError(
@@ -72,9 +72,10 @@ def export_for_engine(
     light = environment.from_map_set(source, held)
     match engine, asked:
         case CubeEngine(), CubeSettings(size=size):
-            filtered = yield from _filtered(light, engine, size or _size_of(source, held))
+            chosen = engine.chosen(asked)
+            filtered = yield from _filtered(light, chosen, size or _size_of(source, held))
             with together():
-                return engine.writers[output.suffix.lower()](filtered, output, force)
+                return chosen.writers[output.suffix.lower()](filtered, output, force)
         case PanoramaEngine(), _:
             moved = np.roll(light.radiance, -engine.quarters * light.radiance.shape[1] // 4, axis=1)
             write_radiance(output, moved, force)

@@ -28,7 +28,6 @@ HALF, FLOAT = 97, 109
 _HEADER = struct.Struct("<12s9I4I2Q")
 _LEVEL = struct.Struct("<3Q")
 
-
 BC6H_UFLOAT, BC6H_SFLOAT = 143, 144
 """Vulkan's BC6H_UFLOAT_BLOCK and BC6H_SFLOAT_BLOCK."""
 
@@ -95,8 +94,13 @@ def write_ktx2(
     OutputFileError
         See `written_aside`.
     """
-    half = texels is Texels.HALF or texture.is_half
-    stored = _blocks(texture) if texels is Texels.BC6H else _floats(half)
+    match texels:
+        case Texels.BC6H:
+            stored = _blocks(texture)
+        case Texels.HALF:
+            stored = _floats(half=True)
+        case Texels.FITTING:
+            stored = _floats(texture.is_half)
     pixels = [stored.encoded(level) for level in texture.levels]
     layers, height, width = texture.levels[0].shape[:3]
     orientation = "rd" if texture.is_cube else "ru"

@@ -1,4 +1,4 @@
-"""A kind of map sets, a shading mode and an export format are added by their own files and a row each.
+"""A kind of map sets, a shading mode, an export format and an engine are added by own files and a row each.
 
 Those of tests/toys stand outside the package, so that nothing in it can know them.
 """
@@ -19,9 +19,11 @@ from rsibr.rsibr_addon.device.preview import SAMPLES_PER_AXIS, PreviewRenderer
 from rsibr.rsibr_addon.files.kinds.registry import STORED, look_types
 from rsibr.rsibr_addon.files.map_set import read_map_set, write_map_set
 from rsibr.rsibr_addon.files.pictures import read_exr
-from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
+from rsibr.rsibr_addon.files.radiance_pictures import read_radiance, write_radiance
 from rsibr.rsibr_addon.job import BakeJob
 from rsibr.rsibr_addon.settings.light import Light
+from rsibr.rsibr_addon.tasks.export.engines.engine import PanoramaEngine
+from rsibr.rsibr_addon.tasks.export.engines.engines import ENGINES
 from rsibr.rsibr_addon.tasks.export.formats import FORMATS
 from rsibr.rsibr_addon.tasks.methods.bake import METHODS, bake
 from rsibr.rsibr_addon.tasks.methods.kinds import KINDS, open_map_set
@@ -139,6 +141,15 @@ def test_it_is_exported_and_in_a_format_of_ones_own(path: Path, monkeypatch: pyt
     assert run(["export", str(path), "--digits", "2", "-o", str(path.parent / "a.means")]) == 0
     mean = 0.5 * (DISK.middle + DISK.rim)
     np.testing.assert_allclose(np.loadtxt(path.parent / "a.means"), mean, atol=0.5e-2)
+
+
+def test_light_is_exported_for_an_engine_of_ones_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write_radiance(tmp_path / "light.exr", np.arange(24.0).reshape(2, 4, 3))
+    engine = PanoramaEngine(label="Toy", use="play with it", quarters=1)
+    monkeypatch.setitem(ENGINES, "toy", engine)
+    out = tmp_path / "toy.exr"
+    assert run(["export", str(tmp_path / "light.exr"), "--for", "toy", "-o", str(out)]) == 0
+    np.testing.assert_array_equal(read_radiance(out)[0, :, 0], [3.0, 6.0, 9.0, 0.0])
 
 
 def means(shaded: np.ndarray) -> np.ndarray:

@@ -26,6 +26,8 @@ from rsibr.rsibr_addon.files.map_set import read_map_set, read_map_set_header, w
 from rsibr.rsibr_addon.files.map_set_mark import ATTRIBUTE
 from rsibr.rsibr_addon.files.work_folder import work_folder
 from rsibr.rsibr_addon.tasks.compare.measured_error import measured_facts
+from rsibr.rsibr_addon.tasks.export.engines.export import export_for_engine
+from rsibr.rsibr_addon.tasks.export.engines.settings import CubeSettings
 from rsibr.rsibr_addon.tasks.export.export import export
 from rsibr.rsibr_addon.tasks.methods.kinds import open_map_set
 from rsibr.rsibr_addon.tasks.queue.background import Bake
@@ -73,6 +75,10 @@ def _export(path: Path) -> None:
     drain(export(path, path.with_suffix(".ktx2"), force=True))
 
 
+def _export_for_engine(path: Path) -> None:
+    drain(export_for_engine(path, path.with_suffix(".ktx"), "filament", CubeSettings(size=32), force=True))
+
+
 def _work(path: Path) -> None:
     folder = path.with_suffix("")
     folder.mkdir(exist_ok=True)
@@ -106,7 +112,8 @@ def _job(path: Path) -> None:
 
 
 OF_MAP_SETS: list[Reader] = [
-    *(_info, _facts, _page, _compare, _export, read_map_set, map_set_pictures, read_map_set_header),
+    *(_info, _facts, _page, _compare, _export, _export_for_engine),
+    *(read_map_set, map_set_pictures, read_map_set_header),
 ]
 OF_JSON: dict[str, list[Reader]] = {
     "fit.json": [read_fit],

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import OpenEXR
+from rsibr.rsibr_addon.files.baked_inputs import BakedInputs, is_whole, read_baked_inputs, write_baked_inputs
 from rsibr.rsibr_addon.files.environments import read_environment
 from rsibr.rsibr_addon.files.kinds.environment import is_environment
 from rsibr.rsibr_addon.files.radiance_pictures import describe_radiance, read_radiance
@@ -43,7 +44,18 @@ VALUES = (
     *(b".64 .33 .3 .6 .15 .06 .3127 .329", b"1 1 1 1 1 1 1 1", b"9" * 400, b"32-bit_rle_xyze", b"32-bit"),
     *(b"-Y 99999999 +X 99999999", b"-Y 1 +X 134217728", b"+X 32 -Y 16", b"\n", b"\r\n\r\n", b"=", b"#"),
 )
-NAMES = (b"EXPOSURE=", b"COLORCORR=", b"PRIMARIES=", b"FORMAT=", b"GAMMA =", b"PIXASPECT=", b"X=", b"", b"\t")
+NAMES = (
+    b"EXPOSURE=",
+    b"COLORCORR=",
+    b"PRIMARIES=",
+    b"FORMAT=",
+    b"GAMMA =",
+    b"PIXASPECT=",
+    b"X=",
+    b"COMMENTS=",
+    b"",
+    b"\t",
+)
 
 
 def hdr_files(rng: random.Random) -> list[bytes]:
@@ -82,7 +94,10 @@ def exr_files(folder: Path) -> list[bytes]:
         described = [OpenEXR.Part(dict(head), dict(planes), str(i)) for i, (head, planes) in enumerate(parts)]
         OpenEXR.File(described).write(str(path))
         written.append(path.read_bytes())
-    return written
+    corners = np.zeros((5, 2), np.float32)
+    pictures = {(0, ("base_color",)): rgb, (1, ("metallic", "roughness")): rgb}
+    write_baked_inputs(path, BakedInputs(pictures, corners=corners), force=True)
+    return [*written, path.read_bytes()]
 
 
 def damaged_hdr(data: bytes, rng: random.Random) -> bytes:
@@ -110,7 +125,12 @@ def _describe(path: Path) -> None:
     is_environment(path)
 
 
-READERS: tuple[Callable[[Path], object], ...] = (read_radiance, read_environment, _describe)
+def _inputs(path: Path) -> None:
+    if is_whole(path):
+        read_baked_inputs(path)
+
+
+READERS: tuple[Callable[[Path], object], ...] = (read_radiance, read_environment, _describe, _inputs)
 
 
 def cases(folder: Path, rng: random.Random) -> Iterator[tuple[Path, Callable[[Path], object]]]:

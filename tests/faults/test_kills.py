@@ -32,8 +32,10 @@ QUICK = {
     "tables": "tables --environment {in}/env.exr --diffuse lambert:kd=0.5 -o out.rsibr.exr",
     "bake": "bake --environment {in}/env.exr --brdf phong:ks=0.5,n=8 --lobes 1 --slices 6 -o out.rsibr.exr",
     "bank": "bank --environment {in}/env.exr --size 32 -o out.rsibr.exr",
+    "pyramid": "bake kernel-pyramid --environment {in}/env.exr --size 32 -o out.rsibr.exr",
     "fit": "fit --brdf phong:ks=0.5,n=8 --lobes 2 --slices 4 --plot plots -o out.json",
     "export": "export {in}/bake.rsibr.exr -o out.ktx2",
+    "engine": "export {in}/env.exr --for filament --size 32 -o out.ktx",
     "illuminate": "illuminate faces {in}/convert.exr --size 32 -o out.exr",
     "report": "report {in}/bake.rsibr.exr -o out.html",
     "job": "bake {in}/job.json",
@@ -48,8 +50,8 @@ SLOW = {
 SOURCES = ("convert", "bake")
 """Commands whose outputs others read."""
 
-MOMENTS = int(os.environ.get("RSIBR_MOMENTS", "10"))
-COMMANDS = QUICK if MOMENTS <= 10 else QUICK | SLOW
+MOMENTS = int(os.environ.get("RSIBR_MOMENTS", len(QUICK)))
+COMMANDS = QUICK if len(QUICK) >= MOMENTS else QUICK | SLOW
 
 
 @dataclass(frozen=True)

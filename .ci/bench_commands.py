@@ -37,6 +37,7 @@ COMMANDS = {
         *["convert", "interior.hdr", "octahedral.exr"],
         *["--from", "equirect", "--to", "octahedral", "--size", "512", "--force"],
     ],
+    "`bake kernel-pyramid`": ["bake", "kernel-pyramid", "-o", "pyramid.rsibr.exr", *BY_HDR],
     "`bake kernel-bank`": ["bake", "kernel-bank", "-o", "bank.rsibr.exr", *BY_HDR],
     "`bake lobe-stack` of copper, alpha .3": [
         *["bake", "lobe-stack", "--brdf", "ggx:metal=copper,alpha=0.3", "-o", "copper.rsibr.exr", *BY_HDR]

@@ -18,6 +18,9 @@ LUMINANCE = (0.2126, 0.7152, 0.0722)
 ROUNDING = 1e-4
 """Weights of channels sum up to 1 but for so much, as LUMINANCE is rounded."""
 
+Read = Callable[[bpy.types.NodeSocket, Groups], Input]
+"""`Reading.of`."""
+
 NO_IMAGE = (1.0, 0.0, 1.0)
 """What Cycles shows for an image that is not there."""
 
@@ -82,25 +85,37 @@ def step(socket: bpy.types.NodeSocket, groups: Groups) -> tuple[bpy.types.NodeSo
     return None
 
 
-def read(socket: bpy.types.NodeSocket, groups: Groups) -> Input:
-    """What an input, or an output, is.
+class Reading:
+    """Reads inputs of a material that stays as it is meanwhile.
 
-    Raises
-    ------
-    NotFollowedError
+    Each output of a node is read once, however many inputs it feeds: else every node that uses an input twice
+    would double the work for all before it.
     """
-    found = step(socket, groups)
-    if found is not None:
-        before, groups = found
-        return _converted(read(before, groups), before.type, socket.type)
-    if not socket.is_output:
-        return _default(socket)
-    node = socket.node
-    if node.mute:
-        return constant((0.0,) * (1 if socket.type == "VALUE" else 3))
-    if node.bl_idname not in NODES:
-        raise NotFollowedError(node.bl_label)
-    return NODES[node.bl_idname](socket, groups)
+
+    def __init__(self) -> None:
+        self._outputs: dict[tuple[bpy.types.NodeSocket, Groups], Input] = {}
+
+    def of(self, socket: bpy.types.NodeSocket, groups: Groups) -> Input:
+        """What an input, or an output, is.
+
+        Raises
+        ------
+        NotFollowedError
+        """
+        found = step(socket, groups)
+        if found is not None:
+            before, groups = found
+            return _converted(self.of(before, groups), before.type, socket.type)
+        if not socket.is_output:
+            return _default(socket)
+        node = socket.node
+        if node.mute:
+            return constant((0.0,) * (1 if socket.type == "VALUE" else 3))
+        if node.bl_idname not in NODES:
+            raise NotFollowedError(node.bl_label)
+        if (socket, groups) not in self._outputs:
+            self._outputs[socket, groups] = NODES[node.bl_idname](socket, groups, self.of)
+        return self._outputs[socket, groups]
 
 
 def _same(sockets: Any, socket: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
@@ -175,14 +190,14 @@ def _mixed(first: Input, second: Input, factor: float) -> Input:
     return _combined(first, second, [1.0 - factor] * count, [factor] * count)
 
 
-def _factor(socket: bpy.types.NodeSocket, groups: Groups) -> float:
+def _factor(socket: bpy.types.NodeSocket, groups: Groups, read: Read) -> float:
     factor = read(socket, groups)
     if factor.texture:
         raise NotFollowedError("a mix by an image")
     return factor.constant[0]
 
 
-def _image(socket: bpy.types.NodeSocket, groups: Groups) -> Input:
+def _image(socket: bpy.types.NodeSocket, groups: Groups, read: Read) -> Input:
     node, image = socket.node, socket.node.image
     is_alpha = socket.identifier == "Alpha"
     if image is None:
@@ -196,7 +211,7 @@ def _image(socket: bpy.types.NodeSocket, groups: Groups) -> Input:
     own = node.texture_mapping
     if own.scale[:] != (1.0, 1.0, 1.0) or any(own.translation) or any(own.rotation):
         raise NotFollowedError("an image node's own mapping")
-    uv_map, matrix = _coordinates(node.inputs["Vector"], groups)
+    uv_map, matrix = _coordinates(node.inputs["Vector"], groups, read)
     mapping: Affine = (*matrix[0].xy, matrix[0].w, *matrix[1].xy, matrix[1].w)
     library = image.library.filepath if image.library else ""
     closest = node.interpolation == "Closest"
@@ -216,7 +231,7 @@ RGB: tuple[Row, ...] = ((1.0, 0.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0, 0.0), (0
 ALPHA: tuple[Row, ...] = ((0.0, 0.0, 0.0, 1.0, 0.0),)
 
 
-def _coordinates(socket: bpy.types.NodeSocket, groups: Groups) -> tuple[str, Matrix]:
+def _coordinates(socket: bpy.types.NodeSocket, groups: Groups, read: Read) -> tuple[str, Matrix]:
     """The UV map that feeds an input, and a matrix from it."""
     end, groups = source(socket, groups)
     node = end.node
@@ -229,15 +244,17 @@ def _coordinates(socket: bpy.types.NodeSocket, groups: Groups) -> tuple[str, Mat
     if node.bl_idname == "ShaderNodeTexCoord" and end.identifier == "UV" and not node.from_instancer:
         return "", Matrix()
     if node.bl_idname == "ShaderNodeMapping" and node.vector_type != "NORMAL":
-        uv_map, before = _coordinates(node.inputs["Vector"], groups)
-        return uv_map, _mapping(node, groups) @ before
+        uv_map, before = _coordinates(node.inputs["Vector"], groups, read)
+        return uv_map, _mapping(node, groups, read) @ before
     raise NotFollowedError(f"{node.bl_label} as coordinates")
 
 
-def _mapping(node: bpy.types.Node, groups: Groups) -> Matrix:
-    rotation, scale = (_fixed(node.inputs[name], groups) for name in ("Rotation", "Scale"))
+def _mapping(node: bpy.types.Node, groups: Groups, read: Read) -> Matrix:
+    rotation, scale = (_fixed(node.inputs[name], groups, read) for name in ("Rotation", "Scale"))
     # Blender takes the input of a node that maps vectors away
-    location = (0.0, 0.0, 0.0) if node.vector_type == "VECTOR" else _fixed(node.inputs["Location"], groups)
+    location = (
+        (0.0, 0.0, 0.0) if node.vector_type == "VECTOR" else _fixed(node.inputs["Location"], groups, read)
+    )
     matrix = Matrix.LocRotScale(location, Euler(rotation), scale)
     if node.vector_type == "TEXTURE":
         if not np.all(scale):
@@ -246,18 +263,18 @@ def _mapping(node: bpy.types.Node, groups: Groups) -> Matrix:
     return matrix
 
 
-def _fixed(socket: bpy.types.NodeSocket, groups: Groups) -> tuple[float, ...]:
+def _fixed(socket: bpy.types.NodeSocket, groups: Groups, read: Read) -> tuple[float, ...]:
     value = read(socket, groups)
     if value.texture:
         raise NotFollowedError("a mapping by an image")
     return value.constant
 
 
-def _own_value(socket: bpy.types.NodeSocket, groups: Groups) -> Input:
+def _own_value(socket: bpy.types.NodeSocket, groups: Groups, read: Read) -> Input:
     return _default(socket)
 
 
-def _math(socket: bpy.types.NodeSocket, groups: Groups) -> Input:
+def _math(socket: bpy.types.NodeSocket, groups: Groups, read: Read) -> Input:
     node = socket.node
     if node.use_clamp or node.operation not in ("ADD", "SUBTRACT", "MULTIPLY"):
         raise NotFollowedError(f"Math of the operation {node.operation.lower()}")
@@ -267,12 +284,12 @@ def _math(socket: bpy.types.NodeSocket, groups: Groups) -> Input:
     return _combined(first, second, [1.0], [1.0 if node.operation == "ADD" else -1.0])
 
 
-def _mix(socket: bpy.types.NodeSocket, groups: Groups) -> Input:
+def _mix(socket: bpy.types.NodeSocket, groups: Groups, read: Read) -> Input:
     node = socket.node
     if node.data_type not in ("RGBA", "FLOAT") or node.clamp_result:
         raise NotFollowedError("a mix that clamps, or is of vectors")
     inputs = [each for each in node.inputs if each.enabled]
-    factor = _factor(inputs[0], groups)
+    factor = _factor(inputs[0], groups, read)
     if node.clamp_factor:
         factor = min(max(factor, 0.0), 1.0)
     first, second = (read(each, groups) for each in inputs[1:])
@@ -286,13 +303,13 @@ def _mix(socket: bpy.types.NodeSocket, groups: Groups) -> Input:
     raise NotFollowedError(f"a mix of the kind {blend.lower()}")
 
 
-def _inverted(socket: bpy.types.NodeSocket, groups: Groups) -> Input:
-    factor = _factor(socket.node.inputs["Factor"], groups)
+def _inverted(socket: bpy.types.NodeSocket, groups: Groups, read: Read) -> Input:
+    factor = _factor(socket.node.inputs["Factor"], groups, read)
     color = read(socket.node.inputs["Color"], groups)
     return _combined(color, constant((1.0,) * 3), [1.0 - 2.0 * factor] * 3, [factor] * 3)
 
 
-def _separated(socket: bpy.types.NodeSocket, groups: Groups) -> Input:
+def _separated(socket: bpy.types.NodeSocket, groups: Groups, read: Read) -> Input:
     if socket.node.mode != "RGB":
         raise NotFollowedError("Separate Color of other than RGB")
     color = read(socket.node.inputs["Color"], groups)
@@ -300,11 +317,11 @@ def _separated(socket: bpy.types.NodeSocket, groups: Groups) -> Input:
     return Input((color.rows[number],), color.texture if any(color.rows[number][:4]) else None)
 
 
-def _gray(socket: bpy.types.NodeSocket, groups: Groups) -> Input:
+def _gray(socket: bpy.types.NodeSocket, groups: Groups, read: Read) -> Input:
     return _converted(read(socket.node.inputs["Color"], groups), "RGBA", "VALUE")
 
 
-NODES: dict[str, Callable[[bpy.types.NodeSocket, Groups], Input]] = {
+NODES: dict[str, Callable[[bpy.types.NodeSocket, Groups, Read], Input]] = {
     "ShaderNodeTexImage": _image,
     "ShaderNodeRGB": _own_value,
     "ShaderNodeValue": _own_value,

@@ -16,7 +16,7 @@ from ..core.materials.principled import (
     constant,
 )
 from ..core.materials.stand_ins import PLAIN
-from .input_nodes import Groups, NotFollowedError, mixed, read, source
+from .input_nodes import Groups, NotFollowedError, Read, Reading, mixed, source
 from .materials import surface_output
 from .surfaces import (
     MISSING,
@@ -62,18 +62,18 @@ def principled(material: bpy.types.Material) -> PrincipledInputs:
         The material has no surface, or one that no Principled BSDF can stand for.
     """
     surface = surface_of(material)
-    reading = _Reading()
+    reading = _FieldReading()
     found: dict[str, Any] = {field: reading.of(field, each) for field, each in origins(surface).items()}
     if isinstance(surface, Mixture):  # Cycles bakes what shaders have by their mix, which has one value
         found = {
             field: replace(value, apart=True) if isinstance(value, Baked) else value
             for field, value in found.items()
         }
-    missing = [*_missing(material, surface), *([SEPARATE] if reading.is_between else [])]
+    missing = [*_missing(material, surface, reading), *([SEPARATE] if reading.is_between else [])]
     return replace(PLAIN, **found, missing=tuple(dict.fromkeys(missing)))
 
 
-class _Reading:
+class _FieldReading:
     """Reads fields from where they come from.
 
     Attributes
@@ -83,6 +83,7 @@ class _Reading:
     """
 
     def __init__(self) -> None:
+        self._reading = Reading()
         self._halves: set[str] = set()
 
     @property
@@ -96,14 +97,27 @@ class _Reading:
             return self._mixed(field, origin)
         if not origin.name:
             return constant(origin.numbers)
-        read_one = _normal if field in NORMAL_INPUTS else _shading
+        read_one = self._normal if field in NORMAL_INPUTS else self.shading
         return read_one(origin.socket, origin.leaf.groups)
+
+    def shading(self, socket: bpy.types.NodeSocket, groups: Groups) -> Shading:
+        """What an input is."""
+        try:
+            return self._reading.of(socket, groups)
+        except NotFollowedError as stop:
+            return Baked(stop.reason)
+
+    def _normal(self, socket: bpy.types.NodeSocket, groups: Groups) -> Normal:
+        try:
+            return _followed_normal(socket, groups, self._reading.of)
+        except NotFollowedError as stop:
+            return Baked(stop.reason)
 
     def _mixed(self, field: str, origin: MixedValue) -> Shading | Normal:
         first, second = self.of(field, origin.first), self.of(field, origin.second)
         if first == second and not isinstance(first, Baked):
             return first
-        factor = _shading(origin.mixture.node.inputs[0], origin.mixture.groups)
+        factor = self.shading(origin.mixture.node.inputs[0], origin.mixture.groups)
         if isinstance(factor, Input) and not factor.texture:
             if factor.constant[0] <= 0.0:
                 return first
@@ -118,17 +132,19 @@ class _Reading:
             return Baked(stop.reason)
 
 
-def _missing(material: bpy.types.Material, surface: Surface) -> list[str]:
+def _missing(material: bpy.types.Material, surface: Surface, reading: _FieldReading) -> list[str]:
     """What is not shown of a material's shaders and outputs."""
     nothing = constant((0.0,))
     missing = []
     for leaf in leaves(surface):
         named = {name: words for name, words in MISSING.items() if name in leaf.node.inputs}
         missing += [
-            words for name, words in named.items() if _shading(leaf.node.inputs[name], leaf.groups) != nothing
+            words
+            for name, words in named.items()
+            if reading.shading(leaf.node.inputs[name], leaf.groups) != nothing
         ]
         if leaf.node.bl_idname == "ShaderNodeBsdfTransparent":
-            color = _shading(leaf.node.inputs["Color"], leaf.groups)
+            color = reading.shading(leaf.node.inputs["Color"], leaf.groups)
             missing += ["tinted transparency"] if color != constant((1.0, 1.0, 1.0)) else []
     output = surface_output(material)
     missing += [
@@ -137,41 +153,27 @@ def _missing(material: bpy.types.Material, surface: Surface) -> list[str]:
     return missing
 
 
-def _shading(socket: bpy.types.NodeSocket, groups: Groups) -> Shading:
-    try:
-        return read(socket, groups)
-    except NotFollowedError as stop:
-        return Baked(stop.reason)
-
-
-def _normal(socket: bpy.types.NodeSocket, groups: Groups) -> Normal:
-    try:
-        return _followed_normal(socket, groups)
-    except NotFollowedError as stop:
-        return Baked(stop.reason)
-
-
-def _followed_normal(socket: bpy.types.NodeSocket, groups: Groups) -> NormalMap | Bump | None:
+def _followed_normal(socket: bpy.types.NodeSocket, groups: Groups, read: Read) -> NormalMap | Bump | None:
     end, groups = source(socket, groups)
     if not end.is_output:
         return None
     node = end.node
     if node.bl_idname == "ShaderNodeNormalMap":
-        return _normal_map(node, groups)
+        return _normal_map(node, groups, read)
     if node.bl_idname == "ShaderNodeBump":
-        return _bump(node, groups)
+        return _bump(node, groups, read)
     raise NotFollowedError(node.bl_label)
 
 
-def _normal_map(node: bpy.types.Node, groups: Groups) -> NormalMap:
+def _normal_map(node: bpy.types.Node, groups: Groups, read: Read) -> NormalMap:
     if node.space != "TANGENT" or node.convention != "OPENGL":
         raise NotFollowedError("a normal map that is not OpenGL's in tangent space")
     color, strength = (read(node.inputs[name], groups) for name in ("Color", "Strength"))
     return NormalMap(color, strength, node.uv_map)
 
 
-def _bump(node: bpy.types.Node, groups: Groups) -> Bump:
-    below = _followed_normal(node.inputs["Normal"], groups)
+def _bump(node: bpy.types.Node, groups: Groups, read: Read) -> Bump:
+    below = _followed_normal(node.inputs["Normal"], groups, read)
     if isinstance(below, Bump):
         raise NotFollowedError("a bump on a bump")
     height, strength, distance = (

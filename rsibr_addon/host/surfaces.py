@@ -9,7 +9,7 @@ import numpy as np
 from ..core.brdf.fresnel import fresnel_conductor
 from ..core.brdf.fresnel_powers import edge_of
 from ..core.errors import SceneError
-from .input_nodes import Groups, NotFollowedError, read, source
+from .input_nodes import Groups, NotFollowedError, Reading, source
 from .materials import surface_output
 
 INPUTS = {
@@ -256,7 +256,7 @@ def _values(leaf: Leaf) -> dict[str, Origin]:
 def _constant(leaf: Leaf, name: str) -> tuple[float, ...] | None:
     """The numbers of an input; None where they differ from place to place."""
     try:
-        value = read(leaf.node.inputs[name], leaf.groups)
+        value = Reading().of(leaf.node.inputs[name], leaf.groups)
     except NotFollowedError:
         return None
     return None if value.texture else value.constant

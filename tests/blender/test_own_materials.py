@@ -13,6 +13,7 @@ import pytest
 from rsibr.rsibr_addon.core.materials.principled import Baked, Bump, Input, NormalMap, constant
 from rsibr.rsibr_addon.core.materials.stand_ins import BLACK, PLAIN, UNASSIGNED
 from rsibr.rsibr_addon.device.own_materials import MOST_TEXTURES, MOST_UV_MAPS
+from rsibr.rsibr_addon.host import input_nodes
 from rsibr.rsibr_addon.host.principled import principled
 from rsibr.rsibr_addon.host.surfaces import INPUTS
 from rsibr.rsibr_addon.tasks.viewport import own_materials
@@ -281,6 +282,28 @@ def test_a_material_is_read_once_until_it_may_have_changed(
     materials.changed()
     assert shown(cube, materials).slots != first.slots
     assert read == ["Material"] * 2
+
+
+def test_an_output_is_read_once_however_many_inputs_it_feeds(
+    cube: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    material, read = cube.active_material, []
+    tree, before = material.node_tree, image_node(material, "Base Color", picture()).outputs["Alpha"]
+    for _ in range(10):
+        node = tree.nodes.new("ShaderNodeMath")  # adds what is before to itself
+        for number in (0, 1):
+            tree.links.new(before, node.inputs[number])
+        before = node.outputs[0]
+    for name in ("Roughness", "Metallic"):
+        tree.links.new(before, bsdf(material).inputs[name])
+    original = input_nodes.NODES["ShaderNodeMath"]
+    monkeypatch.setitem(
+        input_nodes.NODES, "ShaderNodeMath", lambda *given: read.append(given) or original(*given)
+    )
+    found = principled(material)
+    assert found.metallic == found.roughness
+    assert found.roughness.rows == ((0.0, 0.0, 0.0, 2.0**10, 0.0),)
+    assert len(read) == 10
 
 
 def test_drivers_and_keys_are_followed_by_frame(cube: bpy.types.Object) -> None:

@@ -3,6 +3,9 @@
 import bpy
 
 from ..rsibr_addon.session.running import session
+from ..rsibr_addon.tasks.queue.input_bakes import InputBake
+
+CANCELLED = "The bake of the materials was cancelled: press Bake Materials to have it."
 
 
 class RSIBR_OT_cancel_bake(bpy.types.Operator):
@@ -27,4 +30,6 @@ class RSIBR_OT_cancel_bake(bpy.types.Operator):
         else:
             bake.cancel()
             bake.tidy()
+            if isinstance(bake, InputBake):
+                session().previews.inputs.ended(bake.output, CANCELLED)
         return {"FINISHED"}

@@ -1,12 +1,18 @@
-"""Which file of baked inputs an object needs: another for what shows, the same for what does not."""
+"""Which file of baked inputs an object needs, and how it gets that."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from pathlib import Path
 
 import bpy
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.errors import SceneError
-from rsibr.rsibr_addon.tasks.queue.input_bakes import inputs_file
+import rsibr
+from rsibr.rsibr_addon.core.errors import DeviceError, SceneError
+from rsibr.rsibr_addon.device.textures import GpuTexture
+from rsibr.rsibr_addon.files.baked_inputs import BakedInputs, write_baked_inputs
+from rsibr.rsibr_addon.session.running import session
+from rsibr.rsibr_addon.tasks.queue.input_bakes import InputBake, inputs_file
+from rsibr.rsibr_addon.tasks.viewport.baked_inputs import InputBakes
 
 
 @pytest.fixture
@@ -157,3 +163,101 @@ def test_what_is_not_saved_is_told(cube: bpy.types.Object) -> None:
     image.update()
     with pytest.raises(SceneError, match=r"Image picture has pixels that are not saved.*: save or pack it"):
         needed(cube)
+
+
+@pytest.fixture
+def inputs(cube: bpy.types.Object, monkeypatch: pytest.MonkeyPatch) -> Iterator[InputBakes]:
+    """Those of a session that shows the cube."""
+    rsibr.register()
+    previews = session().previews
+    monkeypatch.setattr(previews, "with_baked_inputs", lambda: [cube])
+    yield previews.inputs
+    rsibr.unregister()
+
+
+def write_flat(path: Path) -> None:
+    write_baked_inputs(path, BakedInputs({(0, ("base_color",)): np.zeros((4, 4, 3), np.float32)}, "UVMap"))
+
+
+def test_a_file_that_cannot_be_shown_is_read_once_and_told(
+    cube: bpy.types.Object, inputs: InputBakes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object) -> int:
+        raise DeviceError("The picture is too large.")
+
+    monkeypatch.setattr(GpuTexture, "upload", refuse)
+    path = tmp_path / "inputs-0123456789.exr"
+    write_flat(path)
+    for _ in range(2):
+        assert inputs.wish(cube, path)
+        while inputs.is_busy:
+            inputs.upload()
+        assert inputs.messages(cube, by_itself=True) == ["The picture is too large."]
+        assert inputs.is_unasked  # and so it is asked for again
+        assert not inputs.wish(cube, path)
+        assert not inputs.is_busy
+        inputs.forgive(cube)
+
+
+def test_what_kept_an_object_from_its_file_is_forgotten_once_it_is_gone(
+    cube: bpy.types.Object, inputs: InputBakes, tmp_path: Path
+) -> None:
+    write_flat(tmp_path / needed(cube))
+    bpy.ops.rsibr.bake_inputs(by_itself=True)
+    assert not inputs.is_refused(cube)
+    image = node(cube, "TexImage").image
+    image.pixels.foreach_set(np.full(64, 0.5, np.float32))
+    image.update()
+    bpy.ops.rsibr.bake_inputs(by_itself=True)
+    assert "pixels that are not saved" in inputs.messages(cube, by_itself=True)[0]
+    image.reload()
+    bpy.ops.rsibr.bake_inputs(by_itself=True)
+    assert not inputs.is_refused(cube)
+    image.pixels.foreach_set(np.full(64, 0.5, np.float32))
+    image.update()
+    bpy.ops.rsibr.bake_inputs(by_itself=True)
+    assert inputs.is_refused(cube)
+    bsdf = node(cube, "BsdfPrincipled")
+    for each in [link for socket in bsdf.inputs for link in socket.links]:
+        cube.active_material.node_tree.links.remove(each)
+    bpy.ops.rsibr.bake_inputs(by_itself=True)
+    assert not inputs.is_refused(cube)
+    assert not inputs.lacks(cube)
+
+
+def waiting(title: str, output: Path, items: list[int]) -> InputBake:
+    return InputBake(title=title, output=output, command=("sleep", "60"), items=items)
+
+
+def test_a_bake_that_is_cancelled_is_told_and_not_asked_for_again(
+    cube: bpy.types.Object, inputs: InputBakes, tmp_path: Path
+) -> None:
+    output = tmp_path / needed(cube)
+    inputs.wish(cube, output)
+    inputs.ask(cube)
+    session().bakes.add(waiting("of the cube", output, [cube.session_uid]))
+    assert inputs.messages(cube, by_itself=True) == ["Materials need a bake: baking."]
+    assert bpy.ops.rsibr.cancel_bake(number=0) == {"FINISHED"}
+    for _ in range(2):
+        assert "was cancelled: press Bake Materials" in inputs.messages(cube, by_itself=True)[0]
+        bpy.ops.rsibr.bake_inputs(by_itself=True)
+        assert not session().bakes.busy
+
+
+def test_an_edit_of_one_object_leaves_the_bake_of_its_copy(
+    cube: bpy.types.Object, inputs: InputBakes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(
+        "rsibr.operators.bake_inputs.input_bake_of", lambda *given: waiting("new", given[2], [])
+    )
+    bakes, copy = session().bakes, 12345
+    bakes.add(waiting("of another", tmp_path / "other.exr", [copy]))
+    shared = waiting("of both", tmp_path / "before.exr", [cube.session_uid, copy])
+    bakes.add(shared)
+    bpy.ops.rsibr.bake_inputs(by_itself=True)
+    assert (shared.items, shared.ended) == ([copy], False)
+    shared.items = [cube.session_uid]
+    inputs.forgive(cube)
+    change_noise(cube)
+    bpy.ops.rsibr.bake_inputs(by_itself=True)
+    assert shared.ended

@@ -132,15 +132,18 @@ class InputBakes:
         Returns
         -------
         bool
-            Whether it is there, or not needed.
+            Whether it is there, or not needed. A file that could not be had is not: see `forgive`.
         """
         number = item.session_uid
         wish = self._wishes.get(number)
-        if wish is None or wish.path != path:
-            self._wishes[number] = _Wish(path)
         if path is None:
+            self._wishes[number] = _Wish()
             self._shown.pop(number, None)
             return True
+        if wish is None or wish.path != path:
+            wish = self._wishes[number] = _Wish(path)
+        if wish.trouble:
+            return False
         if path in self._coming:
             return True
         for shown in list(self._shown.values()):  # a copy of the object may show it

@@ -116,6 +116,7 @@ def queue_bake(
     numbers = [item.session_uid for item in items]
     if (unfinished := session().bakes.unfinished(output)) is not None:
         unfinished.items += [number for number in numbers if number not in unfinished.items]
+        unfinished.by_itself &= by_itself
         return f"Being baked already: {plain_name(output)}"
     if is_baked(output) and content in ("", map_set_content(output)):
         for number in numbers:

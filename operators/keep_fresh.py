@@ -12,6 +12,7 @@ from ..rsibr_addon.core.warned import recorded_warnings
 from ..rsibr_addon.host.materials import materials_changed
 from ..rsibr_addon.host.sidebars import redraw_sidebars
 from ..rsibr_addon.session.running import session
+from ..rsibr_addon.tasks.queue.background import State
 from .bake_in_background import queue_bake
 
 SECONDS = 0.4
@@ -71,25 +72,30 @@ def _look() -> None:
     with recorded_warnings():
         freshness.look(scenes)
         wanted = [(scene, *each) for scene in scenes for each in freshness.wanted(scene) if each[0].by_itself]
-        _cancel_all_but({stale.output for _, stale, _ in wanted})
+        _cancel_all_but({(stale.output, item.session_uid) for _, stale, items in wanted for item in items})
         for scene, stale, items in wanted:
             if stale.request is not None and not _has_ended_badly(stale.output):
-                with suppress(RsibrError):
+                with suppress(RsibrError, OSError):
                     queue_bake(scene, stale.request, items, by_itself=True)
     redraw_sidebars()
 
 
-def _cancel_all_but(outputs: Collection[Path | None]) -> None:
-    """Cancel bakes that nobody asked for, and that an edit has overtaken."""
+def _cancel_all_but(wanted: Collection[tuple[Path | None, int]]) -> None:
+    """Cancel bakes that nobody asked for, for all objects but those that still want their files."""
     for bake in session().bakes.bakes:
-        if bake.by_itself and not bake.ended and bake.output not in outputs:
-            bake.cancel()
-            bake.tidy()
+        if bake.by_itself and not bake.ended:
+            bake.items = [number for number in bake.items if (bake.output, number) in wanted]
+            if not bake.items:
+                bake.cancel()
+                bake.tidy()
 
 
 def _has_ended_badly(output: Path | None) -> bool:
     """Whether the last bake of a file failed, or was cancelled: then the artist has to ask for it."""
-    return any(bake.output == output and bake.ended for bake in session().bakes.bakes)
+    return any(
+        bake.output == output and bake.state in (State.FAILED, State.CANCELLED)
+        for bake in session().bakes.bakes
+    )
 
 
 _HANDLERS: dict[str, Callable[..., None]] = {

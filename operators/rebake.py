@@ -2,6 +2,7 @@
 
 import bpy
 
+from ..rsibr_addon.core.warned import warn
 from ..rsibr_addon.session.running import session
 from .at_once import Undoable
 from .bake_in_background import queue_bake
@@ -17,9 +18,15 @@ class RSIBR_OT_rebake(Undoable, bpy.types.Operator):
         """Queue the bakes."""
         freshness = session().freshness
         freshness.look([context.scene])
+        reasons = [each.reason for each in freshness.stale.values() if each and each.output is None]
+        for reason in dict.fromkeys(reasons):
+            warn(f"Not all can be baked anew. {reason}")
         done = [
             queue_bake(context.scene, stale.request, items)
             for stale, items in freshness.wanted(context.scene)
             if stale.request is not None
         ]
-        self.report({"INFO"}, "; ".join(done) or "Everything is up to date")
+        if done:
+            self.report({"INFO"}, "; ".join(done))
+        elif not any(freshness.stale.values()):
+            self.report({"INFO"}, "Everything is up to date")

@@ -6,9 +6,13 @@ from pathlib import Path
 import bpy
 import pytest
 import rsibr
+from rsibr.operators import keep_fresh
+from rsibr.operators.bake_in_background import queue_bake
 from rsibr.rsibr_addon.host.bake_settings import assign
 from rsibr.rsibr_addon.host.world_light import followed_light
-from rsibr.rsibr_addon.tasks.queue.bake_request import output_for, request_for
+from rsibr.rsibr_addon.session.running import session
+from rsibr.rsibr_addon.tasks.queue.background import State
+from rsibr.rsibr_addon.tasks.queue.bake_request import ObjectBake, output_for, request_for
 from rsibr.rsibr_addon.tasks.queue.freshness import Freshness, Stale
 from rsibr.tests.flat_capture import write_flat_capture
 
@@ -184,3 +188,48 @@ def test_rebake_makes_all_that_is_out_of_date(monkeypatch: pytest.MonkeyPatch) -
     bpy.context.scene.world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0.5
     assert bpy.ops.rsibr.rebake() == {"FINISHED"}
     assert made == [[cube(), other]]
+
+
+def test_rebake_tells_what_cannot_be_baked(capfd: pytest.CaptureFixture[str]) -> None:
+    baked("radiance_views", "STUDIO", cube())
+    cube().data.materials.clear()
+    bpy.ops.rsibr.rebake()
+    told = capfd.readouterr().out
+    assert "Warning: Not all can be baked anew. Object Cube has no material" in told
+    assert "up to date" not in told
+
+
+@pytest.mark.parametrize(
+    ("state", "is_bad"), [(State.DONE, False), (State.FAILED, True), (State.CANCELLED, True)]
+)
+def test_what_was_undone_is_baked_again_by_itself_but_not_what_failed(
+    state: State, is_bad: bool, tmp_path: Path
+) -> None:
+    output = tmp_path / "a.rsibr.exr"
+    session().bakes.bakes.append(ObjectBake("a", output, (), state=state))
+    assert keep_fresh._has_ended_badly(output) == is_bad
+
+
+def test_a_bake_that_the_artist_asks_for_meanwhile_is_no_more_by_itself() -> None:
+    scene = bpy.context.scene
+    scene.rsibr_bake.kind, scene.rsibr_bake.light = "mip_chain", "WORLD"
+    request = request_for(scene.rsibr_bake, scene, cube())
+    going_on = ObjectBake("a", output_for(request, scene, cube()), ("sleep", "60"), by_itself=True)
+    session().bakes.bakes.append(going_on)
+    queue_bake(scene, request, [cube()], by_itself=True)
+    assert going_on.by_itself
+    queue_bake(scene, request, [cube()])
+    assert not going_on.by_itself
+    assert going_on.items == [cube().session_uid]
+
+
+def test_a_bake_that_nobody_asked_for_leaves_alone_what_wants_it_no_more(tmp_path: Path) -> None:
+    path = tmp_path / "a.rsibr.exr"
+    by_itself = ObjectBake("a", path, (), items=[1, 2], by_itself=True)
+    asked = ObjectBake("b", path, (), items=[1, 2])
+    session().bakes.bakes += [by_itself, asked]
+    keep_fresh._cancel_all_but({(path, 2), (tmp_path / "another", 1)})
+    assert (by_itself.items, by_itself.ended) == ([2], False)
+    keep_fresh._cancel_all_but({(tmp_path / "another", 1)})
+    assert by_itself.state is State.CANCELLED
+    assert (asked.items, asked.ended) == ([1, 2], False)

@@ -13,7 +13,7 @@ from .materials import MATRIX_DIGITS, fingerprint, node_fingerprint, surface_out
 from .mesh_arrays import read_property
 from .meshes import content_of, evaluated_mesh
 from .shape_dependence import outputs_behind
-from .surfaces import MixedValue, Origin, leaves, origins, surface_of
+from .surfaces import MixedValue, Origin, is_in_group, origins, surface_of
 
 VIEW_NODES = ("ShaderNodeCameraData", "ShaderNodeFresnel", "ShaderNodeLayerWeight", "ShaderNodeLightPath")
 VIEW_OUTPUTS = {
@@ -87,10 +87,10 @@ def content_for_bakes(
 def _inputs_content(material: bpy.types.Material, fields: Sequence[str]) -> Any:
     """All nodes that feed what is baked, and how: an edit of anything else needs no other bake.
 
-    Where a shader is in a group, that is the whole material.
+    Where a shader or a mix of some is in a group, that is the whole material.
     """
     surface = surface_of(material)
-    if any(leaf.groups for leaf in leaves(surface)):
+    if is_in_group(surface):
         return fingerprint(material)
     found = origins(surface)
     nodes: dict[str, Any] = {}

@@ -188,6 +188,13 @@ def leaves(surface: Surface) -> list[Leaf]:
     return [surface] if isinstance(surface, Leaf) else [*leaves(surface.first), *leaves(surface.second)]
 
 
+def is_in_group(surface: Surface) -> bool:
+    """Whether a shader, or a mix of some, lies in a group."""
+    if isinstance(surface, Leaf):
+        return bool(surface.groups)
+    return bool(surface.groups) or is_in_group(surface.first) or is_in_group(surface.second)
+
+
 def origins(surface: Surface) -> dict[str, Origin]:
     """Where the inputs of the one Principled BSDF come from that stands for a surface.
 

@@ -104,6 +104,30 @@ def lay_out(item: bpy.types.Object) -> None:
     node(item, "TexNoise").location.x += 40.0
 
 
+def mix_in_group(item: bpy.types.Object) -> None:
+    """Mix the shader with another, in a group whose input says how much of which."""
+    tree, group = item.active_material.node_tree, bpy.data.node_groups.new("mix", "ShaderNodeTree")
+    for name, kind in (("Factor", "Float"), ("First", "Shader"), ("Second", "Shader")):
+        group.interface.new_socket(name, in_out="INPUT", socket_type=f"NodeSocket{kind}")
+    group.interface.new_socket("Mixed", in_out="OUTPUT", socket_type="NodeSocketShader")
+    begin, mix, end = (
+        group.nodes.new(kind) for kind in ("NodeGroupInput", "ShaderNodeMixShader", "NodeGroupOutput")
+    )
+    for number in range(3):
+        group.links.new(begin.outputs[number], mix.inputs[number])
+    group.links.new(mix.outputs[0], end.inputs[0])
+    inserted, other = tree.nodes.new("ShaderNodeGroup"), tree.nodes.new("ShaderNodeBsdfPrincipled")
+    inserted.node_tree = group
+    inserted.inputs["Factor"].default_value = 0.25
+    tree.links.new(node(item, "BsdfPrincipled").outputs[0], inserted.inputs["First"])
+    tree.links.new(other.outputs[0], inserted.inputs["Second"])
+    tree.links.new(inserted.outputs[0], node(item, "OutputMaterial").inputs["Surface"])
+
+
+def change_mix(item: bpy.types.Object) -> None:
+    node(item, "Group").inputs["Factor"].default_value = 0.75
+
+
 def nothing(item: bpy.types.Object) -> None:
     """Leave it."""
 
@@ -121,6 +145,8 @@ def nothing(item: bpy.types.Object) -> None:
         (nothing, change_ramp, True),
         (nothing, mute, True),
         (nothing, relink, True),
+        (mix_in_group, nothing, False),
+        (mix_in_group, change_mix, True),
         (nothing, move_uv, True),
         (nothing, move_vertex, True),
         (nothing, modify, True),

@@ -43,8 +43,7 @@ def look() -> None:
         if bake.output.suffix == ".html":
             bpy.ops.wm.url_open(url=bake.output.resolve().as_uri())
         else:
-            for item in bake.items:
-                assign(item, bake.output, bake.settings)
+            assign(bake.items, bake.output, bake.settings)
             session().previews.reload()  # it may have replaced a file that is shown
             if not bake.by_itself:
                 _push_undo("Assign Map Set")

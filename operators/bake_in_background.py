@@ -119,8 +119,7 @@ def queue_bake(
         unfinished.by_itself &= by_itself
         return f"Being baked already: {plain_name(output)}"
     if is_baked(output) and content in ("", map_set_content(output)):
-        for number in numbers:
-            assign(number, output, request.shown)
+        assign(numbers, output, request.shown)
         return f"Baked before: {plain_name(output)}"
     bake = bake_of(request, scene, items, output)
     bake.by_itself = by_itself

@@ -1,5 +1,7 @@
 """Preview every object of the scene in its own materials."""
 
+from collections.abc import Iterator
+
 import bpy
 
 from ..rsibr_addon.core.errors import RsibrError, SceneError
@@ -28,17 +30,17 @@ class RSIBR_OT_preview_scene(Undoable, bpy.types.Operator):
 
     def work(self, context: bpy.types.Context) -> None:
         """Queue the bake; where the light was baked before, its file is taken at once."""
-        items = _surfaces(context.scene)
+        items = list(_surfaces(context.scene))
         self.report({"INFO"}, queue_bakes(context.scene, items, own_materials_kind()))
 
 
-def _surfaces(scene: bpy.types.Scene) -> list[bpy.types.Object]:
+def _surfaces(scene: bpy.types.Scene) -> Iterator[bpy.types.Object]:
     """Objects that can be shaded. What belongs to another file is left as it is."""
-    return [each for each in scene.objects if each.type in SHAPED and each.is_editable]
+    return (each for each in scene.objects if each.type in SHAPED and each.is_editable)
 
 
 def _check(scene: bpy.types.Scene) -> None:
-    items = _surfaces(scene)
-    if not items:
+    item = next(_surfaces(scene), None)
+    if item is None:
         raise SceneError("The scene has no object with a surface: add one.")
-    request_for(scene.rsibr_bake, scene, items[0], own_materials_kind())
+    request_for(scene.rsibr_bake, scene, item, own_materials_kind())

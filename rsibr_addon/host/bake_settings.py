@@ -1,6 +1,7 @@
 """An artist's choices for a bake: the scene's settings and the active object, as names and paths."""
 
 import os
+from collections.abc import Collection
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -241,29 +242,22 @@ def blender_program() -> str:
     return bpy.app.binary_path
 
 
-def assign(uid: int, path: Path, settings: dict[str, Any]) -> str | None:
-    """Shade an object from a map set.
+def assign(numbers: Collection[int], path: Path, settings: dict[str, Any]) -> None:
+    """Shade objects from a map set; those that are gone, or may not be changed, are left out.
 
     Parameters
     ----------
-    uid : int
-        Its `session_uid`, which stays while names change.
+    numbers : collection of int
+        Their `session_uid`, which stays while names change.
     path : Path
     settings : dict
-        Settings of its bake, from `plain_settings`.
-
-    Returns
-    -------
-    str or None
-        The object's name; None where it is gone, or may not be changed.
+        Settings of their bake, from `plain_settings`.
     """
-    item = next((each for each in bpy.data.objects if each.session_uid == uid), None)
-    if item is None or not item.is_editable:
-        return None
-    item.rsibr.map_set = stored_path(path)
-    item.rsibr.show = True
-    apply_settings(item.rsibr_baked, settings)
-    return item.name
+    wanted = set(numbers)
+    for item in [each for each in bpy.data.objects if each.session_uid in wanted and each.is_editable]:
+        item.rsibr.map_set = stored_path(path)
+        item.rsibr.show = True
+        apply_settings(item.rsibr_baked, settings)
 
 
 def plain_settings(group: bpy.types.PropertyGroup) -> dict[str, Any]:

@@ -15,6 +15,7 @@ from ..core.errors import MapSetError, OutputFileError
 from ..files.atomic import written_aside
 from ..files.map_set import read_map_set_header
 from ..files.map_set_header import content_hash
+from ..files.read_once import read_once
 
 
 class Settings(Protocol):
@@ -110,11 +111,17 @@ def remember_content(settings: PreviewSettings) -> None:
     """Remember what an object's map set holds, and forget the settings of another's bake."""
     path, before = planned_path(settings), settings.content
     try:
-        settings.content = content_hash(read_map_set_header(path)) if path else ""
+        settings.content = _content_of(Path(path)) if path else ""
     except MapSetError:
         settings.content = ""
     if settings.content != before:
         settings.id_data.property_unset("rsibr_baked")
+
+
+@read_once
+def _content_of(path: Path) -> str:
+    """The same map set is given to every object of a scene."""
+    return content_hash(read_map_set_header(path))
 
 
 def planned_path(settings: Settings) -> str:

@@ -8,9 +8,12 @@ import pytest
 import rsibr
 from rsibr.operators import keep_fresh
 from rsibr.operators.bake_in_background import queue_bake
+from rsibr.rsibr_addon.files.map_set import read_map_set_header
+from rsibr.rsibr_addon.host import map_sets
 from rsibr.rsibr_addon.host.bake_settings import assign
 from rsibr.rsibr_addon.host.world_light import followed_light
 from rsibr.rsibr_addon.session.running import session
+from rsibr.rsibr_addon.tasks.methods.kinds import own_materials_kind
 from rsibr.rsibr_addon.tasks.queue.background import State
 from rsibr.rsibr_addon.tasks.queue.bake_request import ObjectBake, output_for, request_for
 from rsibr.rsibr_addon.tasks.queue.freshness import Freshness, Stale
@@ -39,7 +42,7 @@ def baked(kind: str, light: str, item: bpy.types.Object) -> None:
     path = output_for(request, scene, item)
     if not path.exists():
         write_flat_capture(path, (0.5, 0.0, 0.5))
-    assign(item.session_uid, path, request.shown)
+    assign([item.session_uid], path, request.shown)
 
 
 def staleness(item: bpy.types.Object) -> Stale | None:
@@ -233,3 +236,20 @@ def test_a_bake_that_nobody_asked_for_leaves_alone_what_wants_it_no_more(tmp_pat
     keep_fresh._cancel_all_but({(tmp_path / "another", 1)})
     assert by_itself.state is State.CANCELLED
     assert (asked.items, asked.ended) == ([1, 2], False)
+
+
+def test_a_map_set_is_read_once_for_all_objects_of_a_scene(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene, read = bpy.context.scene, []
+    kind = own_materials_kind()
+    request = request_for(scene.rsibr_bake, scene, cube(), kind)
+    write_flat_capture(output_for(request, scene, cube()), (0.5, 0.0, 0.5))
+    for _ in range(5):
+        scene.collection.objects.link(cube().copy())
+    monkeypatch.setattr(
+        map_sets, "read_map_set_header", lambda path: read.append(path) or read_map_set_header(path)
+    )
+    assert bpy.ops.rsibr.preview_scene() == {"FINISHED"}
+    shaded = [each for each in scene.objects if each.rsibr.map_set]
+    assert len(shaded) == 6
+    assert all(each.rsibr.content and each.rsibr_baked.kind == kind for each in shaded)
+    assert len(read) == 1

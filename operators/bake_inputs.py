@@ -6,6 +6,7 @@ import bpy
 
 from ..rsibr_addon.core.errors import RsibrError
 from ..rsibr_addon.host.bake_settings import bakes_inputs_by_itself
+from ..rsibr_addon.host.visible_surfaces import layer_of
 from ..rsibr_addon.session.running import session
 from ..rsibr_addon.tasks.queue.background import State
 from ..rsibr_addon.tasks.queue.input_bakes import InputBake, input_bake_of, inputs_file
@@ -32,7 +33,8 @@ class RSIBR_OT_bake_inputs(AtOnce, bpy.types.Operator):
         depsgraph = context.evaluated_depsgraph_get()
         previews, bakes = session().previews, not self.by_itself or bakes_inputs_by_itself()
         inputs = previews.inputs
-        for item in previews.with_baked_inputs():
+        # A layer that another window shows evaluates its objects by a depsgraph of its own
+        for item in previews.with_baked_inputs([layer_of(context)]):
             if not self.by_itself:
                 inputs.forgive(item)
             try:

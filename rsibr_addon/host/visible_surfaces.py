@@ -131,14 +131,17 @@ class View:
 def current_view() -> View:
     """The view that is being drawn."""
     context = bpy.context
-    scene, layer = context.scene, context.view_layer
-    return View(scene, (scene.session_uid, layer.name), layer.depsgraph, context.space_data)
+    return View(context.scene, layer_of(context), context.view_layer.depsgraph, context.space_data)
 
 
-def shown_layers() -> set[Layer]:
-    """The view layers that any window shows."""
-    windows = bpy.context.window_manager.windows
-    return {(window.scene.session_uid, window.view_layer.name) for window in windows}
+def layer_of(shows: bpy.types.Context | bpy.types.Window) -> Layer:
+    """The view layer that a context or a window shows."""
+    return shows.scene.session_uid, shows.view_layer.name
+
+
+def shown_layers() -> dict[Layer, bpy.types.Window]:
+    """The view layers that windows show, each with one of them."""
+    return {layer_of(window): window for window in bpy.context.window_manager.windows}
 
 
 def map_set_of(item: bpy.types.Object) -> str:

@@ -11,7 +11,7 @@ from bpy.app.handlers import persistent
 from ..device.shaders import release_programs
 from ..host.materials import materials_changed
 from ..host.sidebars import redraw_viewports
-from ..host.visible_surfaces import current_view
+from ..host.visible_surfaces import current_view, shown_layers
 from ..session.running import Session, session
 
 Given = ParamSpec("Given")
@@ -105,10 +105,10 @@ def _draw_again(_: Session) -> None:
 def _ask_for_inputs(running: Session) -> None:
     """After edits have rested: show what is baked of materials as they are now, or have it baked."""
     running.previews.inputs.is_unasked = False
-    windows = bpy.context.window_manager.windows
-    if running.previews.with_baked_inputs() and windows:
-        with bpy.context.temp_override(window=windows[0]):
-            bpy.ops.rsibr.bake_inputs(by_itself=True)
+    if running.previews.with_baked_inputs():
+        for window in shown_layers().values():
+            with bpy.context.temp_override(window=window):
+                bpy.ops.rsibr.bake_inputs(by_itself=True)
         redraw_viewports()
 
 

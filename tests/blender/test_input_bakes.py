@@ -196,7 +196,7 @@ def inputs(cube: bpy.types.Object, monkeypatch: pytest.MonkeyPatch) -> Iterator[
     """Those of a session that shows the cube."""
     rsibr.register()
     previews = session().previews
-    monkeypatch.setattr(previews, "with_baked_inputs", lambda: [cube])
+    monkeypatch.setattr(previews, "with_baked_inputs", lambda _: [cube])
     yield previews.inputs
     rsibr.unregister()
 

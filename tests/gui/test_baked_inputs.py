@@ -102,3 +102,24 @@ def test_what_is_procedural_is_baked_and_shown(told: Told, bare: bool) -> None:
     assert bool(answer["messages"]) == bare  # faces are baked one by one
     assert not answer["busy"]
     assert answer["again"] == answer["first"]
+
+
+WINDOWS = """
+def scenario(told):
+    # The first window shows an empty scene, the second the cube, as a modifier makes it
+    cube, inputs = bpy.data.objects["Cube"], session().previews.inputs
+    glowing(cube)
+    cube.modifiers.new("Subdivision", "SUBSURF")
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.wm.window_new_main()
+    window().scene = bpy.data.scenes.new("Empty")
+    while cube.session_uid not in inputs._shown:
+        yield from drawn()
+        wish = inputs._wishes.get(cube.session_uid)
+        assert not (wish and wish.trouble), wish.trouble
+    told["bakes"] = [[str(each.state), each.message] for each in session().bakes.bakes]
+"""
+
+
+def test_materials_of_another_window_s_scene_are_baked(told: Told) -> None:
+    assert told(PRELUDE + WINDOWS) == {"bakes": [["done", ""]]}

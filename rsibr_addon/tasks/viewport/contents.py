@@ -1,6 +1,6 @@
 """What view layers show: surfaces with a preview, and those that may hide them."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 
 from ...device.drawing import GpuMesh
@@ -105,15 +105,16 @@ class LayerContents:
         else:
             faults.clear()
         self.layers[view.layer] = contents  # at last: what fails above is tried again
-        for layer in self.layers.keys() - shown_layers():
+        for layer in self.layers.keys() - shown_layers().keys():
             del self.layers[layer]
         shown = [each for layer in self.layers.values() for each in (*layer.previews, *(layer.others or ()))]
         self.meshes.keep({(each.surface.mesh, each.needs) for each in shown})
         return contents
 
-    def previewed(self) -> list[Drawable]:
-        """What has a preview, of all layers."""
-        return [each for contents in self.layers.values() for each in contents.previews]
+    def previewed(self, layers: Collection[Layer] | None = None) -> list[Drawable]:
+        """What has a preview, of some view layers or of all."""
+        shown = [each for layer, each in self.layers.items() if layers is None or layer in layers]
+        return [each for contents in shown for each in contents.previews]
 
     def _fill(self, contents: Contents, view: View, faults: Faults) -> None:
         for surface, evaluated in surfaces(view.depsgraph):

@@ -1,5 +1,6 @@
 """The previews of a running Blender: what shades which object, uploaded once and drawn every frame."""
 
+from collections.abc import Collection
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from itertools import product
@@ -10,7 +11,7 @@ from ...device.own_materials import OwnMaterials
 from ...device.preview_stage import Difference, Stage, current_sight, draw_occluder, draw_scale_numbers
 from ...host.bake_settings import bakes_inputs_by_itself
 from ...host.live_light import is_readable, shows_surroundings
-from ...host.visible_surfaces import Side, Surface, View, map_set_of
+from ...host.visible_surfaces import Layer, Side, Surface, View, map_set_of
 from ...host.world_light import AS_IT_IS
 from ..methods.kinds import KINDS
 from ..methods.live_materials import LiveFits
@@ -132,9 +133,16 @@ class Previews:
             told += shown.materials.messages
         return told
 
-    def with_baked_inputs(self) -> list[Any]:
-        """The objects whose materials have inputs that have to be baked."""
-        shown = [each for each in self._layers.previewed() if each.materials and each.materials.has_baked]
+    def with_baked_inputs(self, layers: Collection[Layer] | None = None) -> list[Any]:
+        """The objects whose materials have inputs that have to be baked.
+
+        Parameters
+        ----------
+        layers : collection of Layer, optional
+            Those that show them; all of them by default.
+        """
+        previewed = self._layers.previewed(layers)
+        shown = [each for each in previewed if each.materials and each.materials.has_baked]
         return list({each.surface.item.session_uid: each.surface.item for each in shown}.values())
 
     def draw(self, view: View) -> bool:

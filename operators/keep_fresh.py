@@ -9,6 +9,7 @@ from bpy.app.handlers import persistent
 
 from ..rsibr_addon.core.errors import RsibrError
 from ..rsibr_addon.core.warned import recorded_warnings
+from ..rsibr_addon.host.handlers import add_handlers
 from ..rsibr_addon.host.materials import materials_changed
 from ..rsibr_addon.host.sidebars import redraw_sidebars
 from ..rsibr_addon.session.running import session
@@ -30,10 +31,7 @@ def start(undo: ExitStack) -> None:
     if bpy.app.background:
         return
     undo.callback(_stop)
-    for name, function in _HANDLERS.items():
-        handlers = getattr(bpy.app.handlers, name)
-        handlers.append(function)
-        undo.callback(handlers.remove, function)
+    add_handlers(_HANDLERS, undo)
 
 
 @persistent

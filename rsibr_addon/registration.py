@@ -14,6 +14,7 @@ def register() -> None:
     from .. import operators
     from ..operators import background, keep_fresh
     from . import properties, ui
+    from .host.handlers import add_handlers
     from .host.map_sets import unpacked
     from .host.overrides import complete_overrides
     from .session.running import begun_session
@@ -30,10 +31,7 @@ def register() -> None:
             pointer = bpy.props.PointerProperty(type=group, override=properties.OVERRIDABLE)
             setattr(owner, name, pointer)
             undo.callback(delattr, owner, name)
-        for name in ("load_post", "blend_import_post", "save_pre"):
-            handlers = getattr(bpy.app.handlers, name)
-            handlers.append(complete_overrides)
-            undo.callback(handlers.remove, complete_overrides)
+        add_handlers(dict.fromkeys(("load_post", "blend_import_post", "save_pre"), complete_overrides), undo)
         undo.callback(unpacked.remove)
         viewport_handlers.start(undo)
         export_menu.start(undo)

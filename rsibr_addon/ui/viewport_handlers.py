@@ -9,6 +9,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..device.shaders import release_programs
+from ..host.handlers import add_handlers
 from ..host.materials import materials_changed
 from ..host.sidebars import redraw_viewports
 from ..host.visible_surfaces import current_view, shown_layers
@@ -42,10 +43,7 @@ def start(undo: ExitStack) -> None:
         handle = bpy.types.SpaceView3D.draw_handler_add(function, (), "WINDOW", when)
         undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handle, "WINDOW")
     undo.callback(_stop_timers)
-    for name, function in _HANDLERS.items():
-        handlers = getattr(bpy.app.handlers, name)
-        handlers.append(function)
-        undo.callback(handlers.remove, function)
+    add_handlers(_HANDLERS, undo)
 
 
 def _guarded(

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError, RsibrWarning
 from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_from_harmonics
@@ -36,6 +37,7 @@ from rsibr.tests.engine_light import (
     truth,
 )
 from rsibr.tests.files.test_export import read as read_ktx2
+from rsibr.tests.pages import PAGES, calls
 
 RNG = np.random.default_rng(3)
 HALF = 2.0**-11
@@ -252,3 +254,13 @@ def test_engines_that_need_half_floats_get_them(name: str, scale: float, told: s
             export_for_engine(tmp_path / "sky.exr", tmp_path / "sky.ktx2", name, CubeSettings(size=16))
         )
     assert {read_ktx2(path).format for path in paths} == {97}
+
+
+def test_the_pages_commands_do_what_they_say(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    bake = ["bake", "mip-chain", "--environment", str(sky_file(tmp_path)), "--size", "64"]
+    assert run([*bake, "-o", "court.rsibr.exr"]) == 0
+    exports = [words for page in PAGES if page.startswith("docs/engines/") for words in calls(page, "rsibr")]
+    assert {words[words.index("--for") + 1] for words in exports} == ENGINES.keys()
+    for words in exports:
+        assert run([*words, "--force"]) == 0, words

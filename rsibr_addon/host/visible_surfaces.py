@@ -1,6 +1,6 @@
 """The content of a 3D viewport: the surfaces of a scene, with instances, and the view on them."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import bpy
@@ -9,7 +9,7 @@ import numpy as np
 from ..core.conventions import Array
 from .live_light import live_name
 from .map_sets import planned_path
-from .world_light import AS_IT_IS, WorldLight, followed_light
+from .world_light import AS_IT_IS, WorldLight, follows_world, world_light
 
 UNSHADED = ("WIRE", "BOUNDS")
 """Ways to display an object without its surface."""
@@ -123,9 +123,10 @@ class View:
         """Tells viewports apart."""
         return int(bpy.context.region.as_pointer())
 
-    def light_of(self, item: bpy.types.Object) -> WorldLight:
-        """The world's turn and strength for an object's map set; none unless the object follows the world."""
-        return followed_light(item, self.scene.world) or AS_IT_IS
+    def lights_of(self, items: Iterable[bpy.types.Object]) -> list[WorldLight]:
+        """The world's turn and strength for objects' map sets; none for those that do not follow it."""
+        of_world = world_light(self.scene.world) or AS_IT_IS
+        return [of_world if follows_world(item) else AS_IT_IS for item in items]
 
 
 def current_view() -> View:

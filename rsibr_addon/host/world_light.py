@@ -83,13 +83,13 @@ def make_bare(world: bpy.types.World) -> None:
         world.node_tree.links.remove(link)
 
 
-def followed_light(item: bpy.types.Object, world: bpy.types.World | None) -> WorldLight | None:
-    """The world's strength and rotation, for an object's map set; None where it follows none.
+def follows_world(item: bpy.types.Object) -> bool:
+    """Whether an object's map set is to be turned and scaled as the world is.
 
-    A map set that was baked in the world with them holds them already, and live light shows them.
+    A map set that was baked in the world with its strength and rotation holds them already, and live light
+    shows them.
     """
-    follows = item.rsibr.follow_world and not item.rsibr.live.on and not holds_world(item)
-    return world_light(world) if follows else None
+    return item.rsibr.follow_world and not item.rsibr.live.on and not holds_world(item)
 
 
 def holds_world(item: bpy.types.Object) -> bool:

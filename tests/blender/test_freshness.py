@@ -11,7 +11,7 @@ from rsibr.operators.bake_in_background import queue_bake
 from rsibr.rsibr_addon.files.map_set import read_map_set_header
 from rsibr.rsibr_addon.host import map_sets
 from rsibr.rsibr_addon.host.bake_settings import assign
-from rsibr.rsibr_addon.host.world_light import followed_light
+from rsibr.rsibr_addon.host.world_light import follows_world, world_light
 from rsibr.rsibr_addon.session.running import session
 from rsibr.rsibr_addon.tasks.methods.kinds import own_materials_kind
 from rsibr.rsibr_addon.tasks.queue.background import State
@@ -102,8 +102,9 @@ def test_a_world_that_only_turns_and_scales_is_followed_without_a_bake() -> None
     mapping.inputs["Rotation"].default_value[2] = 1.0
     background.inputs["Strength"].default_value = 3.0
     assert staleness(cube()) is None
-    followed = followed_light(cube(), bpy.context.scene.world)
+    followed = world_light(bpy.context.scene.world)
     assert followed is not None
+    assert follows_world(cube())
     assert followed.strength == 3.0
     bpy.data.images["Sky"].user_remap(painted(1.0))
     stale = staleness(cube())
@@ -121,7 +122,7 @@ def test_what_does_not_follow_the_world_holds_its_turn_and_strength() -> None:
     assert staleness(cube()) is None
     cube().rsibr.follow_world = True
     assert staleness(cube()) is not None  # it would be baked bare now
-    assert followed_light(cube(), bpy.context.scene.world) is None
+    assert not follows_world(cube())
 
 
 def test_a_baked_material_is_out_of_date_when_it_changes() -> None:

@@ -12,9 +12,10 @@ from rsibr.rsibr_addon.core.kinds.mip_chain.shading import MipLook
 from rsibr.rsibr_addon.core.kinds.reflection_tables.shading import TablesLook
 from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import Role
 from rsibr.rsibr_addon.files.kinds.registry import look_types
+from rsibr.rsibr_addon.host import visible_surfaces
 from rsibr.rsibr_addon.host.option_properties import options_of
 from rsibr.rsibr_addon.host.visible_surfaces import is_wanted, map_set_of, surfaces
-from rsibr.rsibr_addon.host.world_light import followed_light
+from rsibr.rsibr_addon.host.world_light import WorldLight, follows_world, world_light
 from rsibr.rsibr_addon.settings.lobe_stack import LobeStackSettings
 from rsibr.rsibr_addon.tasks.viewport.faults import settings_of
 
@@ -133,12 +134,25 @@ def test_an_object_follows_the_world_unless_that_was_baked() -> None:
     texture = tree.nodes.new("ShaderNodeTexEnvironment")
     tree.links.new(texture.outputs["Color"], tree.nodes["Background"].inputs["Color"])
     tree.nodes["Background"].inputs["Strength"].default_value = 2.0
-    followed = followed_light(cube, world)
+    followed = world_light(world)
     assert followed is not None
     assert followed.strength == 2.0
+    assert follows_world(cube)
     cube.rsibr_baked.light = "WORLD"
-    assert followed_light(cube, world) is None
+    assert not follows_world(cube)
     cube.rsibr_baked.light = "STUDIO"
-    assert followed_light(cube, world) is not None
+    assert follows_world(cube)
     cube.rsibr.follow_world = False
-    assert followed_light(cube, world) is None
+    assert not follows_world(cube)
+
+
+def test_the_world_is_read_once_for_all_objects_of_a_frame(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene, read = bpy.context.scene, []
+    light = WorldLight(2.0, np.eye(3))
+    monkeypatch.setattr(visible_surfaces, "world_light", lambda world: read.append(world) or light)
+    other = bpy.data.objects["Cube"].copy()
+    other.rsibr.follow_world = False
+    view = visible_surfaces.View(scene, visible_surfaces.layer_of(bpy.context), None, None)
+    lights = view.lights_of([bpy.data.objects["Cube"]] * 2 + [other])
+    assert [each.strength for each in lights] == [2.0, 2.0, 1.0]
+    assert read == [scene.world]

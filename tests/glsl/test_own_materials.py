@@ -299,7 +299,9 @@ def test_what_is_in_front_hides_what_has_another_strength_of_light(
     space = view.space
     space.shading.type, space.overlay.show_overlays = "MATERIAL", False  # Blender leaves no depths
     strengths = {"sheet": 1.0, above.name: 2.0}
-    monkeypatch.setattr(View, "light_of", lambda _, item: WorldLight(strengths[item.name], np.eye(3)))
+    monkeypatch.setattr(
+        View, "lights_of", lambda _, items: [WorldLight(strengths[each.name], np.eye(3)) for each in items]
+    )
     check(draw(), GREEN, RED)
     above.location.z = -1.0
     previews.scene_changed()
@@ -309,7 +311,7 @@ def test_what_is_in_front_hides_what_has_another_strength_of_light(
 def test_what_is_emitted_shows_in_a_world_without_light(
     sheet: bpy.types.Object, draw: Draw, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(View, "light_of", lambda *_: WorldLight(0.0, np.eye(3)))
+    monkeypatch.setattr(View, "lights_of", lambda _, items: [WorldLight(0.0, np.eye(3)) for _ in items])
     check(draw(), RED, GREEN)
 
 

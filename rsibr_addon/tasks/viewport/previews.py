@@ -185,7 +185,7 @@ class Previews:
             for each, map_set in seen
             if (looks := self._looks_of(each, map_set, wanted))
         ]
-        lights = [view.light_of(each.surface.item) for each, *_ in looked]
+        lights = view.lights_of(each.surface.item for each, *_ in looked)
         sight = current_sight()
         hiding = [
             (each.mesh, sight.on(each.surface.matrix, AS_IT_IS.turn))

@@ -1,6 +1,6 @@
 """The content of a 3D viewport: the surfaces of a scene, with instances, and the view on them."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 
 import bpy
@@ -25,7 +25,10 @@ class Surface:
     Attributes
     ----------
     item : bpy.types.Object
-        The surface's object: the artist's own, not its evaluated copy.
+        The surface's object: the artist's own, not its evaluated copy. It may be deleted before the scene is
+        looked at anew, and then it has no properties any more.
+    number : int
+        The object's `session_uid`.
     shown_by : bpy.types.Object
         The object whose visibility counts: `item`, or one that makes instances of it.
     mesh : int
@@ -37,6 +40,7 @@ class Surface:
     """
 
     item: bpy.types.Object
+    number: int
     shown_by: bpy.types.Object
     mesh: int
     matrix: Array
@@ -161,6 +165,11 @@ def is_wanted() -> bool:
     return any(map(map_set_of, bpy.data.objects))
 
 
+def objects_numbered(numbers: Collection[int]) -> list[bpy.types.Object]:
+    """The objects of the file that have one of these as their `session_uid`."""
+    return [each for each in bpy.data.objects if each.session_uid in numbers]
+
+
 def surfaces(depsgraph: bpy.types.Depsgraph) -> Iterator[tuple[Surface, bpy.types.Object]]:
     """Every surface that the view layer shows.
 
@@ -187,4 +196,4 @@ def surfaces(depsgraph: bpy.types.Depsgraph) -> Iterator[tuple[Surface, bpy.type
         item = evaluated.original
         shown_by = instance.parent.original if instance.is_instance else item
         mesh, matrix = evaluated.data.session_uid, np.array(instance.matrix_world)
-        yield Surface(item, shown_by, mesh, matrix, map_set_of(item)), evaluated
+        yield Surface(item, item.session_uid, shown_by, mesh, matrix, map_set_of(item)), evaluated

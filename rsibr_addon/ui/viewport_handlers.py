@@ -103,7 +103,7 @@ def _draw_again(_: Session) -> None:
 def _ask_for_inputs(running: Session) -> None:
     """After edits have rested: show what is baked of materials as they are now, or have it baked."""
     running.previews.inputs.is_unasked = False
-    if running.previews.with_baked_inputs():
+    if running.previews.has_baked_inputs:
         for window in shown_layers().values():
             with bpy.context.temp_override(window=window):
                 bpy.ops.rsibr.bake_inputs(by_itself=True)
@@ -139,7 +139,7 @@ def _stop_timers() -> None:
 def _scene_changed(running: Session, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     if depsgraph.mode == "VIEWPORT":  # A render evaluates scenes too, in a thread of its own.
         running.previews.scene_changed(materials_changed(depsgraph))
-        if running.previews.with_baked_inputs():
+        if running.previews.has_baked_inputs:
             _ask_soon()
 
 

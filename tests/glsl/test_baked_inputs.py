@@ -119,3 +119,13 @@ def test_a_damaged_bake_is_told(
     assert previews.inputs.wish(sheet, path)
     draw()
     assert "truncated or damaged" in previews.messages(sheet)[0]
+
+
+def test_an_object_that_is_gone_needs_no_bake(
+    sheet: bpy.types.Object, half: bpy.types.Node, draw: Draw, previews: Previews
+) -> None:
+    draw()
+    assert previews.with_baked_inputs() == [sheet]
+    bpy.data.objects.remove(sheet)
+    previews.scene_changed()
+    assert previews.with_baked_inputs() == []

@@ -188,7 +188,7 @@ class MapSets:
         MapSetError, InputFileError, DeviceError
             As `read_if_new`, or it is too large for the device.
         """
-        path, item = surface.path, surface.item.session_uid
+        path, item = surface.path, surface.number
         if path not in self.used:
             try:
                 self._fetch(surface)
@@ -206,7 +206,7 @@ class MapSets:
 
     def keep(self, surfaces: Iterable[Surface]) -> None:
         """Let go of what none of these uses any more, of files in a while."""
-        shown = {each.item.session_uid: each.path for each in surfaces}
+        shown = {each.number: each.path for each in surfaces}
         paths = set(shown.values())
         for path in self.used.keys() - paths:
             self.unused.keep(path, self.used.pop(path))

@@ -11,7 +11,7 @@ from ...device.own_materials import OwnMaterials
 from ...device.preview_stage import Difference, Stage, current_sight, draw_occluder, draw_scale_numbers
 from ...host.bake_settings import bakes_inputs_by_itself
 from ...host.live_light import is_readable, shows_surroundings
-from ...host.visible_surfaces import Layer, Side, Surface, View, map_set_of
+from ...host.visible_surfaces import Layer, Side, Surface, View, map_set_of, objects_numbered
 from ...host.world_light import AS_IT_IS
 from ..methods.kinds import KINDS
 from ..methods.live_materials import LiveFits
@@ -126,7 +126,9 @@ class Previews:
         map_set = self._map_sets.used.get(map_set_of(item))
         fault = self.faults.message(item)
         warnings = [*map_set.warnings, *self._looks.warnings(item, map_set)] if map_set and not fault else []
-        shown = next((each for each in self._layers.previewed() if each.surface.item == item), None)
+        shown = next(
+            (each for each in self._layers.previewed() if each.surface.number == item.session_uid), None
+        )
         told = [*filter(None, (fault, self.faults.trouble)), *warnings]
         if shown and shown.materials:
             told += self.inputs.messages(item, bakes_inputs_by_itself()) if shown.materials.has_baked else []
@@ -141,9 +143,12 @@ class Previews:
         layers : collection of Layer, optional
             Those that show them; all of them by default.
         """
-        previewed = self._layers.previewed(layers)
-        shown = [each for each in previewed if each.materials and each.materials.has_baked]
-        return list({each.surface.item.session_uid: each.surface.item for each in shown}.values())
+        return objects_numbered(self._numbers_with_baked_inputs(layers))
+
+    @property
+    def has_baked_inputs(self) -> bool:
+        """Whether there may be any such object, though it was deleted since."""
+        return bool(self._numbers_with_baked_inputs())
 
     def draw(self, view: View) -> bool:
         """Draw the previews of a view into the active frame buffer.
@@ -268,11 +273,15 @@ class Previews:
         """
         self._displays.learn(scene)
 
+    def _numbers_with_baked_inputs(self, layers: Collection[Layer] | None = None) -> set[int]:
+        previewed = self._layers.previewed(layers)
+        return {each.surface.number for each in previewed if each.materials and each.materials.has_baked}
+
     def _collected(self, view: View) -> Contents:
         """What a view layer shows, looked at anew; what is used no more is let go."""
         contents = self._layers.collect(view, not view.has_depth, self.faults)
         surfaces = [each.surface for each in self._layers.previewed()]
-        self.inputs.keep({each.item.session_uid for each in surfaces})
+        self.inputs.keep({each.number for each in surfaces})
         self._looks.keep({each.path for each in surfaces})
         self._map_sets.keep(surfaces)
         return contents

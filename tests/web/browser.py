@@ -1,6 +1,5 @@
 """A page in headless Chromium that is asked something and answers, without a network."""
 
-import functools
 import json
 import os
 import subprocess
@@ -65,7 +64,7 @@ def asked(page: str, question: dict[str, Any], files: Path) -> dict[str, Any]:
     AssertionError
         It did not answer, or something went wrong there.
     """
-    server = ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(_Handler))
+    server = ThreadingHTTPServer(("127.0.0.1", 0), _Handler)
     server.places, server.question = {**PLACES, "files": files}, question  # type: ignore[attr-defined]
     server.answered, server.said = threading.Event(), {}  # type: ignore[attr-defined]
     serving = threading.Thread(target=server.serve_forever)

@@ -12,7 +12,7 @@ More = TypeVarTuple("More")
 Told = TypeVar("Told")
 
 
-def read_once(read: Callable[[Path, *More], Told]) -> Callable[[Path, *More], Told]:
+def read_once(read: Callable[[Path, *More], Told], most: int = 16) -> Callable[[Path, *More], Told]:
     """Make a function of a file remember its result until the file's time or size changes.
 
     Parameters
@@ -20,9 +20,11 @@ def read_once(read: Callable[[Path, *More], Told]) -> Callable[[Path, *More], To
     read : callable
         Takes the path of a file, that need not be there, or FILE.exr:LAYER, and perhaps more that can be
         hashed. What it raises is not kept.
+    most : int
+        How many results are kept.
     """
 
-    @lru_cache(maxsize=16)
+    @lru_cache(maxsize=most)
     def kept(stamp: tuple[int, int] | None, path: Path, more: tuple[*More]) -> Told:
         return read(path, *more)
 

@@ -1,5 +1,6 @@
 """Write the active object's map set for other programs: an operator for each format, and one for engines."""
 
+import os
 from pathlib import Path
 from textwrap import wrap
 from typing import Any
@@ -103,8 +104,12 @@ class _ExportForEngine(_Export):
         )
 
     def check(self: Any, context: bpy.types.Context) -> bool:
-        """Have the name end as the engine wants it."""
-        wanted = str(Path(self.filepath).with_suffix(self.ending()))
+        """Have the name end as the engine wants it; where there is none yet, the folder stays."""
+        path = Path(self.filepath)
+        if not os.path.basename(self.filepath):
+            return False
+        bare = path.with_suffix("") if path.suffix.lower() in ENDINGS else path
+        wanted = f"{bare}{self.ending()}"
         changed = bool(wanted != self.filepath)
         self.filepath = wanted
         return changed
@@ -117,6 +122,9 @@ class _ExportForEngine(_Export):
         for declared in declared_options(ENGINES[self.engine].settings):
             self.layout.prop(self, declared.name)
 
+
+ENDINGS = {ending for each in ENGINES.values() for ending in each.endings}
+"""What the dialog takes away; other names may have dots in them."""
 
 COLUMNS = 40
 """Letters in a line of the file dialog's options."""

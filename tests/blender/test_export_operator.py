@@ -65,6 +65,9 @@ def test_the_operator_for_engines_writes_what_the_command_writes(tmp_path: Path)
         ("three", "court.ktx2", "court.ktx2"),
         ("three", "court.env", "court.dds"),
         ("gltf", "a.b.dds", "a.b.glb"),
+        ("three", "court.v2", "court.v2.dds"),
+        ("three", "/folder/", "/folder/"),
+        ("three", "/", "/"),
     ],
 )
 def test_the_name_in_the_dialog_ends_as_the_engine_wants(engine: str, name: str, wanted: str) -> None:

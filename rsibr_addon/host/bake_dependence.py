@@ -122,7 +122,7 @@ def _nodes(
     material: bpy.types.Material, kinds: tuple[str, ...], outputs: Mapping[str, tuple[str, ...]]
 ) -> list[bpy.types.Node]:
     output = surface_output(material)
-    sockets = outputs_behind([output.inputs["Surface"]], set()) if output else ()
+    sockets = outputs_behind([output.inputs["Surface"]]) if output else ()
     return [
         each.node
         for each in sockets

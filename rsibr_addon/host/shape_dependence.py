@@ -76,21 +76,25 @@ def shape_dependence(material: bpy.types.Material) -> list[str]:
     reasons = [
         f"it has a {name.lower()}" for name in ("Volume", "Displacement") if output.inputs[name].is_linked
     ]
-    for socket in outputs_behind([output.inputs["Surface"]], set()):
+    for socket in outputs_behind([output.inputs["Surface"]]):
         reasons += [f"{reason} (node {socket.node.label or socket.node.name})" for reason in _reasons(socket)]
     return list(dict.fromkeys(reasons))
 
 
-def outputs_behind(inputs: list[bpy.types.NodeSocket], seen: set[int]) -> Iterator[bpy.types.NodeSocket]:
-    """Every node output that can reach one of `inputs`, also within groups."""
-    for link in (link for socket in inputs for link in socket.links if not link.is_muted):
-        socket = link.from_socket
-        if socket.as_pointer() in seen:
-            continue
-        seen.add(socket.as_pointer())
-        yield socket
-        yield from outputs_behind(_group_inputs(socket), seen)
-        yield from outputs_behind([each for each in socket.node.inputs if not each.is_unavailable], seen)
+def outputs_behind(inputs: list[bpy.types.NodeSocket]) -> Iterator[bpy.types.NodeSocket]:
+    """Every node output that can reach one of `inputs`, also within groups; chains may have any length."""
+    waiting, seen = inputs[::-1], set()
+    while waiting:
+        socket = waiting.pop()
+        # Asked for its links, Blender looks through those of the whole tree
+        for link in socket.links if socket.is_linked else ():
+            socket = link.from_socket
+            if link.is_muted or socket.as_pointer() in seen:
+                continue
+            seen.add(socket.as_pointer())
+            yield socket
+            of_node = (each for each in socket.node.inputs if not each.is_unavailable)
+            waiting += reversed([*_group_inputs(socket), *of_node])
 
 
 def _group_inputs(socket: bpy.types.NodeSocket) -> list[bpy.types.NodeSocket]:

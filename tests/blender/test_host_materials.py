@@ -262,3 +262,17 @@ def test_only_the_outputs_used_of_a_group_count(material: bpy.types.Material) ->
     nodes, links = material.node_tree.nodes, material.node_tree.links
     links.new(nodes["Group"].outputs["Placed"], nodes["Principled BSDF"].inputs["Coat Normal"])
     assert shape_dependence(material) == ["it depends on the place on the surface (Position) (node Geometry)"]
+
+
+def test_a_chain_of_any_length_is_followed(material: bpy.types.Material) -> None:
+    tree = material.node_tree
+    before = tree.nodes.new("ShaderNodeObjectInfo").outputs["Random"]
+    for _ in range(1000):
+        node = tree.nodes.new("ShaderNodeMath")
+        tree.links.new(before, node.inputs[0])
+        before = node.outputs[0]
+    output = tree.get_output_node("ALL")
+    emission = tree.nodes.new("ShaderNodeEmission")
+    tree.links.new(before, emission.inputs["Strength"])
+    tree.links.new(emission.outputs[0], output.inputs["Surface"])
+    assert shape_dependence(material) == ["it depends on the object (node Object Info)"]

@@ -32,6 +32,7 @@ ROW = 4096
 """Corners in a row of that part."""
 
 INPUTS = frozenset(field.name for field in fields(PrincipledInputs))
+"""What a picture may hold."""
 
 
 class _Description(TypedDict):

@@ -126,6 +126,7 @@ class PanoramaEngine(Preset):
 
 
 Engine = CubeEngine | PanoramaEngine
+"""An engine, by what it takes."""
 
 
 def mips_down_to(size: int, last: int) -> int:

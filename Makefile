@@ -45,7 +45,7 @@ test-web: $(READY)
 	RSIBR_REQUIRE=web $(PYTHON) -m pytest tests/web
 
 test-faults: $(READY)
-	RSIBR_MOMENTS=300 RSIBR_FAULT_CASES=35000 RSIBR_REQUIRE=gl,bpy,cycles $(PYTHON) -m pytest tests/faults tests/glsl/test_faulty_draws.py tests/glsl/test_load.py
+	RSIBR_MOMENTS=300 RSIBR_FAULT_CASES=35000 RSIBR_REQUIRE=gl,bpy,cycles $(PYTHON) -m pytest --timeout 0 tests/faults tests/glsl/test_faulty_draws.py tests/glsl/test_load.py
 
 lint: $(READY)
 	$(PYTHON) -m ruff check

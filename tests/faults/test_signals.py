@@ -68,12 +68,8 @@ def seconds(source: Path) -> dict[str, float]:
 
 
 def wait_until_ours(running: Running) -> None:
-    """Wait for Python to come to our first line: until then a signal is Python's."""
-    status = Path(f"/proc/{running.process.pid}/status")
-    while running.process.poll() is None:
-        (blocked,) = (line for line in status.read_text().splitlines() if line.startswith("SigBlk"))
-        if int(blocked.split()[1], 16) >> (signal.SIGTERM - 1) & 1:
-            return
+    """Wait for the guard to have begun its work in a process of its own: until then a signal is Python's."""
+    while running.process.poll() is None and len(running.family()) < 2:
         time.sleep(0.001)
 
 

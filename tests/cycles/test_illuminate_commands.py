@@ -48,7 +48,7 @@ def test_a_world(illuminate: Command) -> None:
     illuminate("world", "studio.blend", "--size", "16", "-o", "world.exr")
     np.testing.assert_allclose(read_radiance("world.exr"), 0.05087609, rtol=1e-5)
     scale = illuminate("world", "studio.blend", "--size", "16", "--exposure", "-1", "-o", "dark.exr")["scale"]
-    assert scale == "Scaled by 0.5 0.5 0.5: 1 stops darker."
+    assert scale == "Scaled by 0.5 0.5 0.5: 1 stop darker."
     np.testing.assert_array_equal(read_radiance("dark.exr"), 0.5 * read_radiance("world.exr"))
     illuminate("world", "studio.blend", "--size", "16", "--card", "8,4,2", "-o", "card.exr")
     np.testing.assert_allclose(read_radiance("card.exr"), 0.18, rtol=1e-5)

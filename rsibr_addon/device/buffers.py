@@ -65,7 +65,7 @@ class KeptBlock:
             In the block's order: vectors of up to 4 numbers, filled up with 0; matrices of shape
             (4, 4) for column vectors; arrays of vectors of shape (n, 3) or (n, 4).
         """
-        return self.with_rows(_block(fields))
+        return self.with_rows(block_rows(*fields))
 
     def with_rows(self, rows: Array) -> gpu.types.GPUUniformBuf:
         """The same of a block's rows, shape (rows, 4), float32."""
@@ -115,8 +115,8 @@ def smooth(texture: gpu.types.GPUTexture) -> gpu.types.GPUTexture:
     return texture
 
 
-def _block(fields: tuple[Array, ...]) -> Array:
-    """Fields in a block's layout, shape (rows, 4), float32."""
+def block_rows(*fields: Array) -> Array:
+    """Fields, see `KeptBlock.filled`, in a block's layout, shape (rows, 4), float32."""
     heights = [1 if field.ndim == 1 else len(field) for field in fields]
     block, row = np.zeros((sum(heights), 4), np.float32), 0
     for field, height in zip(fields, heights, strict=True):

@@ -1,8 +1,10 @@
 """The interface of every kind of map set on the GPU: an upload that is drawn on a mesh with a look."""
 
-from collections.abc import Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, Protocol
 
 import gpu
@@ -107,6 +109,48 @@ class GpuMapSet(Protocol):
         look : object
             The look of this kind of map set: see `core.kinds`.
         """
+
+
+@dataclass(frozen=True)
+class Inputs:
+    """What a look is drawn from.
+
+    Attributes
+    ----------
+    program : MeshProgram
+    fields : tuple of ndarray
+        Values of its block, as `buffers.block_rows` takes them.
+    textures : mapping of str to GpuTexture
+        Its samplers -> what they look up.
+    """
+
+    program: shaders.MeshProgram
+    fields: tuple[Array, ...]
+    textures: Mapping[str, GpuTexture]
+
+
+class ProgramMapSet(ABC):
+    """A `GpuMapSet` that one program draws from one block and textures, here or on a web page."""
+
+    textures: Sequence[GpuTexture]
+
+    @abstractmethod
+    def inputs(self, look: Any) -> Inputs:
+        """What a look is drawn from; made without the GPU."""
+
+    @cached_property
+    def _block(self) -> buffers.KeptBlock:
+        return buffers.KeptBlock()
+
+    def draw(self, mesh: GpuMesh, draw: Draw, look: Any) -> None:
+        """See `GpuMapSet.draw`."""
+        inputs = self.inputs(look)
+        shader = inputs.program()
+        shader.bind()
+        shader.uniform_block(inputs.program.block, self._block.filled(*inputs.fields))
+        for name, texture in inputs.textures.items():
+            shader.uniform_sampler(name, texture.whole())
+        mesh.draw(shader, draw)
 
 
 class LiveGpuMapSet(GpuMapSet, Protocol):

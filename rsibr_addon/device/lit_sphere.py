@@ -5,7 +5,7 @@ import numpy as np
 from ..core.geometry.lit_sphere import LitSphere
 from . import buffers
 from .drawing import Draw, GpuMesh
-from .shaders import mesh_program
+from .shaders import MeshProgram
 from .textures import GpuTexture
 
 
@@ -30,5 +30,5 @@ class GpuLitSphere:
         mesh.draw(shader, draw)
 
 
-lit_sphere_shader = mesh_program("lit_sphere", "Sphere sphere", "mat4 frame;", {"rings": "FLOAT_2D"})
+lit_sphere_shader = MeshProgram("lit_sphere", "Sphere sphere", "mat4 frame;", {"rings": "FLOAT_2D"})
 """Draws a mesh from a lit sphere."""

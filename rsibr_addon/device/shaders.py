@@ -13,9 +13,8 @@ from ..core.errors import DeviceError
 from .shader_source import shader_source
 
 # Uniform blocks hold only vec4 and mat4, so that the layout is the same for every driver.
-_DRAW_BLOCK = "struct Draw { mat4 model; mat4 view; mat4 projection; mat4 turn; vec4 eye; vec4 strength; };"
+DRAW_STRUCT = "struct Draw { mat4 model; mat4 view; mat4 projection; mat4 turn; vec4 eye; vec4 strength; };"
 _DESTINATION_BLOCK = "struct Destination { vec4 view_dir; };"
-_MODE_BLOCK = "struct Mode { float warping; float last_level; float antialiased; float unused_0; };"
 
 
 def kept_until_exit(build: Callable[[], gpu.types.GPUShader]) -> Callable[[], gpu.types.GPUShader]:
@@ -39,19 +38,12 @@ def release_programs() -> None:
 
 
 @kept_until_exit
-def views_fragment_shader() -> gpu.types.GPUShader:
-    """Draws a mesh from radiance views, `fragment` mode."""
-    info = _views_interface()
-    info.sampler(1, "FLOAT_2D_ARRAY", "views")
-    info.sampler(2, "FLOAT_2D", "sphere")
-    return build("views_fragment", info, "mesh_vert.glsl", "views_fragment_frag.glsl")
-
-
-@kept_until_exit
 def views_destination_shader() -> gpu.types.GPUShader:
     """Draws a mesh from the destination maps of one view."""
-    info = _views_interface(_DESTINATION_BLOCK)
+    info = mesh_interface(views_fragment_shader.struct + _DESTINATION_BLOCK)
+    info.uniform_buf(1, "Mode", "mode")
     info.uniform_buf(2, "Destination", "destination")
+    info.sampler(0, "FLOAT_2D", "albedo")
     info.sampler(1, "FLOAT_2D", "by_normal")
     info.sampler(2, "FLOAT_2D", "by_mirror")
     return build("views_destination", info, "mesh_vert.glsl", "views_destination_frag.glsl")
@@ -92,7 +84,7 @@ def mesh_interface(blocks: str) -> gpu.types.GPUShaderCreateInfo:
     """
     info = gpu.types.GPUShaderCreateInfo()
     # Once for all blocks: a second call would replace the first.
-    info.typedef_source(_DRAW_BLOCK + blocks)
+    info.typedef_source(DRAW_STRUCT + blocks)
     info.uniform_buf(0, "Draw", "draw")
     info.vertex_in(0, "VEC3", "position")
     info.vertex_in(1, "VEC3", "normal")
@@ -104,9 +96,7 @@ def mesh_interface(blocks: str) -> gpu.types.GPUShaderCreateInfo:
     return info
 
 
-def mesh_program(
-    name: str, block: str, fields: str, samplers: Mapping[str, str]
-) -> Callable[[], gpu.types.GPUShader]:
+class MeshProgram:
     """A program that draws meshes with NAME_frag.glsl, from one uniform block and textures.
 
     Parameters
@@ -118,35 +108,49 @@ def mesh_program(
         The block's fields.
     samplers : mapping of str to str
         Name of each texture in the order of slots -> its type.
-
-    Returns
-    -------
-    callable
-        Gives the program, built on first use; raises a DeviceError if the driver refuses it.
     """
 
-    def program() -> gpu.types.GPUShader:
-        type_name, uniform = block.split()
-        info = mesh_interface(f"struct {type_name} {{ {fields} }};")
-        info.uniform_buf(1, type_name, uniform)
-        for slot, (sampler, sampler_type) in enumerate(samplers.items()):
+    def __init__(self, name: str, block: str, fields: str, samplers: Mapping[str, str]) -> None:
+        self.name, self.fields, self.samplers = name, fields, samplers
+        self.__name__ = f"{name}_shader"
+        self.block_type, self.block = block.split()
+        self._built = kept_until_exit(self._build)
+
+    @property
+    def struct(self) -> str:
+        """The block's type in GLSL."""
+        return f"struct {self.block_type} {{ {self.fields} }};"
+
+    def __call__(self) -> gpu.types.GPUShader:
+        """The program, built on first use.
+
+        Raises
+        ------
+        DeviceError
+            The driver refuses it.
+        """
+        return self._built()
+
+    def _build(self) -> gpu.types.GPUShader:
+        info = mesh_interface(self.struct)
+        info.uniform_buf(1, self.block_type, self.block)
+        for slot, (sampler, sampler_type) in enumerate(self.samplers.items()):
             info.sampler(slot, sampler_type, sampler)
-        return build(name, info, "mesh_vert.glsl", f"{name}_frag.glsl")
-
-    program.__name__ = f"{name}_shader"
-    return kept_until_exit(program)
+        return build(self.name, info, "mesh_vert.glsl", f"{self.name}_frag.glsl")
 
 
-def _views_interface(more_blocks: str = "") -> gpu.types.GPUShaderCreateInfo:
-    info = mesh_interface(_MODE_BLOCK + more_blocks)
-    info.uniform_buf(1, "Mode", "mode")
-    info.sampler(0, "FLOAT_2D", "albedo")
-    return info
+views_fragment_shader = MeshProgram(
+    "views_fragment",
+    "Mode mode",
+    "float warping; float last_level; float antialiased; float unused_0;",
+    {"albedo": "FLOAT_2D", "views": "FLOAT_2D_ARRAY", "sphere": "FLOAT_2D"},
+)
+"""Draws a mesh from radiance views, `fragment` mode."""
 
 
 def _destination_interface(varyings: gpu.types.GPUStageInterfaceInfo) -> gpu.types.GPUShaderCreateInfo:
     info = gpu.types.GPUShaderCreateInfo()
-    info.typedef_source(_DESTINATION_BLOCK + _MODE_BLOCK)
+    info.typedef_source(_DESTINATION_BLOCK + views_fragment_shader.struct)
     info.uniform_buf(0, "Destination", "destination")
     info.uniform_buf(1, "Mode", "mode")
     info.sampler(0, "FLOAT_2D", "albedo")

@@ -69,7 +69,7 @@ def textured_program(fragment: str, samplers: Mapping[str, str], translucent: bo
     fragment : str
         The source, without its ending _frag.glsl.
     samplers : mapping of str to str
-        Textures of what lights the material, as `mesh_program` takes them.
+        Textures of what lights the material, as `MeshProgram` takes them.
     translucent : bool
         Whether it leaves out what covers nothing, and draws what covers all if its constant `whole` is 1, and
         the rest if that is 0. A program that leaves fragments out is a fifth slower, everywhere.

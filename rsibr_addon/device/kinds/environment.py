@@ -4,12 +4,11 @@ import numpy as np
 
 from ...core.environment import Environment
 from ...core.kinds.environment import EnvironmentLook
-from .. import buffers
-from ..drawing import Draw, GpuMesh
+from ..drawing import Inputs, ProgramMapSet
 from ..equirect import map_sums, map_texture, no_sums
-from ..shaders import mesh_program
+from ..shaders import MeshProgram
 
-environment_shader = mesh_program(
+environment_shader = MeshProgram(
     "environment",
     "EnvironmentLook look",
     "vec4 f0; vec4 unit; float antialiased; float unused_0; float unused_1; float unused_2;",
@@ -18,22 +17,16 @@ environment_shader = mesh_program(
 """Draws a mesh as a mirror."""
 
 
-class GpuEnvironment:
+class GpuEnvironment(ProgramMapSet):
     """An environment, and its sums, as mirrors are antialiased unless one asks for points."""
 
     def __init__(self, environment: Environment) -> None:
         self._map = map_texture("environment", environment.radiance)
         self._sums, self._no_sums = map_sums(environment.radiance), no_sums()
         self.textures = (self._map, self._sums.texture)
-        self._look = buffers.KeptBlock()
 
-    def draw(self, mesh: GpuMesh, draw: Draw, look: EnvironmentLook) -> None:
-        """See `GpuMapSet.draw`. Reference: core/kinds/environment.py."""
+    def inputs(self, look: EnvironmentLook) -> Inputs:
+        """See `ProgramMapSet.inputs`. Reference: core/kinds/environment.py."""
         sums = self._sums if look.antialiased else self._no_sums
-        antialiased = np.array([float(look.antialiased)])
-        shader = environment_shader()
-        shader.bind()
-        shader.uniform_block("look", self._look.filled(np.array(look.f0), sums.unit, antialiased))
-        shader.uniform_sampler("environment", self._map.whole())
-        shader.uniform_sampler("sums", sums.texture.whole())
-        mesh.draw(shader, draw)
+        fields = np.array(look.f0), sums.unit, np.array([float(look.antialiased)])
+        return Inputs(environment_shader, fields, {"environment": self._map, "sums": sums.texture})

@@ -15,10 +15,9 @@ from ...core.kinds.kernel_pyramid.look import PrincipledLook
 from ...core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid
 from ...core.kinds.kernel_pyramid.shading import Families
 from ...core.lobes.family import KERNELS, Family
-from .. import buffers
-from ..drawing import Draw, GpuMesh
+from ..drawing import Draw, GpuMesh, Inputs, ProgramMapSet
 from ..own_materials import OwnMaterials
-from ..shaders import kept_until_exit, mesh_program
+from ..shaders import MeshProgram, kept_until_exit
 from ..textured_materials import MaterialBinding, textured_program
 from ..textured_mesh import GpuTexturedMesh
 from ..textures import GpuTexture
@@ -46,7 +45,7 @@ SAMPLERS = {
 }
 """Name of each of a pyramid's textures, in their order -> its type."""
 
-principled_shader = mesh_program(
+principled_shader = MeshProgram(
     "principled",
     "PrincipledLook look",
     "vec4 base; vec4 specular; vec4 coat; vec4 emission; vec4 boundary; vec4 coating;",
@@ -67,7 +66,7 @@ def translucent_shader() -> gpu.types.GPUShader:
     return textured_program("principled_textured", SAMPLERS, translucent=True)
 
 
-class GpuPyramid:
+class GpuPyramid(ProgramMapSet):
     """The light's half and the material's, for Principled materials.
 
     Parameters
@@ -92,21 +91,21 @@ class GpuPyramid:
             GpuTexture("albedos of GGX", albedo_texels(families)),
             GpuTexture("Fresnel terms", rise_table()[None, :, 1:]),
         )
-        self._block = buffers.KeptBlock()
         self._materials = MaterialBinding()
 
-    def draw(self, mesh: GpuMesh, draw: Draw, look: PrincipledLook | Surface | OwnMaterials) -> None:
-        """See `GpuMapSet.draw`; a `Surface` is shaded at points. Reference: core/kinds/kernel_pyramid."""
-        if isinstance(look, OwnMaterials):
-            self._draw_slots(mesh, draw, look)
-            return
+    def inputs(self, look: PrincipledLook | Surface) -> Inputs:
+        """See `ProgramMapSet`; a `Surface` is shaded at points. Reference: core/kinds/kernel_pyramid."""
         is_antialiased = isinstance(look, PrincipledLook) and look.antialiased
         surface = look.surface if isinstance(look, PrincipledLook) else look
-        shader = principled_shader()
-        shader.bind()
-        shader.uniform_block("look", self._block.filled(*look_fields(surface, is_antialiased)))
-        self._light(shader)
-        mesh.draw(shader, draw)
+        textures = dict(zip(SAMPLERS, self.textures, strict=True))
+        return Inputs(principled_shader, look_fields(surface, is_antialiased), textures)
+
+    def draw(self, mesh: GpuMesh, draw: Draw, look: PrincipledLook | Surface | OwnMaterials) -> None:
+        """See `GpuMapSet.draw`."""
+        if isinstance(look, OwnMaterials):
+            self._draw_slots(mesh, draw, look)
+        else:
+            super().draw(mesh, draw, look)
 
     def _draw_slots(self, mesh: GpuMesh, draw: Draw, look: OwnMaterials) -> None:
         """Draw each slot's triangles with its own material.

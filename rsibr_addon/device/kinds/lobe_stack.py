@@ -1,6 +1,5 @@
 """A lobe stack on the GPU: its maps in one 3D texture, one pass over a mesh."""
 
-import gpu
 import numpy as np
 
 from ...core.conventions import Array
@@ -8,15 +7,14 @@ from ...core.errors import DeviceError
 from ...core.half_floats import half_holds
 from ...core.kinds.lobe_stack.shading import StackLook
 from ...core.kinds.lobe_stack.stack import LAYOUTS, LobeStack
-from .. import buffers
-from ..drawing import Draw, GpuMesh
-from ..shaders import mesh_program
+from ..drawing import Inputs, ProgramMapSet
+from ..shaders import MeshProgram
 from ..textures import GpuTexture
 
 DEEPEST = 2048
 """Greatest number of slices of a 3D texture in every driver."""
 
-lobe_stack_shader = mesh_program(
+lobe_stack_shader = MeshProgram(
     "lobe_stack",
     "Stack stack",
     "float layout_number; float lobes; float taps; float slices; "
@@ -26,7 +24,7 @@ lobe_stack_shader = mesh_program(
 """Draws a mesh from a lobe stack."""
 
 
-class GpuLobeStack:
+class GpuLobeStack(ProgramMapSet):
     """A map set's lobe stack.
 
     Raises
@@ -48,23 +46,20 @@ class GpuLobeStack:
         lobes, slices = stack.maps.shape[:2]
         numbers = LAYOUTS.index(stack.layout), lobes, stack.taps.shape[2], slices
         self._numbers = np.array(numbers, dtype=np.float64)
-        self._block = buffers.KeptBlock()
-        self._elevations: dict[tuple[int, ...], gpu.types.GPUTexture] = {}
+        self._elevations: dict[tuple[int, ...], GpuTexture] = {}
 
-    def draw(self, mesh: GpuMesh, draw: Draw, look: StackLook) -> None:
-        """See `GpuMapSet.draw`. Reference: core/kinds/lobe_stack/shading.py."""
-        shader = lobe_stack_shader()
-        shader.bind()
-        shader.uniform_block("stack", self._block.filled(self._numbers, np.array([float(look.antialiased)])))
-        shader.uniform_sampler("elevations", self._elevations_of(look))
-        shader.uniform_sampler("maps", self._maps.whole())
-        mesh.draw(shader, draw)
+    def inputs(self, look: StackLook) -> Inputs:
+        """See `ProgramMapSet.inputs`. Reference: core/kinds/lobe_stack/shading.py."""
+        fields = self._numbers, np.array([float(look.antialiased)])
+        return Inputs(
+            lobe_stack_shader, fields, {"elevations": self._elevations_of(look), "maps": self._maps}
+        )
 
-    def _elevations_of(self, look: StackLook) -> gpu.types.GPUTexture:
+    def _elevations_of(self, look: StackLook) -> GpuTexture:
         """The elevations' texture, one per choice of lobes: a frame may show two; steady ones upload none."""
         shown = look.shown(self._stack)
         if shown not in self._elevations:
-            self._elevations[shown] = buffers.texture(elevation_texels(self._stack, shown))
+            self._elevations[shown] = GpuTexture("elevations", elevation_texels(self._stack, shown))
         return self._elevations[shown]
 
 

@@ -11,33 +11,24 @@ from ...core.filtering.irradiance import irradiance_matrix
 from ...core.kinds.mip_chain.chain import MipChain
 from ...core.kinds.mip_chain.shading import MipLook
 from ...core.kinds.mip_chain.texture_space import with_borders
-from .. import buffers
-from ..drawing import Draw, GpuMesh
+from ..drawing import Inputs, ProgramMapSet
 from ..textures import GpuTexture
 from .mip_chain_shaders import look_fields, mip_chain_shader
 
 
-class GpuMipChain:
+class GpuMipChain(ProgramMapSet):
     """A map set's mip chain."""
 
     def __init__(self, chain: MipChain) -> None:
         self._chain = chain
         self._atlas = GpuTexture("mip chain", atlas_texels(chain))
         self.textures = (self._atlas,)
-        self._shading = buffers.KeptBlock()
         self._irradiance = irradiance_matrix(chain.harmonics)
 
-    def draw(self, mesh: GpuMesh, draw: Draw, look: MipLook) -> None:
-        """See `GpuMapSet.draw`. Reference: core/kinds/mip_chain/shading.py."""
-        shading = self._shading.filled(
-            *self._irradiance,
-            *look_fields(look, look.level(self._chain), len(self._chain.mips)),
-        )
-        shader = mip_chain_shader()
-        shader.bind()
-        shader.uniform_block("look", shading)
-        shader.uniform_sampler("atlas", self._atlas.whole())
-        mesh.draw(shader, draw)
+    def inputs(self, look: MipLook) -> Inputs:
+        """See `ProgramMapSet.inputs`. Reference: core/kinds/mip_chain/shading.py."""
+        fields = look_fields(look, look.level(self._chain), len(self._chain.mips))
+        return Inputs(mip_chain_shader, (*self._irradiance, *fields), {"atlas": self._atlas})
 
 
 def atlas_texels(chain: MipChain) -> Array:

@@ -4,12 +4,12 @@ import numpy as np
 
 from ...core.conventions import Array
 from ...core.kinds.mip_chain.shading import Borders, MipLook
-from ..shaders import mesh_program
+from ..shaders import MeshProgram
 
 LOOK_FIELDS = "vec4 f0; vec4 kd; float level; float last_level; float clamped; float antialiased;"
 """Fields of a block that `look_fields` fills, also for harmonics on the GPU."""
 
-mip_chain_shader = mesh_program(
+mip_chain_shader = MeshProgram(
     "mip_chain",
     "MipLook look",
     f"mat4 irradiance_red; mat4 irradiance_green; mat4 irradiance_blue; {LOOK_FIELDS}",

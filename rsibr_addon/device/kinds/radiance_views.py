@@ -15,14 +15,14 @@ from ...core.geometry.geodesic import GeodesicSphere
 from ...core.kinds.radiance_views.shading import LEAST_ALBEDO, Mode, ViewsLook, Warping
 from ...core.kinds.radiance_views.views import RadianceViews
 from .. import buffers, shaders
-from ..drawing import Draw, GpuMesh
+from ..drawing import Draw, GpuMesh, Inputs, ProgramMapSet
 from ..passes import screen_triangle
 from ..textures import GpuTexture
 
 _WARPINGS = tuple(Warping)
 
 
-class GpuRadianceViews:
+class GpuRadianceViews(ProgramMapSet):
     """A map set's radiance views."""
 
     def __init__(self, views: RadianceViews) -> None:
@@ -32,32 +32,36 @@ class GpuRadianceViews:
         self._geodesic = GpuTexture("geodesic sphere", _geodesic_texels(views.sphere))
         self.textures = (self._views, self._albedo, self._geodesic)
         self._last_level = len(views.sphere.levels) - 1
-        self._mode, self._view_dir = buffers.KeptBlock(), buffers.KeptBlock()
+        self._view_dir = buffers.KeptBlock()
 
     @cached_property
     def _destination(self) -> "_Destination":
         return _Destination(self._size)
 
+    def inputs(self, look: ViewsLook) -> Inputs:
+        """See `ProgramMapSet.inputs`; of `fragment` mode. Reference: core/kinds/radiance_views/shading.py."""
+        textures = {"albedo": self._albedo, "views": self._views, "sphere": self._geodesic}
+        return Inputs(shaders.views_fragment_shader, (self._numbers(look),), textures)
+
     def draw(self, mesh: GpuMesh, draw: Draw, look: ViewsLook) -> None:
         """See `GpuMapSet.draw`. Reference: core/kinds/radiance_views/shading.py."""
-        numbers = _WARPINGS.index(look.warping), self._last_level, look.antialiased
-        mode = self._mode.filled(np.array(numbers, dtype=float))
         if look.mode is Mode.FRAGMENT:
-            shader = shaders.views_fragment_shader()
-            shader.bind()
-            shader.uniform_sampler("views", self._views.whole())
-            shader.uniform_sampler("sphere", self._geodesic.whole())
-        else:
-            destination = self._view_dir.filled(draw.view_dir)
-            self._make_destination(destination, mode, look)
-            shader = shaders.views_destination_shader()
-            shader.bind()
-            shader.uniform_block("destination", destination)
-            shader.uniform_sampler("by_normal", self._destination.targets[0])
-            shader.uniform_sampler("by_mirror", self._destination.targets[1])
+            super().draw(mesh, draw, look)
+            return
+        mode, destination = self._block.filled(self._numbers(look)), self._view_dir.filled(draw.view_dir)
+        self._make_destination(destination, mode, look)
+        shader = shaders.views_destination_shader()
+        shader.bind()
+        shader.uniform_block("destination", destination)
+        shader.uniform_sampler("by_normal", self._destination.targets[0])
+        shader.uniform_sampler("by_mirror", self._destination.targets[1])
         shader.uniform_block("mode", mode)
         shader.uniform_sampler("albedo", self._albedo.whole())
         mesh.draw(shader, draw)
+
+    def _numbers(self, look: ViewsLook) -> Array:
+        """The block `mode`."""
+        return np.array([_WARPINGS.index(look.warping), self._last_level, look.antialiased], dtype=float)
 
     def _make_destination(
         self, destination: gpu.types.GPUUniformBuf, mode: gpu.types.GPUUniformBuf, look: ViewsLook

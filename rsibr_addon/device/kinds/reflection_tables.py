@@ -7,9 +7,9 @@ import numpy as np
 from ...core.kinds.reflection_tables.shading import MIRRORED, TablesLook
 from ...core.kinds.reflection_tables.tables import ReflectionTables, Role
 from .. import buffers
-from ..drawing import Draw, GpuMesh
+from ..drawing import Inputs, ProgramMapSet
 from ..equirect import Sums, map_sums, map_texture, no_map, no_sums
-from ..shaders import mesh_program
+from ..shaders import MeshProgram
 from ..textures import GpuTexture
 
 # A factor for each table, in the order of `Role`; the index of refraction; factors for tables of `MIRRORED`
@@ -18,7 +18,7 @@ _FIELDS = (*(role.value for role in Role), "eta", *(f"{role}_mean" for role in M
 _UNITS = " ".join(f"vec4 {role}_unit;" for role in MIRRORED)
 _MAPS = dict.fromkeys([*(role.value for role in Role), "weights"], "FLOAT_2D")
 
-reflection_tables_shader = mesh_program(
+reflection_tables_shader = MeshProgram(
     "reflection_tables",
     "Tables tables",
     f"{' '.join(f'float {field};' for field in _FIELDS)} {_UNITS}",
@@ -27,7 +27,7 @@ reflection_tables_shader = mesh_program(
 """Draws a mesh from reflection tables."""
 
 
-class GpuReflectionTables:
+class GpuReflectionTables(ProgramMapSet):
     """A map set's reflection tables."""
 
     def __init__(self, tables: ReflectionTables) -> None:
@@ -40,7 +40,6 @@ class GpuReflectionTables:
         self.textures = (*self._textures.values(), self._weights)
         self._tables = tables
         self._no_sums = no_sums()
-        self._fields = buffers.KeptBlock()
 
     @cached_property
     def _sums(self) -> dict[Role, Sums]:
@@ -48,28 +47,18 @@ class GpuReflectionTables:
         there = [role for role in MIRRORED if role in self._tables.maps]
         return {role: map_sums(self._tables.maps[role]) for role in there}
 
-    def draw(self, mesh: GpuMesh, draw: Draw, look: TablesLook) -> None:
-        """See `device.drawing.GpuMapSet`.
-
-        Notes
-        -----
-        Reference: core/kinds/reflection_tables/shading.py.
-        """
+    def inputs(self, look: TablesLook) -> Inputs:
+        """See `ProgramMapSet.inputs`. Reference: core/kinds/reflection_tables/shading.py."""
         averaged = self._sums if look.antialiased else {}
         factors = {role: look.weight(role) if role in self._tables.maps else 0.0 for role in Role}
         points = [0.0 if role in averaged else factor for role, factor in factors.items()]
         means = [factors[role] if role in averaged else 0.0 for role in MIRRORED]
         sums = {role: averaged.get(role, self._no_sums) for role in MIRRORED}
-        fields = self._fields.filled(
-            np.array([*points, self._tables.eta, *means]).reshape(2, 4),
-            *(each.unit for each in sums.values()),
+        numbers = np.array([*points, self._tables.eta, *means]).reshape(2, 4)
+        textures = {role.value: texture for role, texture in self._textures.items()}
+        textures |= {f"{role}_sums": each.texture for role, each in sums.items()}
+        return Inputs(
+            reflection_tables_shader,
+            (numbers, *(each.unit for each in sums.values())),
+            {**textures, "weights": self._weights},
         )
-        shader = reflection_tables_shader()
-        shader.bind()
-        shader.uniform_block("tables", fields)
-        for role, texture in self._textures.items():
-            shader.uniform_sampler(role.value, texture.whole())
-        for role, each in sums.items():
-            shader.uniform_sampler(f"{role}_sums", each.texture.whole())
-        shader.uniform_sampler("weights", self._weights.whole())
-        mesh.draw(shader, draw)

@@ -16,7 +16,7 @@ from ...core.lobes.layers import layered_fit
 from ...core.lobes.target import elevation_slices, target_slices
 from ...core.progress import Steps
 from ...core.warned import recorded_warnings, warn
-from ...device.drawing import Draw, GpuMesh
+from ...device.drawing import Draw, GpuMesh, Inputs
 from ...device.kinds.lobe_stack import GpuLobeStack
 from ...files.brdfs import read_measured
 from .latest_request_worker import LatestRequestWorker
@@ -178,6 +178,13 @@ class LiveMaterials:
             gpu_map_set = self._shown[look].gpu_map_set
             if gpu_map_set is not None:
                 gpu_map_set.draw(mesh, draw, StackLook())
+
+    def inputs(self, look: BankLook) -> Inputs:
+        """See `ProgramMapSet.inputs`; without a worker. Raises as `is_ready` does."""
+        self.is_ready(look)
+        gpu_map_set = self._shown[look].gpu_map_set
+        assert gpu_map_set is not None
+        return gpu_map_set.inputs(StackLook())
 
     def _can_be_drawn(self, look: BankLook) -> bool:
         """The same as `is_ready`, but nothing is made, and nothing raised."""

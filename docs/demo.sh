@@ -50,7 +50,7 @@ step "Reporting on the lobes" ours report lobes.rsibr.exr -o lobes.html --force
 
 # Miller & Hoffman 1984 and Kautz, Daubert & Seidel 2004
 step "Baking reflection tables of varnish" \
-    ours bake reflection-tables --environment forest --material varnished -o tables.rsibr.exr --force
+    ours bake reflection-tables --environment forest --material varnished-wood -o tables.rsibr.exr --force
 step "Filtering the environment's mip chain" \
     ours bake mip-chain --environment forest --size 128 -o mips.rsibr.exr --force
 step "Exporting it" ours export mips.rsibr.exr -o mips.ktx2 --up y --force

@@ -15,17 +15,17 @@ vec3 table_weight(sampler2D weights, int role, float cosine)
   return textureLod(weights, vec2(cosine, (float(role) + 0.5) / float(TABLES)), 0.0).rgb;
 }
 
-// Weight times table, times a factor: 0 where the table is missing or not shown.
-vec3 weighted_table(float factor, sampler2D table, sampler2D weights, int role, float cosine, vec3 direction)
+// Weight times table, times factors: 0 where the table is missing or not shown.
+vec3 weighted_table(vec3 factor, sampler2D table, sampler2D weights, int role, float cosine, vec3 direction)
 {
-  if (factor == 0.0) {
+  if (factor == vec3(0.0)) {
     return vec3(0.0);
   }
   return factor * table_weight(weights, role, cosine) * equirect_radiance(table, direction);
 }
 
 // The same for a table that is averaged over a pixel's footprint (see summed_area_lib.glsl).
-vec3 weighted_mean(float factor,
+vec3 weighted_mean(vec3 factor,
                    sampler2D table,
                    sampler2DArray sums,
                    vec3 unit,
@@ -35,7 +35,7 @@ vec3 weighted_mean(float factor,
                    vec3 direction,
                    vec3 corners[4])
 {
-  if (factor == 0.0) {
+  if (factor == vec3(0.0)) {
     return vec3(0.0);
   }
   return factor * table_weight(weights, role, cosine) * footprint_mean(table, sums, unit, direction, corners);

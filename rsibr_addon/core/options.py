@@ -108,6 +108,8 @@ class Option:
         Name of the property that files of Blender hold; empty for the field's.
     materials : Materials or None
         Where the value is a material's text.
+    models : tuple of type
+        Of a text MODEL:KEY=VALUE, dataclasses with the parameters of each model; see `core.brdf.parameters`.
     """
 
     label: str
@@ -133,6 +135,7 @@ class Option:
     once: bool = False
     stored: str = ""
     materials: Materials | None = None
+    models: tuple[type, ...] = ()
 
 
 def option(default: Any = dataclasses.MISSING, *, label: str, help: str, **more: Any) -> Any:

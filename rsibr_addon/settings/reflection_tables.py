@@ -2,24 +2,15 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from ..core.kinds.reflection_tables.bake import DIFFUSE_ROWS, LARGEST, TableSizes
-from ..core.kinds.reflection_tables.material import PARTS, PRESETS, preset
+from ..core.kinds.reflection_tables.material import PRESETS, changed_parts, preset
+from ..core.kinds.reflection_tables.part_options import part_option
 from ..core.options import Choice, Materials, option
 from .method import MethodSettings
 
-
-def _part(label: str, help: str) -> Any:
-    return option(
-        None,
-        label=label,
-        help=help,
-        none="the preset's own, if any",
-        none_as="",
-        advanced=True,
-        metavar="SPEC",
-    )
+_OF_PRESET = "the preset's own, if any"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,26 +38,13 @@ class ReflectionTablesSettings(MethodSettings):
             preset=next(iter(PRESETS)),
         ),
     )
-    diffuse: str | None = _part("Diffuse", "Light by the normal: lambert:kd=0.5/0.4/0.3 or luminous:kd=0.5")
-    emission: str | None = _part("Emission", "Radiance that is added to the diffuse table: 2/1/0.5")
-    specular: str | None = _part(
-        "Specular", "Light by the mirror direction: mirror:ks=0.9 or phong:n=50,ks=0.3"
-    )
-    coat: str | None = _part(
-        "Coat",
-        "Clear varnish, which mirrors its share and lets the rest through: fresnel:eta=1.5, constant:k=0.5",
-    )
-    retro: str | None = _part(
-        "Retro-Reflection", "Light by the view direction: phong:n=200,ks=0.3 or mirror:"
-    )
-    refraction: str | None = _part(
-        "Refraction", "Light by the refracted direction: clear:eta=1.5,tint=1/0.9/0.8"
-    )
-    weights: str | None = _part(
-        "Weights",
-        "How angles share light out between the tables: fresnel:eta=1.5, fresnel:metal=copper or "
-        "albedo:brdf=(BRDF), a BRDF's albedo part by part",
-    )
+    diffuse: str | None = part_option("diffuse", _OF_PRESET)
+    emission: str | None = part_option("emission", _OF_PRESET)
+    specular: str | None = part_option("specular", _OF_PRESET)
+    coat: str | None = part_option("coat", _OF_PRESET)
+    retro: str | None = part_option("retro", _OF_PRESET)
+    refraction: str | None = part_option("refraction", _OF_PRESET)
+    weights: str | None = part_option("weights", _OF_PRESET)
     diffuse_rows: int = option(
         DIFFUSE_ROWS,
         label="Diffuse Rows",
@@ -97,8 +75,7 @@ class ReflectionTablesSettings(MethodSettings):
     @property
     def parts(self) -> Mapping[str, str]:
         """Part -> its text: the preset's, and those that were given."""
-        given = {part: getattr(self, part) for part in PARTS if getattr(self, part) is not None}
-        return ({} if self.material is None else preset(self.material)) | given
+        return changed_parts({} if self.material is None else preset(self.material), self)
 
     @property
     def sizes(self) -> TableSizes:

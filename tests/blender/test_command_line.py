@@ -73,7 +73,7 @@ def test_wrong_usage_shows_the_usage_of_its_own_command(
     [
         (["bake", "radiance-views", "--environment", "forest", "--material", "coper"], "copper"),
         (["bake", "radiance-views", "--environment", "forst", "--material", "copper"], "forest"),
-        (["bake", "reflection-tables", "--environment", "forest", "--material", "varnish"], "varnished"),
+        (["bake", "reflection-tables", "--environment", "forest", "--material", "varnish"], "varnished-wood"),
         (["bake", "lobe-stack", "--environment", "forest", "--brdf", "gxg:alpha=0.3"], "ggx"),
         (["bake", "lobe-stack", "--environment", "forest", "--brdf", "ggx:alpha=0.3,metal=cooper"], "copper"),
         (["bake", "reflection-tables", "--environment", "forest", "--specular", "fong:n=5"], "phong"),

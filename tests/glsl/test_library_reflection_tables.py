@@ -141,7 +141,7 @@ TWINS = {
     "weighted_mean": Twin(
         "reflection_tables_lib.glsl",
         f"{CORNERS} result_0.xyz = weighted_mean("
-        f"in_4.y, image, sums, {UNIT}, weights, TABLE_SPECULAR, in_4.x, "
+        f"vec3(in_4.y), image, sums, {UNIT}, weights, TABLE_SPECULAR, in_4.x, "
         "vec3(-sqrt(1.0 - in_4.x * in_4.x), 0.0, in_4.x), corners);",
         lambda: [
             *footprints(),
@@ -155,7 +155,7 @@ TWINS = {
 } | {
     f"weighted_table {role}": Twin(
         "reflection_tables_lib.glsl",
-        f"result_0.xyz = weighted_table(in_1.y, image, weights, TABLE_{role.name}, in_1.x, in_0.xyz);",
+        f"result_0.xyz = weighted_table(vec3(in_1.y), image, weights, TABLE_{role.name}, in_1.x, in_0.xyz);",
         lambda: [
             DIRECTIONS,
             single(np.c_[RNG.uniform(0.0, 1.0, COUNT), RNG.integers(0, 2, COUNT).astype(np.float64)]),

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from rsibr.rsibr_addon.core.antialiased.footprint import parallelogram
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.geometry.camera import Camera
 from rsibr.rsibr_addon.core.kinds.reflection_tables.shading import TablesLook, reflect_tables
@@ -26,13 +27,32 @@ def smooth_tables(eta: float) -> ReflectionTables:
     maps = {role: smooth_map(24 + 8 * number, turns[number]) for number, role in enumerate(Role)}
     cosine = ((np.arange(32) + 0.5) / 32)[:, None]
     weights = np.stack([0.2 + rng.random(3) * cosine ** (number + 1) for number in range(len(Role))])
-    return ReflectionTables(maps, weights.astype(np.float32), eta)
+    parts = {
+        "diffuse": "lambert:kd=0.5",
+        "specular": "phong:n=20,ks=0.4",
+        "coat": "fresnel:eta=1.5",
+        "retro": "phong:n=50,ks=0.5",
+        "refraction": f"clear:eta={eta}",
+    }
+    return ReflectionTables(maps, weights.astype(np.float32), eta, parts)
 
 
 LOOKS = {
-    "all": TablesLook(),
-    **{role.value: TablesLook((role,)) for role in Role},
-    "weighted": TablesLook(w_diffuse=0.5, w_specular=1.4, w_coat=0.0, w_retro=0.8, w_refraction=0.3),
+    "all": TablesLook(antialiased=False),
+    **{role.value: TablesLook((role,), antialiased=False) for role in Role},
+    "weighted": TablesLook(
+        w_diffuse=0.5, w_specular=1.4, w_coat=0.0, w_retro=0.8, w_refraction=0.3, antialiased=False
+    ),
+    "faded": TablesLook(fade=True, antialiased=False),
+    "another": TablesLook(
+        antialiased=False,
+        diffuse="lambert:kd=0.3/0.2/0.1",
+        emission="0.1/0/0.2",
+        specular="phong:n=20,ks=0.1/0.2/0.3",
+        coat="constant:k=0.2",
+        refraction="clear:eta=1.2,tint=1/0.5/0.25",
+        weights="curve:wd=0:1/1:0.5,ws=0:1/0.5:0.2",
+    ),
 }
 
 
@@ -90,7 +110,7 @@ def test_an_antialiased_lamp_neither_goes_out_nor_flickers() -> None:
     # A mirror ball scatters evenly: of its disk, solid angle / 4 shows the lamp, in pixels of 1/16.
     solid_angle = equirect.texel_solid_angle(2 * TEXELS, TEXELS)[70:73, :3].sum()
     expected = 1e4 * solid_angle / 4.0 * 16.0
-    interpolated = lamp_pictures(TablesLook(), 8)[..., 0].sum(axis=(1, 2))
+    interpolated = lamp_pictures(TablesLook(antialiased=False), 8)[..., 0].sum(axis=(1, 2))
     assert interpolated.min() < 0.01 * expected
     assert interpolated.max() > 2.0 * expected
     averaged = lamp_pictures(TablesLook(antialiased=True), 8)[..., 0].sum(axis=(1, 2))
@@ -98,14 +118,23 @@ def test_an_antialiased_lamp_neither_goes_out_nor_flickers() -> None:
     np.testing.assert_allclose(averaged, expected, rtol=0.15)
 
 
+@pytest.mark.parametrize(
+    "look",
+    [TablesLook((Role.SPECULAR, Role.COAT), w_specular=1.3, w_coat=0.4)]
+    + [TablesLook((role,)) for role in (Role.RETRO, Role.REFRACTION)],
+    ids=["specular and coat", "retro", "refraction"],
+)
 @BY_CAMERA
-def test_an_antialiased_picture_is_what_the_reference_says(camera: Camera) -> None:
+def test_an_antialiased_picture_is_what_the_reference_says(look: TablesLook, camera: Camera) -> None:
     ensure_context()
     tables = smooth_tables(1.5)
-    look = TablesLook((Role.SPECULAR, Role.COAT), w_specular=1.3, w_coat=0.4, antialiased=True)
     picture = PreviewRenderer(GpuReflectionTables(tables)).draw(*SPHERE, camera, SIZE, look)
-    expected, inside = reference_pixels(
-        camera, lambda normal, view_dir, seen: reflect_tables(tables, normal, view_dir, look, seen), 0.3
-    )
+
+    def shaded(normal: np.ndarray, view_dir: np.ndarray, seen: np.ndarray) -> np.ndarray:
+        across, up = np.gradient(view_dir, axis=1), np.gradient(view_dir, axis=0)
+        views = parallelogram(view_dir, across, up)
+        return reflect_tables(tables, normal, view_dir, look, seen, view_footprint=views)
+
+    expected, inside = reference_pixels(camera, shaded, 0.3)
     error = np.abs(picture[..., :3] - expected)[inside].max()
     assert error < 2e-3 * expected[inside].max()

@@ -1,10 +1,11 @@
 """Reflection tables on the GPU [Miller1984]: a texture for each, looked up for each fragment."""
 
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
-from ...core.kinds.reflection_tables.shading import MIRRORED, TablesLook
+from ...core.conventions import Array
+from ...core.kinds.reflection_tables.shading import AVERAGED, TablesLook
 from ...core.kinds.reflection_tables.tables import ReflectionTables, Role
 from .. import buffers
 from ..drawing import Inputs, ProgramMapSet
@@ -12,19 +13,22 @@ from ..equirect import Sums, map_sums, map_texture, no_map, no_sums
 from ..shaders import MeshProgram
 from ..textures import GpuTexture
 
-# A factor for each table, in the order of `Role`; the index of refraction; factors for tables of `MIRRORED`
-# that count by their means over a pixel; and the units of these tables' sums.
-_FIELDS = (*(role.value for role in Role), "eta", *(f"{role}_mean" for role in MIRRORED))
-_UNITS = " ".join(f"vec4 {role}_unit;" for role in MIRRORED)
+# Factors of each table, in the order of `Role`; what is added to the diffuse one; the units of the sums of
+# those of `AVERAGED`; the index of refraction, and 1 where they are averaged.
+_FACTORS = " ".join(f"vec4 {role};" for role in Role)
+_UNITS = " ".join(f"vec4 {role}_unit;" for role in AVERAGED)
 _MAPS = dict.fromkeys([*(role.value for role in Role), "weights"], "FLOAT_2D")
 
 reflection_tables_shader = MeshProgram(
     "reflection_tables",
     "Tables tables",
-    f"{' '.join(f'float {field};' for field in _FIELDS)} {_UNITS}",
-    _MAPS | {f"{role}_sums": "FLOAT_2D_ARRAY" for role in MIRRORED},
+    f"{_FACTORS} vec4 added; {_UNITS} float eta; float antialiased; float unused_0; float unused_1;",
+    _MAPS | {f"{role}_sums": "FLOAT_2D_ARRAY" for role in AVERAGED},
 )
 """Draws a mesh from reflection tables."""
+
+LOOKS = 8
+"""Looks that weights are kept of: every frame asks for those of all objects."""
 
 
 class GpuReflectionTables(ProgramMapSet):
@@ -36,29 +40,53 @@ class GpuReflectionTables(ProgramMapSet):
             role: map_texture(f"{role} table", tables.maps[role]) if role in tables.maps else black
             for role in Role
         }
-        self._weights = GpuTexture("table of weights", buffers.with_alpha(tables.weights))
+        self._weights = _weights(tables)
         self.textures = (*self._textures.values(), self._weights)
         self._tables = tables
+        self._as_looked_at = lru_cache(LOOKS)(self._changed)
         self._no_sums = no_sums()
 
     @cached_property
     def _sums(self) -> dict[Role, Sums]:
         """The tables' sums, made for the first antialiased look: they take three times the tables' memory."""
-        there = [role for role in MIRRORED if role in self._tables.maps]
+        there = [role for role in AVERAGED if role in self._tables.maps]
         return {role: map_sums(self._tables.maps[role]) for role in there}
 
     def inputs(self, look: TablesLook) -> Inputs:
-        """See `ProgramMapSet.inputs`. Reference: core/kinds/reflection_tables/shading.py."""
-        averaged = self._sums if look.antialiased else {}
-        factors = {role: look.weight(role) if role in self._tables.maps else 0.0 for role in Role}
-        points = [0.0 if role in averaged else factor for role, factor in factors.items()]
-        means = [factors[role] if role in averaged else 0.0 for role in MIRRORED]
-        sums = {role: averaged.get(role, self._no_sums) for role in MIRRORED}
-        numbers = np.array([*points, self._tables.eta, *means]).reshape(2, 4)
+        """See `ProgramMapSet.inputs`.
+
+        Raises
+        ------
+        RangeError
+            See `TablesLook.changes`.
+
+        Notes
+        -----
+        Reference: core/kinds/reflection_tables/shading.py.
+        """
+        tables, weights = self._as_looked_at(look)
+        sums = dict.fromkeys(AVERAGED, self._no_sums) | (self._sums if look.antialiased else {})
+        fields = (
+            *(_factor(tables, look, role) for role in Role),
+            look.weight(Role.DIFFUSE) * tables.added,
+            *(each.unit for each in sums.values()),
+            np.array([tables.eta, float(look.antialiased)]),
+        )
         textures = {role.value: texture for role, texture in self._textures.items()}
         textures |= {f"{role}_sums": each.texture for role, each in sums.items()}
-        return Inputs(
-            reflection_tables_shader,
-            (numbers, *(each.unit for each in sums.values())),
-            {**textures, "weights": self._weights},
-        )
+        return Inputs(reflection_tables_shader, fields, {**textures, "weights": weights})
+
+    def _changed(self, look: TablesLook) -> tuple[ReflectionTables, GpuTexture]:
+        """The tables as a look changes them, and their weights."""
+        tables = look.changes(self._tables)
+        return tables, self._weights if tables is self._tables else _weights(tables)
+
+
+def _weights(tables: ReflectionTables) -> GpuTexture:
+    return GpuTexture("table of weights", buffers.with_alpha(tables.weights))
+
+
+def _factor(tables: ReflectionTables, look: TablesLook, role: Role) -> Array:
+    """0 where a table is missing or not shown, shape (3,)."""
+    there = look.weight(role) if role in tables.maps else 0.0
+    return there * np.broadcast_to(tables.gains.get(role, 1.0), 3)

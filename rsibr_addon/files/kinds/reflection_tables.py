@@ -6,6 +6,7 @@ from typing import Any, TypedDict
 import numpy as np
 
 from ...core.errors import MapSetError, RangeError, ShapeError
+from ...core.kinds.reflection_tables.material import PARTS
 from ...core.kinds.reflection_tables.shading import TablesLook
 from ...core.kinds.reflection_tables.tables import ReflectionTables, Role
 from ...settings.reflection_tables import ReflectionTablesSettings
@@ -70,7 +71,10 @@ def from_map_set(path: Path, map_set: MapSet) -> ReflectionTables:
     eta = there[Role.REFRACTION]["eta"] if Role.REFRACTION in there else 1.0
     try:
         return ReflectionTables(
-            {role: map_set.maps[part["name"]] for role, part in there.items()}, ordered, eta
+            {role: map_set.maps[part["name"]] for role, part in there.items()},
+            ordered,
+            eta,
+            {part: text for part, text in map_set.header["material"].items() if part in PARTS},
         )
     except (RangeError, ShapeError) as error:
         raise MapSetError(f"{path} holds no reflection tables. {error}") from error

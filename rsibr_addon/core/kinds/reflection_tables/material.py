@@ -9,8 +9,11 @@ specular     ``mirror:ks=0.9``, ``phong:n=50,ks=0.3``
 coat         ``constant:k=0.5``, ``fresnel:eta=1.5``
 retro        ``mirror:``, ``phong:n=200,ks=0.3``
 refraction   ``clear:eta=1.5,tint=1/0.9/0.8``
-weights      ``fresnel:eta=1.5``, ``fresnel:metal=copper``, ``albedo:brdf=(ggx:alpha=0.3,f0=0.04)``
+weights      ``constant:k=0.3``, ``fresnel:eta=1.5``, ``fresnel:metal=copper``,
+             ``curve:wd=0:0.5/1:1,ws=0:1/1:0.04``, ``albedo:brdf=(ggx:alpha=0.3,f0=0.04)``
 ===========  ================================================================================
+
+``none`` in place of any of them leaves the part out.
 """
 
 from collections.abc import Mapping
@@ -26,6 +29,7 @@ from .models import (
     ClearTable,
     CoatModel,
     ConstantReflectance,
+    Curves,
     DiffuseModel,
     FresnelReflectance,
     LambertTable,
@@ -43,18 +47,21 @@ MODELS: dict[str, tuple[type[Any], ...]] = {
     "coat": (ConstantReflectance, FresnelReflectance),
     "retro": (MirrorTable, PhongTable),
     "refraction": (ClearTable,),
-    "weights": (FresnelReflectance, AlbedoReflectance),
+    "weights": (ConstantReflectance, FresnelReflectance, Curves, AlbedoReflectance),
 }
 """Part of a material -> its possible models; a material may also have an emission."""
 
 PARTS = ("diffuse", "emission", "specular", "coat", "retro", "refraction", "weights")
 """Every part of a material."""
 
+NO_PART = "none"
+"""The text of a part that the material does not have."""
+
 PRESETS: dict[str, dict[str, str]] = {
     "chrome": {"specular": "mirror:"},
-    "matte": {"diffuse": "lambert:kd=0.8"},
+    "clay": {"diffuse": "lambert:kd=0.55/0.4/0.3"},
     "plastic": {"diffuse": "lambert:kd=0.5/0.05/0.05", "specular": "phong:n=50,ks=0.3"},
-    "varnished": {
+    "varnished-wood": {
         "diffuse": "lambert:kd=0.35/0.15/0.05",
         "specular": "phong:n=20,ks=0.3",
         "coat": "fresnel:eta=1.5",
@@ -81,6 +88,9 @@ PRESETS: dict[str, dict[str, str]] = {
     "glowing": {"emission": "1/0.5/0.1", "coat": "fresnel:eta=1.5"},
 }
 """Name -> the parts of a material; the materials that [Miller1984] speaks of."""
+
+_OLD_NAMES = {"matte": "clay", "varnished": "varnished-wood"}
+"""Names of presets in version 0.1, which go with 0.3."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -142,10 +152,30 @@ def preset(name: str) -> dict[str, str]:
     RangeError
         There is no such preset.
     """
+    name = _OLD_NAMES.get(name, name)
     if name not in PRESETS:
         near = did_you_mean(name, PRESETS)
         raise RangeError(f"There is no preset {name}{near}: choose one of {', '.join(PRESETS)}.")
     return PRESETS[name]
+
+
+def changed_parts(texts: Mapping[str, str], changes: Any) -> dict[str, str]:
+    """The parts of a material, some of them changed.
+
+    Parameters
+    ----------
+    texts : mapping of str to str
+        Some of `PARTS`.
+    changes : object
+        Has the text of each of `PARTS` that is another, and None for others.
+
+    Returns
+    -------
+    dict
+        Without those that are `NO_PART`.
+    """
+    given = {part: getattr(changes, part) for part in PARTS if getattr(changes, part) is not None}
+    return {part: text for part, text in ({**texts} | given).items() if text != NO_PART}
 
 
 def material_from_texts(texts: Mapping[str, str], read_measured: ReadMeasured) -> TableMaterial:

@@ -5,21 +5,22 @@ from typing import Any
 
 import numpy as np
 
-from ...antialiased.footprint import footprint_or_point
 from ...antialiased.summed_area import footprint_mean
 from ...conventions import Array, ArrayLike
 from ...errors import RangeError
-from ...geometry.directions import dot, reflect, refract
+from ...geometry.directions import dot, mirror_normal, reflect, refract
 from ...geometry.sides import Seen, seen_surface
 from ...maps import equirect, sphere_map
 from ...options import Choice, Options, option
 from ...resample import bilinear
 from ..look_options import antialiased_option
+from .changes import changed_tables
+from .material import PARTS, changed_parts
+from .part_options import part_option
 from .tables import ReflectionTables, Role
 
-MIRRORED = (Role.SPECULAR, Role.COAT)
-"""Tables that are looked up by the mirrored view direction, which turns fastest from pixel to pixel."""
-
+AVERAGED = (Role.SPECULAR, Role.COAT, Role.RETRO, Role.REFRACTION)
+"""Tables that an antialiased look averages: all but the diffuse one, which is smooth."""
 
 _TABLES = {
     Role.DIFFUSE: Choice("Diffuse", "by the normal"),
@@ -29,6 +30,9 @@ _TABLES = {
     Role.REFRACTION: Choice("Refraction", "light let through, by the refracted direction"),
 }
 """Table -> what it is looked up by."""
+
+
+_AS_BAKED = "as it was baked"
 
 
 def _weight(label: str, help: str) -> Any:
@@ -62,12 +66,36 @@ class TablesLook(Options):
     w_coat: float = _weight("Coat Weight", "Multiplies the coat's weight")
     w_retro: float = _weight("Retro Weight", "Multiplies the weight of light that is sent back")
     w_refraction: float = _weight("Refraction Weight", "Multiplies the weight of light that is let through")
-    antialiased: bool = antialiased_option("specular and coat", default=False)
+    fade: bool = option(
+        False,
+        label="Fade at the Horizon",
+        help="Take from lobes what of them is beneath the horizon, where the paper's take light as well",
+    )
+    antialiased: bool = antialiased_option("all but diffuse light")
+    diffuse: str | None = part_option("diffuse", _AS_BAKED)
+    emission: str | None = part_option("emission", _AS_BAKED)
+    specular: str | None = part_option("specular", _AS_BAKED)
+    coat: str | None = part_option("coat", _AS_BAKED)
+    retro: str | None = part_option("retro", _AS_BAKED)
+    refraction: str | None = part_option("refraction", _AS_BAKED)
+    weights: str | None = part_option("weights", _AS_BAKED)
 
     def __post_init__(self) -> None:
         super().__post_init__()
         if not self.shown:
             raise RangeError(f"A picture needs a table: choose from {', '.join(Role)}.")
+
+    def changes(self, tables: ReflectionTables) -> ReflectionTables:
+        """The tables with the look's own parts, and its fade.
+
+        Raises
+        ------
+        RangeError
+            See `changed_tables`.
+        """
+        if not self.fade and all(getattr(self, part) is None for part in PARTS):
+            return tables
+        return changed_tables(tables, changed_parts(tables.parts, self), self.fade)
 
     def weight(self, role: Role) -> float:
         """The factor of a table's weights.
@@ -120,11 +148,18 @@ def reflect_tables(
     look: TablesLook,
     mirror_footprint: ArrayLike | None = None,
     facet: ArrayLike | None = None,
+    view_footprint: ArrayLike | None = None,
 ) -> Array:
     """Radiance of surface points: the sum over the tables of weight times table.
 
     Wd(E.N) D[N] + Ws(E.N) S[R] of [Miller1984] section 3, and so for the other tables. Parameters and result
-    are those of every kind's shading: see `core.kinds`.
+    are those of every kind's shading, see `core.kinds`; `view_footprint`, array_like of shape (..., 4, 3),
+    has the view directions at the corners of each pixel, and is None where they are the same all over it.
+
+    Raises
+    ------
+    RangeError
+        See `TablesLook.changes`.
 
     Notes
     -----
@@ -132,9 +167,9 @@ def reflect_tables(
     their columns. Antialiased tables are averaged as in section 8.3. GLSL twin:
     gpu_shaders/reflection_tables_frag.glsl.
     """
+    tables = look.changes(tables)
     normal, view_dir = np.broadcast_arrays(np.asarray(normal, np.float64), np.asarray(view_dir, np.float64))
     seen = seen_surface(normal, view_dir, facet)
-    corners = footprint_or_point(mirror_footprint, reflect(view_dir, seen.mirror_normal))
     cosine = dot(seen.mirror_normal, view_dir)
     radiance = np.zeros(normal.shape)
     for number, role in enumerate(Role):
@@ -145,8 +180,33 @@ def reflect_tables(
             tables.weights, np.stack([cosine, row], axis=-1), sphere_map.wrap
         )
         table, direction = tables.maps[role], lookup_direction(role, seen, view_dir, tables.eta)
-        if look.antialiased and role in MIRRORED:
-            radiance += weight * footprint_mean(table, direction, corners)
+        if look.antialiased and mirror_footprint is not None and role in AVERAGED:
+            corners = _footprint(role, seen, view_dir, mirror_footprint, view_footprint, tables.eta)
+            found = footprint_mean(table, direction, corners)
         else:
-            radiance += weight * bilinear(table, equirect.uv_from_direction(direction), equirect.wrap)
+            found = bilinear(table, equirect.uv_from_direction(direction), equirect.wrap)
+        added = tables.added if role is Role.DIFFUSE else 0.0
+        radiance += weight * (tables.gains.get(role, 1.0) * found + added)
     return radiance
+
+
+def _footprint(
+    role: Role,
+    seen: Seen,
+    view_dir: Array,
+    mirror_footprint: ArrayLike,
+    view_footprint: ArrayLike | None,
+    eta: float,
+) -> Array:
+    """What pixels look a table up by at their corners, shape (..., 4, 3).
+
+    The normals there are those by which views are mirrored.
+    """
+    mirrored = np.asarray(mirror_footprint, dtype=np.float64)
+    if role in (Role.SPECULAR, Role.COAT):
+        return mirrored
+    views = np.asarray(view_dir[..., None, :] if view_footprint is None else view_footprint, np.float64)
+    normals = mirror_normal(views, mirrored)
+    outside = np.broadcast_to(seen.outside[..., None], mirrored.shape[:-1])
+    there = lookup_direction(role, Seen(normals, normals, outside), views, eta)
+    return np.broadcast_to(there, mirrored.shape)

@@ -1,7 +1,10 @@
 """Reflection tables [Miller1984]: reflected light as maps over one direction each."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from enum import StrEnum
+
+import numpy as np
 
 from ...conventions import Array
 from ...errors import RangeError, ShapeError
@@ -35,6 +38,12 @@ class ReflectionTables:
         One row for each `Role`, in its order; column k is for n.v = (k + 0.5) / M. The paper's Wd, Ws.
     eta : float
         Index of refraction behind the surface over that in front of it, greater than 0.
+    parts : mapping of str to str
+        The material that they were made of: see `material.material_from_texts`. Empty where it is not known.
+    gains : dict of Role to ndarray, shape (3,)
+        Factors of tables, 1 where there is none.
+    added : ndarray, shape (3,)
+        Radiance that is added to the diffuse table, after its gain.
 
     Raises
     ------
@@ -47,6 +56,9 @@ class ReflectionTables:
     maps: dict[Role, Array]
     weights: Array
     eta: float = 1.0
+    parts: Mapping[str, str] = field(default_factory=dict)
+    gains: Mapping[Role, Array] = field(default_factory=dict)
+    added: Array = field(default_factory=lambda: np.zeros(3))
 
     def __post_init__(self) -> None:
         if not self.maps:

@@ -12,11 +12,14 @@ from ...conventions import Array
 from ...errors import RangeError
 from ...warned import warn
 from .material import TableMaterial
-from .models import AlbedoReflectance, CoatModel, ConstantReflectance
+from .models import AlbedoReflectance, CoatModel, ConstantReflectance, Curves, PhongTable
 from .tables import Role
 
 COLUMNS = 64
 """Cosines at which weights are tabulated."""
+
+_ANGLES = 256
+"""Angles from a lobe's axis over which its share is averaged: 1e-3 at the horizon."""
 
 
 def weight_cosines() -> Array:
@@ -25,8 +28,41 @@ def weight_cosines() -> Array:
     return cosines
 
 
-def table_weights(material: TableMaterial) -> Array:
+def share_above_horizon(cosine: Array, n: float) -> Array:
+    """The part of a Phong lobe that is above the horizon.
+
+    Parameters
+    ----------
+    cosine : ndarray, shape (N,)
+        Between the normal and the lobe's axis, in (0, 1].
+    n : float
+        The lobe's exponent.
+
+    Returns
+    -------
+    ndarray, shape (N,), float64
+        1/2 at the horizon, up to 1.
+
+    Notes
+    -----
+    The mean over angles from the axis that are spread as the lobe is; of the circle at the angle a about an
+    axis that is e above the horizon, the part acos(-tan e / tan a) / pi is above it.
+    """
+    spread = (np.arange(_ANGLES) + 0.5) / _ANGLES
+    tangent = np.tan(np.arccos(spread ** (1.0 / (n + 1.0))))
+    height = np.tan(np.arcsin(np.minimum(cosine, 1.0 - 1e-12)))
+    above: Array = np.mean(np.arccos(-np.minimum(height[:, None] / tangent, 1.0)), axis=1) / np.pi
+    return above
+
+
+def table_weights(material: TableMaterial, fade: bool = False) -> Array:
     """Weights of a material's tables.
+
+    Parameters
+    ----------
+    material : TableMaterial
+    fade : bool
+        Whether lobes lose what of them is beneath the horizon; a BRDF's albedo has lost it anyway.
 
     Returns
     -------
@@ -41,14 +77,18 @@ def table_weights(material: TableMaterial) -> Array:
     Notes
     -----
     A smooth boundary gives the specular table the share F that it reflects, and the diffuse and retro tables
-    the rest, 1 - F. A BRDF gives each table the directional albedo of its lobes of that kind. Refracted light
-    gets 1 - F of its own boundary. A coat takes its share from all.
+    the rest, 1 - F; a constant share is such an F. Curves are the weights themselves. A BRDF gives each table
+    the directional albedo of its lobes of that kind. Refracted light gets 1 - F of its own boundary. A coat
+    takes its share from all.
     """
     mu = weight_cosines()
     shares = {role: np.ones((COLUMNS, 3)) for role in material.roles} | _shares(material, mu)
     if material.refraction is not None:
         passes = 1.0 - fresnel_conductor(mu, material.refraction.eta, 0.0)
         shares[Role.REFRACTION] = passes[:, None] * np.asarray(material.refraction.tint)
+    for role, model in material.lobes.items():
+        if fade and isinstance(model, PhongTable) and not isinstance(material.weights, AlbedoReflectance):
+            shares[role] = shares[role] * share_above_horizon(mu, model.n)[:, None]
     if material.coat is not None:
         coat = _reflectance(material.coat, mu)
         shares = {role: (1.0 - coat) * share for role, share in shares.items()} | {Role.COAT: coat}
@@ -97,7 +137,10 @@ def _shares(material: TableMaterial, mu: Array) -> dict[Role, Array]:
         return {}
     if isinstance(material.weights, AlbedoReflectance):
         return _albedo_shares(material.weights.brdf, material.roles, mu)
-    boundary = material.weights.fresnel(mu)
+    if isinstance(material.weights, Curves):
+        curves = {Role.DIFFUSE: material.weights.diffuse(mu), Role.SPECULAR: material.weights.specular(mu)}
+        return {role: np.broadcast_to(curve, (len(mu), 3)) for role, curve in curves.items()}
+    boundary = _reflectance(material.weights, mu)
     return {Role.SPECULAR: boundary, Role.DIFFUSE: 1.0 - boundary, Role.RETRO: 1.0 - boundary}
 
 
@@ -121,7 +164,7 @@ def _role_of(layer: Brdf) -> Role:
     return Role.RETRO if isinstance(layer, Retroreflective) else Role.SPECULAR
 
 
-def _reflectance(coat: CoatModel, mu: Array) -> Array:
-    if isinstance(coat, ConstantReflectance):
-        return np.broadcast_to(coat.k, (len(mu), 3))
-    return coat.fresnel(mu)
+def _reflectance(boundary: CoatModel, mu: Array) -> Array:
+    if isinstance(boundary, ConstantReflectance):
+        return np.broadcast_to(boundary.k, (len(mu), 3))
+    return boundary.fresnel(mu)

@@ -112,7 +112,7 @@ def test_a_preview_is_what_the_reference_says(light: np.ndarray, shown: str | No
             ["--diffuse", "lambert:kd=1", "--weights", "albedo:brdf=(phong:n=9,ks=1)"],
             "The weights' BRDF has a specular part, so the material needs a specular table.",
         ),
-        (["--material", "matte", "--rows", "9000"], "Rows cannot be 9000 texels: choose 1 to 8192."),
+        (["--material", "clay", "--rows", "9000"], "Rows cannot be 9000 texels: choose 1 to 8192."),
     ],
 )
 def test_what_cannot_be_done_is_one_sentence(
@@ -129,7 +129,7 @@ def test_what_cannot_be_done_is_one_sentence(
 def test_a_preview_of_no_such_table_is_one_sentence(
     light: np.ndarray, capfd: pytest.CaptureFixture[str], shown: str
 ) -> None:
-    bake("--material", "matte")
+    bake("--material", "clay")
     assert run(["preview", "out.rsibr.exr", "--tables", shown, "-o", "ball.exr"]) == 2
     assert "is not one of diffuse, specular, coat, retro, refraction" in capfd.readouterr().err
     assert not Path("ball.exr").exists()
@@ -153,7 +153,7 @@ def test_the_operator_writes_what_the_command_writes(light: np.ndarray) -> None:
     bake("--material", "plastic", "--specular", "phong:n=9,ks=0.1", "--rows", "12")
     assert Path("op.exr").read_bytes() == Path("out.rsibr.exr").read_bytes()
     with pytest.raises(RuntimeError, match=r"op\.exr exists: "):
-        bpy.ops.rsibr.bake_reflection_tables(filepath="op.exr", environment="light.exr", preset="matte")
+        bpy.ops.rsibr.bake_reflection_tables(filepath="op.exr", environment="light.exr", preset="clay")
     with pytest.raises(RuntimeError, match="A material needs a table at least"):
         bpy.ops.rsibr.bake_reflection_tables(filepath="new.exr", environment="light.exr", preset="none")
     assert not Path("new.exr").exists()
@@ -164,8 +164,10 @@ def test_the_operator_writes_what_the_command_writes(light: np.ndarray) -> None:
 def test_the_operator_takes_the_world(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("rsibr.rsibr_addon.tasks.light.environments.WORLD_HEIGHT", 16)
     path = tmp_path / "world.rsibr.exr"
-    assert bpy.ops.rsibr.bake_reflection_tables(filepath=str(path), preset="matte") == {"FINISHED"}
+    assert bpy.ops.rsibr.bake_reflection_tables(filepath=str(path), preset="clay") == {"FINISHED"}
     tables = from_map_set(path, read_map_set(path))
     # The factory file's world is an even grey.
     grey = bpy.context.scene.world.node_tree.nodes["Background"].inputs["Color"].default_value[0]
-    np.testing.assert_allclose(tables.maps[Role.DIFFUSE], 0.8 * grey, rtol=2e-2)
+    clay = np.array([0.55, 0.4, 0.3])
+    expected = np.broadcast_to(clay * grey, tables.maps[Role.DIFFUSE].shape)
+    np.testing.assert_allclose(tables.maps[Role.DIFFUSE], expected, rtol=2e-2)

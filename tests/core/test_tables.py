@@ -18,7 +18,7 @@ from rsibr.rsibr_addon.core.kinds.reflection_tables.bake import (
     bake_tables,
     lobe_rows,
 )
-from rsibr.rsibr_addon.core.kinds.reflection_tables.material import PRESETS, material_from_texts
+from rsibr.rsibr_addon.core.kinds.reflection_tables.material import PRESETS, material_from_texts, preset
 from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTables, Role
 from rsibr.rsibr_addon.core.kinds.reflection_tables.weights import (
     COLUMNS,
@@ -275,6 +275,11 @@ def test_more_light_than_there_is_gets_a_warning() -> None:
 def test_what_is_no_material_is_refused(texts: dict[str, str], sentence: str) -> None:
     with pytest.raises(RangeError, match=sentence):
         material_from_texts(texts, no_measured)
+
+
+def test_presets_have_their_old_names_as_well() -> None:
+    assert preset("matte") is PRESETS["clay"]
+    assert preset("varnished") is PRESETS["varnished-wood"]
 
 
 def test_a_lobe_narrower_than_the_environment_is_refused_by_name() -> None:

@@ -1,6 +1,6 @@
 """Reflection tables on the GPU [Miller1984]: a texture for each, looked up for each fragment."""
 
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 
@@ -43,7 +43,7 @@ class GpuReflectionTables(ProgramMapSet):
         self._weights = _weights(tables)
         self.textures = (*self._textures.values(), self._weights)
         self._tables = tables
-        self._as_looked_at = lru_cache(LOOKS)(self._changed)
+        self._looks: dict[TablesLook, tuple[ReflectionTables, GpuTexture]] = {}
         self._no_sums = no_sums()
 
     @cached_property
@@ -76,10 +76,16 @@ class GpuReflectionTables(ProgramMapSet):
         textures |= {f"{role}_sums": each.texture for role, each in sums.items()}
         return Inputs(reflection_tables_shader, fields, {**textures, "weights": weights})
 
-    def _changed(self, look: TablesLook) -> tuple[ReflectionTables, GpuTexture]:
+    def _as_looked_at(self, look: TablesLook) -> tuple[ReflectionTables, GpuTexture]:
         """The tables as a look changes them, and their weights."""
-        tables = look.changes(self._tables)
-        return tables, self._weights if tables is self._tables else _weights(tables)
+        found = self._looks.pop(look, None)
+        if found is None:
+            tables = look.changes(self._tables)
+            found = tables, self._weights if tables is self._tables else _weights(tables)
+        self._looks[look] = found  # the newest last
+        if len(self._looks) > LOOKS:
+            del self._looks[next(iter(self._looks))]
+        return found
 
 
 def _weights(tables: ReflectionTables) -> GpuTexture:

@@ -1,4 +1,4 @@
-// Each row's share of the nine coefficients: a column for each coefficient, the rows of six faces.
+// Each row's share of the coefficients: a column for each coefficient, the rows of six faces.
 #include "lib/live_environment_lib.glsl"
 
 void main()

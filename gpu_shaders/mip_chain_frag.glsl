@@ -1,5 +1,4 @@
-// Twin of core/kinds/mip_chain/shading.py `mip_chain_radiance`: [Kautz2004] Eq. 8 in one pass. LIVE: the
-// harmonics lie on the GPU, where they were summed.
+// Twin of core/kinds/mip_chain/shading.py `mip_chain_radiance`: [Kautz2004] Eq. 8 in one pass.
 #include "lib/directions_lib.glsl"
 #include "lib/fresnel_lib.glsl"
 #include "lib/irradiance_lib.glsl"
@@ -10,12 +9,7 @@ void main()
 {
   Seen seen = seen_surface(draw.eye, draw.model, world_position, world_normal, gl_FrontFacing);
   vec3 fresnel = fresnel_schlick(clamp(dot(seen.mirror_normal, seen.view_dir), 0.0, 1.0), look.f0.rgb);
-#ifdef LIVE
-  vec3 light = irradiance_from_harmonics(harmonics, seen.normal);
-#else
-  vec3 light = irradiance(look.irradiance_red, look.irradiance_green, look.irradiance_blue, seen.normal);
-#endif
-  vec3 diffuse = look.kd.rgb / PI * max(light, 0.0);
+  vec3 diffuse = look.kd.rgb / PI * max(irradiance(harmonics, seen.normal), 0.0);
   vec3 mirror_dir = reflect_dir(seen.view_dir, seen.mirror_normal);
   vec3 across, up;
   pixel_sides(mirror_dir, look.antialiased, across, up);

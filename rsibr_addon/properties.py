@@ -47,6 +47,15 @@ class RSIBR_PG_live(bpy.types.PropertyGroup):
         items=[(str(size), str(size), "") for size in (32, 64, 128, 256)],
         default="64",
     )
+    degree = bpy.props.IntProperty(
+        name="Degree",
+        description="Degree of the harmonics of diffuse light: 2 is the paper's nine numbers; more follow "
+        "small lamps",
+        update=_notice,
+        default=2,
+        min=0,
+        max=8,
+    )
     budget = bpy.props.IntProperty(
         name="Budget (ms)",
         description="Time that a frame may spend on new light after a change; it renders at least one of six "

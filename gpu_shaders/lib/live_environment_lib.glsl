@@ -4,7 +4,7 @@
 #include "lib/cube_map_lib.glsl"
 #include "lib/irradiance_lib.glsl"
 
-// Nine coefficients' share of one row of a face.
+// A coefficient's share of one row of a face.
 vec3 harmonics_of_row(sampler2D strip, sampler2D solid_angles, int index, int face, int row)
 {
   int size = textureSize(strip, 0).y;
@@ -17,7 +17,7 @@ vec3 harmonics_of_row(sampler2D strip, sampler2D solid_angles, int index, int fa
   return sum;
 }
 
-// One of nine coefficients: the sum over the rows of all faces.
+// One of the coefficients: the sum over the rows of all faces.
 vec3 harmonics_of_rows(sampler2D rows, int index)
 {
   vec3 sum = vec3(0.0);

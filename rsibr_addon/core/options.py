@@ -92,6 +92,8 @@ class Option:
         What an interface shows first where the default is None.
     switch : Choice or None
         See `none_as`.
+    replaces : tuple of str
+        Names of the options that count for nothing where this one is given; it may be None.
     draft, final : object
         The value for the quality of this name; None for the default.
     advanced : bool
@@ -125,6 +127,7 @@ class Option:
     none_as: float | tuple[float, ...] | str | None = None
     start: Any = None
     switch: Choice | None = None
+    replaces: tuple[str, ...] = ()
     draft: Any = None
     final: Any = None
     advanced: bool = False
@@ -194,15 +197,26 @@ class Options:
     Raises
     ------
     RangeError
-        A number is out of its range, or a value none of the choices.
+        A number is out of its range, a value none of the choices, or an option is given that another one
+        replaces.
     """
 
     def __post_init__(self) -> None:
         """Check every value; whoever derives and checks more calls this first."""
-        for declared in declared_options(type(self)):
+        known = {each.name: each for each in declared_options(type(self))}
+        for declared in known.values():
             value = getattr(self, declared.name)
             if value is not None or not declared.optional:
                 object.__setattr__(self, declared.name, _checked(declared, value))
+        for declared in known.values():
+            if getattr(self, declared.name) is None:
+                continue
+            for other in map(known.__getitem__, declared.option.replaces):
+                if getattr(self, other.name) != other.default:
+                    raise RangeError(
+                        f"{declared.option.label} and {other.option.label} say the same in two ways: "
+                        "give one of them."
+                    )
 
 
 def declared_options(options: type) -> tuple[Declared, ...]:

@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 import bpy
 
 from ..core.errors import RangeError
-from ..core.options import Declared, Materials, Options, declared_options, value_from_text
+from ..core.options import Declared, Materials, Options, declared_options, value_from_text, value_text
 from ..files.measured_files import MEASURED_FORMATS, measured_spec
 from .bake_settings import existing
 
@@ -109,7 +109,26 @@ def options_of(options: type[Given], group: Any, own: str = "") -> Given:
         if materials.instead in values:
             file = values[materials.instead] or ""
             values[materials.instead] = existing(file, materials.instead, "its file")
+    for name in replaced_options(options, group):
+        values.pop(name, None)
     return options(**values)
+
+
+def replaced_options(options: type[Options], group: Any) -> set[str]:
+    """Names of the options that count for nothing, because one is given that replaces them.
+
+    Parameters
+    ----------
+    options : type
+        What `properties_of` made the properties of.
+    group : bpy.types.PropertyGroup or bpy.types.Operator
+    """
+    return {
+        name
+        for each in declared_options(options)
+        if each.option.replaces and getattr(group, f"use_{property_name(each)}")
+        for name in each.option.replaces
+    }
 
 
 def said_by(options: type[Options], group: Any) -> tuple[Any, ...]:
@@ -146,6 +165,8 @@ def shown_value(declared: Declared, value: Any) -> Any:
     """A value of an option, which is no material, as its property has it."""
     if value is None:
         return declared.option.none_as
+    if _is_list(declared):
+        return value_text(value)
     return str(value) if _items(declared) else value
 
 

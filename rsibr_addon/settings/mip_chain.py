@@ -1,11 +1,13 @@
 """How an environment is filtered into mips: [Kautz2004], and as engines do."""
 
+import math
 from dataclasses import dataclass
 from typing import ClassVar
 
 from ..core.errors import RangeError
-from ..core.kinds.mip_chain.chain import LARGEST, check_roughness, check_size
+from ..core.kinds.mip_chain.chain import LARGEST, MOST_DEGREES, check_roughness, check_size
 from ..core.kinds.mip_chain.ggx import ROUGHNESS_RULES
+from ..core.kinds.mip_chain.phong import box_exponents, check_exponents
 from ..core.options import Choice, option
 from .method import MethodSettings
 
@@ -25,6 +27,7 @@ class MipChainSettings(MethodSettings):
         help="How each mip is made",
         choices={
             "ggx": Choice("GGX", "the highlight of a rough surface, as engines use it"),
+            "phong": Choice("Phong", "the highlight that box filters stand for in the paper of 2004"),
             "bordered": Choice("Bordered", "means of neighbouring texels, across the cube's edges"),
             "box": Choice("Box", "means within each face of the cube, as in the paper of 2004"),
         },
@@ -51,10 +54,37 @@ class MipChainSettings(MethodSettings):
         },
         metavar="RULE|R0,R1,...",
     )
+    exponents: tuple[float, ...] | None = option(
+        None,
+        label="Exponents",
+        help="Exponent of each mip of the filter phong, descending to 1; a 0 leaves a mip unfiltered",
+        least=0.0,
+        none="as blurred as the same mip of the filter box",
+        none_as="",
+        metavar="N0,N1,...",
+        advanced=True,
+    )
+    degree: int = option(
+        2,
+        label="Degree",
+        help="Degree of the harmonics of diffuse light: 2 is the paper's nine numbers; more follow small "
+        "lamps",
+        least=0,
+        most=MOST_DEGREES,
+        final=8,
+        metavar="L",
+    )
 
     def __post_init__(self) -> None:
         super().__post_init__()
         check_size(self.size, 1)
+        if self.exponents is not None:
+            if self.filter != "phong":
+                raise RangeError(
+                    f"The filter {self.filter} knows no exponents: leave them out, or choose phong."
+                )
+            check_size(self.size, len(self.exponents))
+            check_exponents(self.phong_exponents)
         if isinstance(self.roughness, str):
             return
         if self.filter != "ggx":
@@ -68,3 +98,10 @@ class MipChainSettings(MethodSettings):
         if isinstance(self.roughness, str):
             return ROUGHNESS_RULES[self.roughness](self.size.bit_length())
         return self.roughness
+
+    @property
+    def phong_exponents(self) -> tuple[float, ...]:
+        """Exponent of every mip of the filter phong."""
+        if self.exponents is None:
+            return box_exponents(self.size)
+        return tuple(exponent or math.inf for exponent in self.exponents)

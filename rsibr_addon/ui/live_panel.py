@@ -23,4 +23,5 @@ class RSIBR_PT_live(InSidebar, bpy.types.Panel):
             tell(self.layout, SOLID, context.region.width, icon="INFO")
         self.layout.use_property_split = True
         self.layout.prop(context.object.rsibr.live, "size")
+        self.layout.prop(context.object.rsibr.live, "degree")
         self.layout.prop(context.object.rsibr.live, "budget")

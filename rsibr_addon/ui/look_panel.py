@@ -7,7 +7,7 @@ from ..core.options import Declared, declared_options
 from ..files.kinds.registry import look_types
 from ..host.bake_settings import bakes_inputs_by_itself
 from ..host.live_light import is_readable
-from ..host.option_properties import property_name, said_by
+from ..host.option_properties import property_name, replaced_options, said_by
 from ..host.world_light import has_environment, holds_world, world_light
 from ..session.running import session
 from ..tasks.methods.kinds import KINDS
@@ -113,14 +113,21 @@ def _show_look(layout: bpy.types.UILayout, item: bpy.types.Object, kind: str, ot
             if each.name not in SLIDERS:
                 _show_option(layout, group, each)
         return
+    replaced = replaced_options(look_types()[kind], group)
+
+    def show(place: bpy.types.UILayout, each: Declared) -> None:
+        row = place.row()
+        row.active = each.name not in replaced
+        _show_option(row, group, each)
+
     for each in options:
         if not each.option.advanced:
-            _show_option(layout, group, each)
+            show(layout, each)
     if more := [each for each in options if each.option.advanced]:
         header, opened = layout.panel(f"RSIBR_look_{kind}_{other}", default_closed=True)
         header.label(text="More")
         for each in more if opened else ():
-            _show_option(opened, group, each)
+            show(opened, each)
 
 
 def _show_option(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, declared: Declared) -> None:

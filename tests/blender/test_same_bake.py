@@ -13,7 +13,7 @@ from rsibr.operators import bake_kinds
 from rsibr.rsibr_addon.command_line import bake as bake_command
 from rsibr.rsibr_addon.command_line import job as job_command
 from rsibr.rsibr_addon.command_line.main import run
-from rsibr.rsibr_addon.core.options import Declared, declared_options, to_plain
+from rsibr.rsibr_addon.core.options import Declared, declared_options, to_plain, value_text
 from rsibr.rsibr_addon.files.kinds.registry import STORED
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.host.option_properties import property_name, show_option
@@ -35,7 +35,7 @@ TEXTS |= {"specular": "phong:n=9,ks=0.1", "coat": "fresnel:eta=1.4", "retro": "p
 TEXTS |= {"refraction": "clear:eta=1.3", "weights": "fresnel:eta=1.4"}
 """A value of each option that is text."""
 
-TOGETHER = {"seek": {"method": "greedy"}, "fit": {"brdf": None}}
+TOGETHER = {"seek": {"method": "greedy"}, "fit": {"brdf": None}, "exponents": {"filter": "phong"}}
 """Option -> others that it cannot be without."""
 
 SMALL: dict[str, dict[str, Any]] = {
@@ -62,6 +62,8 @@ def other_value(declared: Declared) -> Any:
         return TEXTS.get(declared.name, "fit.json")
     if declared.wanted is float:
         return 0.25
+    if declared.members is float:
+        return (9.0, 4.0)
     return int(told.least) + 1
 
 
@@ -96,7 +98,7 @@ def by_command_line(kind: str, values: dict[str, Any], light: Light) -> list[str
         if isinstance(value, bool):
             words.append(declared.flag if value else declared.flag.replace("--", "--no-", 1))
         elif value is not None:
-            words += [declared.flag, str(value)]
+            words += [declared.flag, value_text(value)]
     return [*words, "-o", "out.rsibr.exr", "--progress", "none"]
 
 
@@ -110,7 +112,8 @@ def by_operator(kind: str, values: dict[str, Any], light: Light) -> dict[str, An
         if materials and not materials.own:
             given["preset"] = value
         else:
-            given[property_name(declared)] = str(value) if declared.option.choices else value
+            is_text = bool(declared.option.choices) or isinstance(value, tuple)
+            given[property_name(declared)] = value_text(value) if is_text else value
     if "preset" not in given and kind == "reflection_tables":
         given["preset"] = "none"
     return given
@@ -147,7 +150,8 @@ def test_every_option_goes_every_way(
     values = full_settings(kind, changed)
     expected = BakeJob(STORED[kind].settings(**values), "out.rsibr.exr", light)
     (name,) = changed
-    assert to_plain(expected.settings)[name] == changed[name]
+    value = changed[name]
+    assert to_plain(expected.settings)[name] == (list(value) if isinstance(value, tuple) else value)
     jobs = []
 
     def baked(job: BakeJob[Any], *report: object) -> dict[str, Any]:

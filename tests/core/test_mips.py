@@ -5,15 +5,15 @@ import pytest
 from rsibr.rsibr_addon.core.conventions import Array
 from rsibr.rsibr_addon.core.errors import RangeError
 from rsibr.rsibr_addon.core.filtering.prefilter import prefilter_exact
-from rsibr.rsibr_addon.core.filtering.radial_lobes import ggx_n_dot_l_lobe
+from rsibr.rsibr_addon.core.filtering.radial_lobes import ggx_n_dot_l_lobe, phong_lobe
 from rsibr.rsibr_addon.core.kinds.mip_chain.ggx import (
     ROUGHNESS_RULES,
-    TOLERANCE,
-    environment_faces,
     ggx_mips,
     linear_roughness,
     quadratic_roughness,
 )
+from rsibr.rsibr_addon.core.kinds.mip_chain.lobe_mips import TOLERANCE, environment_faces
+from rsibr.rsibr_addon.core.kinds.mip_chain.phong import box_exponents, phong_mips
 from rsibr.rsibr_addon.core.kinds.mip_chain.texture_space import (
     box_halved,
     filtered_mips,
@@ -180,6 +180,31 @@ def _upward_light(rows: int) -> np.ndarray:
     """Radiance 2 + z, shape (rows, 2 rows, 3)."""
     height = np.sin(np.pi * ((np.arange(rows) + 0.5) / rows - 0.5))
     return np.broadcast_to(2.0 + height[:, None, None], (rows, 2 * rows, 3))
+
+
+def test_phong_mips_are_the_sum_over_texels() -> None:
+    radiance = RNG.random((64, 128, 3)) ** 8
+    exponents = (np.inf, 60.0, 20.0, 1.0)
+    mips = list(phong_mips(radiance, 8, exponents))
+    np.testing.assert_array_equal(mips[0].faces, environment_faces(radiance, 8))
+    for mip, exponent in list(enumerate(exponents))[1:]:
+        exact = prefilter_exact(radiance, [phong_lobe(exponent)], CUBE.texel_directions(8 >> mip))[0]
+        error = np.abs(mips[mip].faces - exact)
+        assert error.max() <= mips[mip].bound
+        assert np.sqrt(np.mean(error**2)) < 10.0 * TOLERANCE * np.sqrt(np.mean(exact**2))
+
+
+def test_exponents_go_with_box_filters() -> None:
+    assert box_exponents(1) == (np.inf,)
+    exponents = box_exponents(256)
+    assert len(exponents) == 9
+    assert exponents[-1] == 1.0  # six faces spread even wider
+    # The rule of the page: N + 2 is 1.65 of the square of a mip's width.
+    for mip in range(2, 7):
+        assert (exponents[mip] + 2.0) / (256 >> mip) ** 2 == pytest.approx(1.65, rel=0.1)
+    for bad, sentence in (((4.0, 9.0), "do not descend"), ((4.0, 0.5), "do not descend to 1 or more")):
+        with pytest.raises(RangeError, match=sentence):
+            list(phong_mips(np.ones((4, 8, 3)), 4, bad))
 
 
 def test_bad_chains_are_refused() -> None:

@@ -10,7 +10,7 @@ from rsibr.rsibr_addon.core.filtering.harmonics.analysis import analyse_environm
 from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_exact
 from rsibr.rsibr_addon.core.geometry.directions import normalize, reflect
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
-from rsibr.rsibr_addon.core.kinds.mip_chain.ggx import environment_faces
+from rsibr.rsibr_addon.core.kinds.mip_chain.lobe_mips import environment_faces
 from rsibr.rsibr_addon.core.kinds.mip_chain.shading import (
     Borders,
     MipLook,
@@ -83,8 +83,8 @@ def test_levels_between_mips_are_linear_and_end_at_the_last(random: MipChain) ->
         glossy_radiance(random, NORMALS, level, Borders.SEAMLESS) for level in (2.0, 3.0, 2.25)
     )
     np.testing.assert_allclose(between, 0.75 * one + 0.25 * other, rtol=1e-12)
-    assert MipLook(mip=9.4).level(random) == 4.0
-    assert MipLook(mip=2.3).level(random) == 2.3
+    assert MipLook(mip=9.4).level(random.lobes) == 4.0
+    assert MipLook(mip=2.3).level(random.lobes) == 2.3
 
 
 def test_the_border_problem_and_its_absence() -> None:
@@ -98,7 +98,7 @@ def test_the_border_problem_and_its_absence() -> None:
     across = np.stack([normalize(edge * (1.0 + step, 1.0, 1.0)) for step in (-5e-4, 5e-4)])
 
     def jump(chain: MipChain, borders: Borders) -> float:
-        one, other = glossy_radiance(chain, across, MipLook(mip=9.4).level(chain), borders)
+        one, other = glossy_radiance(chain, across, MipLook(mip=9.4).level(chain.lobes), borders)
         return float(np.abs(one - other).max())
 
     whole = float(box.mips[-1].max() - box.mips[-1].min())
@@ -112,11 +112,12 @@ def test_the_border_problem_and_its_absence() -> None:
 
 def test_a_ggx_chain_is_looked_up_by_roughness(random: MipChain) -> None:
     ggx = replace(random, roughness=(0.0, 0.1, 0.3, 0.7, 1.0))
-    assert MipLook(roughness=0.2).level(ggx) == pytest.approx(1.5)
-    assert MipLook(roughness=1.0).level(ggx) == 4.0
-    assert MipLook(roughness=0.05).level(replace(random, roughness=(0.1, 0.2, 0.3, 0.7, 1.0))) == 0.0
-    with pytest.raises(RangeError, match="has no roughness: choose a mip instead"):
-        MipLook(roughness=0.2).level(random)
+    assert MipLook(roughness=0.2).level(ggx.lobes) == pytest.approx(1.5)
+    assert MipLook(roughness=1.0).level(ggx.lobes) == 4.0
+    rough = replace(random, roughness=(0.1, 0.2, 0.3, 0.7, 1.0))
+    assert MipLook(roughness=0.05).level(rough.lobes) == 0.0
+    with pytest.raises(RangeError, match="does not say how blurred its mips are: bake it again, or choose"):
+        MipLook(roughness=0.2).level(random.lobes)
 
 
 @pytest.mark.parametrize(
@@ -127,7 +128,10 @@ def test_a_ggx_chain_is_looked_up_by_roughness(random: MipChain) -> None:
         ({"mip": -0.5}, "Mip cannot be -0.5: choose 0 to"),
         ({"mip": np.nan}, "Mip cannot be nan"),
         ({"roughness": 1.5}, "Roughness cannot be 1.5: choose 0 to 1"),
-        ({"roughness": 0.5, "mip": 1.0}, "give one of them"),
+        ({"roughness": 0.5, "mip": 1.0}, "Roughness and Mip say the same in two ways: give one of them"),
+        ({"exponent": 9.0, "mip": 1.0}, "Exponent and Mip say the same"),
+        ({"exponent": 9.0, "roughness": 0.0}, "Exponent and Roughness say the same"),
+        ({"exponent": 0.5}, "Exponent cannot be 0.5: choose 1 to"),
     ],
 )
 def test_bad_looks_are_refused(values: dict, sentence: str) -> None:
@@ -138,8 +142,16 @@ def test_bad_looks_are_refused(values: dict, sentence: str) -> None:
 def test_bad_chains_are_refused(random: MipChain) -> None:
     with pytest.raises(ShapeError, match=r"Mip 1 must have the shape \(6, 8, 8, 3\)"):
         MipChain((random.mips[0], random.mips[2]), random.harmonics)
-    with pytest.raises(ShapeError, match="nine coefficients"):
-        MipChain(random.mips, random.harmonics[:4])
+    with pytest.raises(ShapeError, match="5 coefficients are not those of any degree"):
+        MipChain(random.mips, random.harmonics[:5])
+    with pytest.raises(ShapeError, match="coefficients of three"):
+        MipChain(random.mips, random.harmonics[:, :2])
+    with pytest.raises(RangeError, match="484 coefficients are of a degree above 20: make fewer"):
+        MipChain(random.mips, np.zeros((22**2, 3)))
+    with pytest.raises(ShapeError, match="5 mips need as many spreads, not 2"):
+        replace(random, spread=(0.0, 1.0))
+    with pytest.raises(RangeError, match=r"Spreads 0, 0\.1, 0\.05, 0\.2, 0\.3 do not ascend"):
+        replace(random, spread=(0.0, 0.1, 0.05, 0.2, 0.3))
     with pytest.raises(ShapeError, match="5 mips need as many roughnesses, not 2"):
         replace(random, roughness=(0.0, 1.0))
     with pytest.raises(RangeError, match="do not ascend"):

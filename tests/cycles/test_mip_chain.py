@@ -8,7 +8,7 @@ from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.filtering.harmonics.analysis import analyse_environment
 from rsibr.rsibr_addon.core.geometry.directions import reflect
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
-from rsibr.rsibr_addon.core.kinds.mip_chain.ggx import environment_faces
+from rsibr.rsibr_addon.core.kinds.mip_chain.lobe_mips import environment_faces
 from rsibr.rsibr_addon.core.kinds.mip_chain.shading import Borders, diffuse_radiance, glossy_radiance
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.tests.cycles.test_reflection_tables import CAMERA, FINE, SIZE, rendered, shader

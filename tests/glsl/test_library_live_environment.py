@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_from_harmonics, real_harmonics
+from rsibr.rsibr_addon.core.filtering.irradiance import real_harmonics
 from rsibr.rsibr_addon.core.kinds.live_environment import harmonics_of_faces, solid_angle_texels
 from rsibr.rsibr_addon.core.kinds.mip_chain import texture_space
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
@@ -36,7 +36,6 @@ def samplers() -> Samplers:
         "strip": ("FLOAT_2D", buffers.texture(strip_of(FACES))),
         "atlas": ("FLOAT_2D", buffers.texture(atlas_texels(chain))),
         "solid_angles": ("FLOAT_2D", buffers.texture(solid_angles)),
-        "coefficients": ("FLOAT_2D", buffers.texture(texels(NINE[None]))),
     }
 
 
@@ -77,18 +76,21 @@ TWINS = {
         " result_2[i] = real_harmonic(i + 6, in_0.xyz); }",
         lambda: [unit_vectors(42, AXES)],
         lambda direction: real_harmonics(direction, 2),
-        # Four roundings of numbers up to 1, thrice z^2 among them; and a factor of 8 digits.
+        # Two steps of some four roundings of numbers up to 1.
         8 * ULP,
         results=3,
     ),
-    "irradiance_from_harmonics": Twin(
+    "real_harmonic of degree 20": Twin(
         "irradiance_lib.glsl",
-        "result_0.xyz = irradiance_from_harmonics(coefficients, in_0.xyz);",
+        "for (int i = 0; i < 3; i++) {"
+        " result_0[i] = real_harmonic(400 + i, in_0.xyz);"
+        " result_1[i] = real_harmonic(419 + i, in_0.xyz);"
+        " result_2[i] = real_harmonic(438 + i, in_0.xyz); }",
         lambda: [unit_vectors(43, AXES)],
-        lambda normal: irradiance_from_harmonics(NINE, normal),
-        # As `irradiance` has it: the two forms differ by |n|^2 - 1 of a rounded normal, and roundings.
-        1e-6 * np.abs(NINE).sum(),
-        samplers=samplers,
+        lambda direction: real_harmonics(direction, 20)[:, [400, 401, 402, 419, 420, 421, 438, 439, 440]],
+        # At a pole, the harmonic of degree l is 1.8 and grows l (l + 1) / 2 times as fast as z is rounded.
+        1.9 * 210 * ULP,
+        results=3,
     ),
 }
 

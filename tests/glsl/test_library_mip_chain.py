@@ -4,14 +4,16 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.antialiased.footprint import parallelogram
 from rsibr.rsibr_addon.core.brdf.fresnel import fresnel_schlick
-from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_from_harmonics, irradiance_matrix
+from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_from_harmonics, real_harmonics
+from rsibr.rsibr_addon.core.filtering.radial_lobes import cosine_lobe
+from rsibr.rsibr_addon.core.filtering.zonal import zonal_coefficients
 from rsibr.rsibr_addon.core.geometry.directions import normalize
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
 from rsibr.rsibr_addon.core.kinds.mip_chain.shading import Borders, glossy_mean, glossy_radiance
 from rsibr.rsibr_addon.core.kinds.mip_chain.texture_space import filtered_mips, tent_halved
 from rsibr.rsibr_addon.core.maps import cube_map
 from rsibr.rsibr_addon.device import buffers
-from rsibr.rsibr_addon.device.kinds.mip_chain import atlas_texels
+from rsibr.rsibr_addon.device.kinds.mip_chain import atlas_texels, harmonics_texels
 from rsibr.tests.glsl.evaluation import Samplers, evaluate
 from rsibr.tests.glsl.twins import COUNT, ULP, Twin, check, single, unit_vectors
 
@@ -40,12 +42,24 @@ def cosines() -> np.ndarray:
     return single(np.linspace(0.0, 1.0, COUNT)[:, None])
 
 
-def matrices() -> str:
-    """The three matrices as GLSL."""
-    columns = [
-        f"mat4({', '.join(repr(float(value)) for value in m.T.ravel())})" for m in irradiance_matrix(NINE)
-    ]
-    return ", ".join(columns)
+def of_degree(degree: int) -> np.ndarray:
+    """Coefficients as of an environment with a small lamp: equally large in every degree."""
+    return np.random.default_rng(degree).normal(size=((degree + 1) ** 2, 3))
+
+
+def coefficients(degree: int) -> Samplers:
+    return {"coefficients": ("FLOAT_2D", buffers.texture(harmonics_texels(of_degree(degree))))}
+
+
+def zonal_harmonics(direction: np.ndarray) -> np.ndarray:
+    """Those of order 0 and degrees 19 and 20."""
+    return real_harmonics(direction, 20)[:, [19 * 20, 20 * 21]]
+
+
+def third_powers(direction: np.ndarray) -> np.ndarray:
+    """The harmonic of degree and order 3 without sin^3 cos(3 phi), and (x + i y)^3."""
+    power = (direction[:, 0] + 1j * direction[:, 1]) ** 3
+    return np.stack([np.full(len(power), np.sqrt(35.0 / (64.0 * np.pi))), power.real, power.imag], axis=-1)
 
 
 def expected_place(direction: np.ndarray) -> np.ndarray:
@@ -62,13 +76,51 @@ TWINS = {
         # Some eight operations on values up to 1.
         8 * ULP,
     ),
-    "irradiance": Twin(
+    **{
+        f"irradiance of degree {degree}": Twin(
+            "irradiance_lib.glsl",
+            "result_0.xyz = irradiance(coefficients, in_0.xyz);",
+            lambda: [unit_vectors(23)],
+            lambda normal, degree=degree: irradiance_from_harmonics(of_degree(degree), normal),
+            # As the docstring has it: roundings, and |n|^2 - 1 of a rounded normal.
+            2e-6 * np.abs(of_degree(degree)).sum(),
+            samplers=lambda degree=degree: coefficients(degree),
+        )
+        for degree in (0, 1, 2, 3, 8, 20)
+    },
+    "harmonics_degree": Twin(
         "irradiance_lib.glsl",
-        f"result_0.xyz = irradiance({matrices()}, in_0.xyz);",
+        "result_0.x = float(harmonics_degree(coefficients));",
         lambda: [unit_vectors(23)],
-        lambda normal: irradiance_from_harmonics(NINE, normal),
-        # As the docstring has it. The two forms differ by |n|^2 - 1 of a rounded normal, and roundings.
-        1e-6 * np.abs(NINE).sum(),
+        lambda normal: np.full((COUNT, 1), 20.0),
+        0.0,
+        samplers=lambda: coefficients(20),
+    ),
+    "next_degree": Twin(
+        "irradiance_lib.glsl",
+        "float a = 1.0; vec2 values = vec2(0.0, FIRST_HARMONIC);"
+        "for (int l = 1; l <= 20; l++) { next_degree(l, 0, in_0.z, values, a); } result_0.xy = values;",
+        lambda: [unit_vectors(23)],
+        zonal_harmonics,
+        # At a pole, the harmonic of degree l is 1.8 and grows l (l + 1) / 2 times as fast as z is rounded.
+        1.9 * 210 * ULP,
+    ),
+    "next_order": Twin(
+        "irradiance_lib.glsl",
+        "float sectoral = FIRST_HARMONIC; vec2 power = vec2(1.0, 0.0);"
+        "for (int m = 0; m < 3; m++) { next_order(m, in_0.xyz, sectoral, power); }"
+        "result_0.xyz = vec3(sectoral, power);",
+        lambda: [unit_vectors(23)],
+        third_powers,
+        # Three steps of some four roundings, of values up to 1.
+        12 * ULP,
+    ),
+    "cosine_coefficient": Twin(
+        "irradiance_lib.glsl",
+        "result_0.x = cosine_coefficient(int(in_0.x));",
+        lambda: [(np.arange(COUNT) % 21)[:, None].astype(np.float64)],
+        lambda degree: zonal_coefficients(cosine_lobe(), 20)[degree.astype(int)],
+        8 * ULP * np.pi,
     ),
     "cube_place": Twin(
         "cube_map_lib.glsl",

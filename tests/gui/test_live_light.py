@@ -77,9 +77,9 @@ def scenario(told):
         yield
     told["idle"] = [len(updates), len(draws)]
     told["faults"] = [previews.faults.message(cube), previews.faults.trouble, previews.kind(cube)]
-    cube.rsibr.mip_chain.use_roughness = True
+    cube.rsibr.mip_chain.mip, cube.rsibr.mip_chain.use_roughness = 2.0, True
     yield from drawn()
-    told["roughness"] = previews.faults.message(cube)
+    told["roughness"] = [others((124, 188, 124), among), previews.faults.message(cube)]
     cube.rsibr.live.on = False
     yield from drawn()
     map_sets = previews._map_sets
@@ -95,7 +95,7 @@ def test_an_object_shows_its_surroundings_and_follows_them(told: Told) -> None:
     assert answer["overlays"] is True
     assert answer["idle"] == [0, 0]
     assert answer["faults"] == [None, None, "mip_chain"]
-    assert answer["roughness"] == "Live light has no roughness: choose a mip instead."
+    assert answer["roughness"] == [0, None]
     assert answer["off"][0] > 2000
     assert answer["off"][1:] == [0, 0, None]
 

@@ -9,6 +9,8 @@ the exact sum over all texels takes another way.
 >>> irradiance = irradiance_from_harmonics(harmonics.real(2), normals)
 """
 
+import math
+
 import numpy as np
 
 from ..conventions import Array, ArrayLike
@@ -75,16 +77,20 @@ def irradiance_from_harmonics(coefficients: ArrayLike, normal: ArrayLike) -> Arr
     Returns
     -------
     ndarray, shape (..., channels), float64
-        Sum of A_l L_lm Y_lm: [Ramamoorthi2001] Eq. 7, [Kautz2004] Eq. 1. Not divided by pi; it may be
+        Sum of A_l L_lm Y_lm: [Ramamoorthi2001] Eq. 7, [Kautz2004] Eq. 12. Not divided by pi; it may be
         slightly negative opposite a strong light.
 
     Raises
     ------
     ShapeError
         The number of coefficients is not a square.
+
+    Notes
+    -----
+    GLSL twin: gpu_shaders/lib/irradiance_lib.glsl `irradiance`, 2e-6 of the coefficients' sum.
     """
     convolved = irradiance_coefficients(coefficients)
-    irradiance: Array = real_harmonics(normal, round(np.sqrt(len(convolved))) - 1) @ convolved
+    irradiance: Array = real_harmonics(normal, degree_of(convolved)) @ convolved
     return irradiance
 
 
@@ -107,12 +113,24 @@ def irradiance_coefficients(coefficients: ArrayLike) -> Array:
         The number of coefficients is not a square.
     """
     coefficients = np.asarray(coefficients, dtype=np.float64)
-    degree = round(np.sqrt(len(coefficients))) - 1
-    if (degree + 1) ** 2 != len(coefficients):
-        raise ShapeError(f"{len(coefficients)} coefficients are not those of any degree: give 9, or 25.")
+    degree = degree_of(coefficients)
     a = np.repeat(zonal_coefficients(cosine_lobe(), degree), 2 * np.arange(degree + 1) + 1)
     convolved: Array = a[:, None] * coefficients
     return convolved
+
+
+def degree_of(coefficients: Array) -> int:
+    """The degree of the harmonics whose coefficients they are, along the first axis.
+
+    Raises
+    ------
+    ShapeError
+        The number of coefficients is not a square.
+    """
+    degree = math.isqrt(len(coefficients)) - 1
+    if degree < 0 or (degree + 1) ** 2 != len(coefficients):
+        raise ShapeError(f"{len(coefficients)} coefficients are not those of any degree: give 9, or 25.")
+    return degree
 
 
 def diffuse_terms(coefficients: ArrayLike) -> Array:
@@ -143,61 +161,45 @@ def diffuse_terms(coefficients: ArrayLike) -> Array:
     return terms
 
 
-def irradiance_matrix(coefficients: ArrayLike) -> Array:
-    """The nine coefficients of degree 2 as quadratic forms of the normal.
-
-    Parameters
-    ----------
-    coefficients : array_like, shape (9, channels)
-        Coefficients of `real_harmonics`.
-
-    Returns
-    -------
-    ndarray, shape (channels, 4, 4), float64
-        Symmetric; n M n of n = (x, y, z, 1) is the irradiance of `irradiance_from_harmonics`.
-
-    Raises
-    ------
-    ShapeError
-        The coefficients are not nine.
-
-    Notes
-    -----
-    [Ramamoorthi2001] Eq. 12, which a shader evaluates with four products of a vector.
-    """
-    one, y, z, x, xy, yz, zz, xz, xx_yy = np.pi * diffuse_terms(coefficients)
-    rows = [
-        [2.0 * xx_yy, xy, xz, x],
-        [xy, -2.0 * xx_yy, yz, y],
-        [xz, yz, 6.0 * zz, z],
-        [x, y, z, 2.0 * (one - zz)],
-    ]
-    return 0.5 * np.moveaxis(np.array(rows), -1, 0)
-
-
 def turned_harmonics(coefficients: Array, rotation: Array) -> Array:
     """The coefficients of radiance that has been turned.
 
     Parameters
     ----------
-    coefficients : ndarray, shape (9, channels)
+    coefficients : ndarray, shape ((degree + 1)**2, channels)
         Coefficients of `real_harmonics`.
     rotation : ndarray, shape (3, 3)
         New directions from old ones.
 
     Returns
     -------
-    ndarray, shape (9, channels), float64
+    ndarray, shape ((degree + 1)**2, channels), float64
 
     Notes
     -----
-    A turned harmonic is a sum of those of its own degree. So the values of nine functions in more than nine
-    directions determine the new coefficients exactly.
+    A turned harmonic is a sum of those of its own degree. So a product rule on the sphere that is exact for
+    products of two harmonics gives the new coefficients exactly.
     """
-    direction = normalize(np.stack(np.meshgrid(*3 * [[-1.0, 0.3, 0.8]]), axis=-1).reshape(-1, 3))
-    radiance = real_harmonics(direction @ rotation, 2) @ coefficients
-    made: Array = np.linalg.lstsq(real_harmonics(direction, 2), radiance, rcond=None)[0]
+    degree = degree_of(coefficients)
+    direction, weight = _quadrature(degree)
+    radiance = real_harmonics(direction @ rotation, degree) @ coefficients
+    made: Array = (real_harmonics(direction, degree) * weight[:, None]).T @ radiance
     return made
+
+
+def _quadrature(degree: int) -> tuple[Array, Array]:
+    """Directions, shape (n, 3), and weights of a sum that is exact for products of two harmonics.
+
+    Gauss-Legendre in z times equal steps around.
+    """
+    z, along = np.polynomial.legendre.leggauss(degree + 1)
+    around = 2 * degree + 1
+    phi = 2.0 * np.pi * np.arange(around) / around
+    radius = np.sqrt(1.0 - z**2)[:, None]
+    direction = np.stack(
+        np.broadcast_arrays(radius * np.cos(phi), radius * np.sin(phi), z[:, None]), axis=-1
+    ).reshape(-1, 3)
+    return direction, np.repeat(2.0 * np.pi / around * along, around)
 
 
 def irradiance_exact(radiance: Array, normal: ArrayLike) -> Array:

@@ -1,6 +1,6 @@
 """Light that changes with the scene: a cube map rendered around a point, filtered after every change.
 
-[Kautz2004] section 5: six renders with a right angle of view, one for every face; their nine harmonics give
+[Kautz2004] section 5: six renders with a right angle of view, one for every face; their harmonics give
 diffuse light, their mips glossy light.
 """
 
@@ -14,6 +14,7 @@ from ..filtering.irradiance import real_harmonics
 from ..maps import cube_map
 from ..maps.representation import representation
 from .mip_chain.chain import MipChain
+from .mip_chain.mip_lobes import texture_space_spread
 from .mip_chain.texture_space import filtered_mips
 
 FACE_COUNT = 6
@@ -30,7 +31,7 @@ TIP_SHOWN = 1e-5
 _CUBE = representation("cube_map")
 
 
-def chain_of_faces(faces: Array, halved: Callable[[Array], Array]) -> MipChain:
+def chain_of_faces(faces: Array, halved: Callable[[Array], Array], degree: int = 2) -> MipChain:
     """The mip chain of six renders, from which an object is shaded.
 
     Parameters
@@ -38,7 +39,9 @@ def chain_of_faces(faces: Array, halved: Callable[[Array], Array]) -> MipChain:
     faces : ndarray, shape (6, n, n, 3)
         Radiance, n a power of 2.
     halved : callable
-        `mips.texture_space.box_halved` or `tent_halved`.
+        `mip_chain.texture_space.box_halved` or `tent_halved`.
+    degree : int
+        Degree of the harmonics.
 
     Returns
     -------
@@ -57,19 +60,24 @@ def chain_of_faces(faces: Array, halved: Callable[[Array], Array]) -> MipChain:
     GPU twin: `device.kinds.live_environment.GpuLiveEnvironment`.
     """
     mips = filtered_mips(faces, halved)
-    return MipChain(tuple(mip.astype(np.float32) for mip in mips), harmonics_of_faces(faces))
+    return MipChain(
+        tuple(mip.astype(np.float32) for mip in mips),
+        harmonics_of_faces(faces, degree),
+        spread=texture_space_spread(faces.shape[1], halved),
+    )
 
 
-def harmonics_of_faces(faces: Array) -> Array:
-    """Nine coefficients of the radiance on a cube: the sum of radiance, solid angle and harmonic.
+def harmonics_of_faces(faces: Array, degree: int = 2) -> Array:
+    """Coefficients of the radiance on a cube: the sum of radiance, solid angle and harmonic.
 
     Parameters
     ----------
     faces : ndarray, shape (6, n, n, channels)
+    degree : int
 
     Returns
     -------
-    ndarray, shape (9, channels), float64
+    ndarray, shape ((degree + 1)**2, channels), float64
         In the order of `irradiance.real_harmonics`: [Kautz2004] Eq. 11.
 
     Notes
@@ -80,7 +88,9 @@ def harmonics_of_faces(faces: Array) -> Array:
     1e-5 of the sum of radiance and solid angle.
     """
     size = faces.shape[1]
-    weights = real_harmonics(_CUBE.texel_directions(size), 2) * cube_map.texel_solid_angle(size)[..., None]
+    weights = (
+        real_harmonics(_CUBE.texel_directions(size), degree) * cube_map.texel_solid_angle(size)[..., None]
+    )
     coefficients: Array = np.einsum("frck,frcn->kn", weights, np.asarray(faces, np.float64))
     return coefficients
 

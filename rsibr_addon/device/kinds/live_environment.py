@@ -1,17 +1,18 @@
 """Light that changes with the scene, filtered on the GPU: [Kautz2004] section 5.
 
 Six renders lie side by side in a strip. From it the GPU makes the mips, in the atlas that `mip_chain` shades
-from, and nine harmonics; nothing is read back. A pass cannot read the texture that it writes, so each mip is
+from, and harmonics; nothing is read back. A pass cannot read the texture that it writes, so each mip is
 halved from the atlas into another strip, and copied from there into the atlas with its borders.
 """
 
 import gpu
 import numpy as np
 
-from ...core.errors import RangeError
 from ...core.kinds.live_environment import FACE_COUNT, solid_angle_texels
 from ...core.kinds.mip_chain.chain import check_size
+from ...core.kinds.mip_chain.mip_lobes import MipLobes, texture_space_spread
 from ...core.kinds.mip_chain.shading import MipLook
+from ...core.kinds.mip_chain.texture_space import box_halved, tent_halved
 from .. import buffers
 from ..drawing import Draw, GpuMesh
 from ..passes import plain_state, screen_triangle
@@ -20,11 +21,10 @@ from .live_environment_shaders import (
     box_shader,
     face_shader,
     harmonics_shader,
-    live_mip_chain_shader,
     rows_shader,
     tent_shader,
 )
-from .mip_chain_shaders import look_fields
+from .mip_chain_shaders import look_fields, mip_chain_shader
 
 
 class GpuLiveEnvironment:
@@ -38,6 +38,8 @@ class GpuLiveEnvironment:
         Whether mips are filtered across the faces' borders
         (`core.kinds.mip_chain.texture_space.tent_halved`), or within each face (`box_halved`), as the
         hardware of 2004 did.
+    degree : int
+        Degree of the harmonics of diffuse light: nine coefficients in the paper.
 
     Raises
     ------
@@ -51,7 +53,7 @@ class GpuLiveEnvironment:
     Reference: `core.kinds.live_environment.chain_of_faces`.
     """
 
-    def __init__(self, size: int, across_borders: bool = True) -> None:
+    def __init__(self, size: int, across_borders: bool = True, degree: int = 2) -> None:
         check_size(size, 1)
         self.size = size
         self._mip_count = size.bit_length()
@@ -61,8 +63,11 @@ class GpuLiveEnvironment:
         self._faces = _Map(FACE_COUNT * size, size)
         self._smaller = _Map(max(FACE_COUNT * size // 2, 1), max(size // 2, 1))
         self._atlas = _Map(FACE_COUNT * (size + 2), 2 * (size - 1 + self._mip_count) + 1)
-        self._rows = _Map(9, FACE_COUNT * size)
-        self._harmonics = _Map(9, 1)
+        self._coefficients = (degree + 1) ** 2
+        self._rows = _Map(self._coefficients, FACE_COUNT * size)
+        self._harmonics = _Map(self._coefficients, 1)
+        spread = texture_space_spread(size, tent_halved if across_borders else box_halved)
+        self._lobes = MipLobes(self._mip_count, spread=spread)
         self._shading = buffers.KeptBlock()
         self._screen = screen_triangle(face_shader())
         self.filter()
@@ -85,7 +90,7 @@ class GpuLiveEnvironment:
             self._fill(self._faces, shader, (face * self.size, 0, self.size, self.size))
 
     def filter(self) -> None:
-        """Make the mips and the nine coefficients anew."""
+        """Make the mips and the coefficients anew."""
         with plain_state():
             self._border(self._faces, 0)
             for mip in range(self._mip_count - 1):
@@ -98,18 +103,9 @@ class GpuLiveEnvironment:
         self._harmonics.framebuffer.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
 
     def draw(self, mesh: GpuMesh, draw: Draw, look: MipLook) -> None:
-        """See `GpuMapSet.draw`. Reference: core/kinds/mip_chain/shading.py.
-
-        Raises
-        ------
-        RangeError
-            The look has a roughness, which filters in texture space do not have.
-        """
-        if look.roughness is not None:
-            raise RangeError("Live light has no roughness: choose a mip instead.")
-        level = min(look.mip, self._mip_count - 1.0)
-        shading = self._shading.filled(*look_fields(look, level, self._mip_count))
-        shader = live_mip_chain_shader()
+        """See `GpuMapSet.draw`. Reference: core/kinds/mip_chain/shading.py."""
+        shading = self._shading.filled(*look_fields(look, self._lobes))
+        shader = mip_chain_shader()
         shader.bind()
         shader.uniform_block("look", shading)
         shader.uniform_sampler("atlas", self._atlas.texture)
@@ -139,11 +135,11 @@ class GpuLiveEnvironment:
         shader.bind()
         shader.uniform_sampler("strip", self._faces.texture)
         shader.uniform_sampler("solid_angles", self._solid_angles)
-        self._fill(self._rows, shader, (0, 0, 9, FACE_COUNT * self.size))
+        self._fill(self._rows, shader, (0, 0, self._coefficients, FACE_COUNT * self.size))
         shader = harmonics_shader()
         shader.bind()
         shader.uniform_sampler("rows", self._rows.texture)
-        self._fill(self._harmonics, shader, (0, 0, 9, 1))
+        self._fill(self._harmonics, shader, (0, 0, self._coefficients, 1))
 
     def _say_where(self, shader: gpu.types.GPUShader, mip: int) -> None:
         shader.uniform_int("first_size", self.size)

@@ -6,10 +6,7 @@ Each raises a DeviceError where the driver refuses the program.
 import gpu
 
 from ..passes import screen_interface
-from ..shaders import build, kept_until_exit, mesh_interface
-from .mip_chain_shaders import LOOK_FIELDS
-
-_LOOK_BLOCK = f"struct LiveLook {{ {LOOK_FIELDS} }};"
+from ..shaders import build, kept_until_exit
 
 
 @kept_until_exit
@@ -38,25 +35,14 @@ def tent_shader() -> gpu.types.GPUShader:
 
 @kept_until_exit
 def rows_shader() -> gpu.types.GPUShader:
-    """Sums each row's share of nine coefficients."""
+    """Sums each row's share of the coefficients."""
     return _build_pass("live_rows", ("strip", "solid_angles"), ())
 
 
 @kept_until_exit
 def harmonics_shader() -> gpu.types.GPUShader:
-    """Sums the rows' shares."""
+    """Sums the rows' shares, and makes irradiance of radiance."""
     return _build_pass("live_harmonics", ("rows",), ())
-
-
-@kept_until_exit
-def live_mip_chain_shader() -> gpu.types.GPUShader:
-    """Draws a mesh from a mip chain and nine coefficients, both on the GPU."""
-    info = mesh_interface(_LOOK_BLOCK)
-    info.define("LIVE")
-    info.uniform_buf(1, "LiveLook", "look")
-    info.sampler(0, "FLOAT_2D", "atlas")
-    info.sampler(1, "FLOAT_2D", "harmonics")
-    return build("live_mip_chain", info, "mesh_vert.glsl", "mip_chain_frag.glsl")
 
 
 def _build_pass(

@@ -7,10 +7,11 @@ each face within a border of its neighbours' texels.
 import numpy as np
 
 from ...core.conventions import Array
-from ...core.filtering.irradiance import irradiance_matrix
+from ...core.filtering.irradiance import irradiance_coefficients
 from ...core.kinds.mip_chain.chain import MipChain
 from ...core.kinds.mip_chain.shading import MipLook
 from ...core.kinds.mip_chain.texture_space import with_borders
+from ..buffers import with_alpha
 from ..drawing import Inputs, ProgramMapSet
 from ..textures import GpuTexture
 from .mip_chain_shaders import look_fields, mip_chain_shader
@@ -20,15 +21,20 @@ class GpuMipChain(ProgramMapSet):
     """A map set's mip chain."""
 
     def __init__(self, chain: MipChain) -> None:
-        self._chain = chain
         self._atlas = GpuTexture("mip chain", atlas_texels(chain))
-        self.textures = (self._atlas,)
-        self._irradiance = irradiance_matrix(chain.harmonics)
+        self._harmonics = GpuTexture("harmonics", harmonics_texels(chain.harmonics))
+        self.textures = (self._atlas, self._harmonics)
+        self._lobes = chain.lobes
 
     def inputs(self, look: MipLook) -> Inputs:
         """See `ProgramMapSet.inputs`. Reference: core/kinds/mip_chain/shading.py."""
-        fields = look_fields(look, look.level(self._chain), len(self._chain.mips))
-        return Inputs(mip_chain_shader, (*self._irradiance, *fields), {"atlas": self._atlas})
+        textures = {"atlas": self._atlas, "harmonics": self._harmonics}
+        return Inputs(mip_chain_shader, look_fields(look, self._lobes), textures)
+
+
+def harmonics_texels(harmonics: Array) -> Array:
+    """The coefficients of irradiance as gpu_shaders/lib/irradiance_lib.glsl reads them, shape (1, n, 4)."""
+    return with_alpha(irradiance_coefficients(harmonics)[None])
 
 
 def atlas_texels(chain: MipChain) -> Array:

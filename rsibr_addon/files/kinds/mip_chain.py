@@ -1,7 +1,7 @@
 """Map sets of kind `mip_chain`."""
 
 from pathlib import Path
-from typing import Annotated, Any, TypedDict
+from typing import Annotated, Any, NotRequired, TypedDict
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from ..textures import Texture, Up
 
 KIND = "mip_chain"
 HARMONICS = "harmonics"
-"""The role of the part that holds the nine coefficients, and its name."""
+"""The role of the part that holds the coefficients of diffuse light, and its name."""
 
 Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 """Directions with Y up, as glTF has them, from Blender's."""
@@ -28,6 +28,7 @@ Y_UP_AXES = "right-handed, Y up: (x, y, z) here is (x, -z, y) of Blender's world
 class _Mip(TypedDict):
     mip: Annotated[int, between(0, 31)]
     roughness: Annotated[float, between(0.0, 1.0)] | None
+    spread: NotRequired[Annotated[float, between(0.0, 2.0)]]
 
 
 def to_map_set(chain: MipChain, origin: Origin) -> MapSet:
@@ -38,7 +39,8 @@ def to_map_set(chain: MipChain, origin: Origin) -> MapSet:
         name = f"mip{mip:02d}"
         roughness = None if chain.roughness is None else chain.roughness[mip]
         maps[name] = _strip(faces)
-        parts.append({"name": name, "role": "prefiltered", "mip": mip, "roughness": roughness})
+        spread = {} if chain.spread is None else {"spread": chain.spread[mip]}
+        parts.append({"name": name, "role": "prefiltered", "mip": mip, "roughness": roughness, **spread})
     header = make_header("cube_map", (chain.size, 6 * chain.size), parts, origin)
     return MapSet(KIND, maps, header)
 
@@ -49,26 +51,28 @@ def from_map_set(path: Path, map_set: MapSet) -> MipChain:
     Raises
     ------
     MapSetError
-        It is not laid out as cubes, its mips are not numbered from 0 or do not halve in size, the nine
-        coefficients are missing, or only some mips state a roughness.
+        It is not laid out as cubes, its mips are not numbered from 0 or do not halve in size, the
+        coefficients are missing, or only some mips state a roughness or a spread.
     """
     layout = map_set.header["layout"]
     if layout != "cube_map":
         raise MapSetError(f"{path} holds mips laid out as {layout}, not as cube_map: make it again.")
     filtered = [part for part in map_set.header["parts"] if part["role"] == "prefiltered"]
     mips = {part["mip"]: part for part in filtered}
-    nine = [map_set.maps[part["name"]] for part in map_set.header["parts"] if part["role"] == HARMONICS]
-    if len(nine) != 1 or not mips or set(mips) != set(range(len(filtered))):
+    tables = [map_set.maps[part["name"]] for part in map_set.header["parts"] if part["role"] == HARMONICS]
+    if len(tables) != 1 or not mips or set(mips) != set(range(len(filtered))):
         raise MapSetError(f"{path} lacks its coefficients or one of its mips: make it again.")
-    roughness = [mips[mip]["roughness"] for mip in range(len(mips))]
-    known = [value for value in roughness if value is not None]
-    if known and len(known) < len(roughness):
-        raise MapSetError(f"{path} states the roughness of some of its mips only: make it again.")
+    stated = {}
+    for name in ("roughness", "spread"):
+        known = [value for mip in range(len(mips)) if (value := mips[mip].get(name)) is not None]
+        if known and len(known) < len(mips):
+            raise MapSetError(f"{path} states the {name} of some of its mips only: make it again.")
+        stated[name] = tuple(known) or None
     try:
         return MipChain(
             tuple(_faces(map_set.maps[mips[mip]["name"]]) for mip in range(len(mips))),
-            nine[0].reshape(-1, 3).astype(np.float64),
-            tuple(known) if known else None,
+            tables[0].reshape(-1, 3).astype(np.float64),
+            **stated,
         )
     except (RangeError, ShapeError) as error:
         raise MapSetError(f"{path} holds no mip chain. {error}") from error

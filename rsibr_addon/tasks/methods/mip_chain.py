@@ -8,6 +8,8 @@ from ...core.filtering.harmonics.analysis import analyse_environment
 from ...core.filtering.prefilter import BYTES_BESIDES, bytes_needed
 from ...core.kinds.mip_chain.chain import MipChain
 from ...core.kinds.mip_chain.ggx import ggx_mips
+from ...core.kinds.mip_chain.mip_lobes import phong_spread, texture_space_spread
+from ...core.kinds.mip_chain.phong import phong_mips
 from ...core.kinds.mip_chain.texture_space import box_halved, filtered_mips, tent_halved
 from ...core.maps.representation import representation
 from ...core.options import to_plain
@@ -30,7 +32,7 @@ MIPS_OF_TEXEL = 16
 def cost(settings: MipChainSettings) -> Cost:
     """See `Method`; all mips together are a third more than the first."""
     maps = 6 * settings.size**2 * RGB * 4 / 3
-    filtering = 1.0 + 5e-8 * maps if settings.filter == "ggx" else 0.5
+    filtering = 0.5 if settings.filter in TEXTURE_SPACE else 1.0 + 5e-8 * maps
     memory = BYTES_BESIDES + bytes_needed(1, 6 * settings.size**2) + maps
     return cost_in_blender(filtering, memory, STORED * maps)
 
@@ -50,13 +52,15 @@ def bake(job: BakeJob[MipChainSettings]) -> Steps[Baked]:
     check_memory(needed, job.output, (settings.size, settings.size), BYTES_BESIDES, powers=True)
     light = yield from read_light(job)
     stated, bound = to_plain(settings), None
-    if settings.filter == "ggx":
-        chain, largest = yield from _ggx(light, settings)
-        bound = {"relative_to_peak": largest}
-    else:
-        del stated["roughness"]
+    for name, owner in (("roughness", "ggx"), ("exponents", "phong")):
+        if settings.filter != owner:
+            del stated[name]
+    if settings.filter in TEXTURE_SPACE:
         yield Progress(1, 2, "filtering")
         chain = _texture_space(light, settings)
+    else:
+        chain, largest = yield from _with_lobes(light, settings)
+        bound = {"relative_to_peak": largest}
     map_set = to_map_set(chain, Origin(light, stated, software_of(job), {"filter": settings.filter}, bound))
     path = yield from written(job, map_set)
     return Baked(
@@ -66,30 +70,38 @@ def bake(job: BakeJob[MipChainSettings]) -> Steps[Baked]:
     )
 
 
-def _ggx(light: Environment, settings: MipChainSettings) -> Steps[tuple[MipChain, float]]:
+def _with_lobes(light: Environment, settings: MipChainSettings) -> Steps[tuple[MipChain, float]]:
     """The chain, and its values' largest error over their mip's largest value."""
-    roughness = settings.roughnesses
+    roughness, spread = None, None
+    if settings.filter == "ggx":
+        roughness = settings.roughnesses
+        count, filtering = len(roughness), ggx_mips(light.radiance, settings.size, roughness)
+    else:
+        exponents = settings.phong_exponents
+        spread = tuple(map(phong_spread, exponents))
+        count, filtering = len(exponents), phong_mips(light.radiance, settings.size, exponents)
     mips, bound = [], 0.0
-    filtering = ggx_mips(light.radiance, settings.size, roughness)
-    for number in range(len(roughness)):
-        yield Progress(1 + number, len(roughness) + 2, f"filtering mip {number}")
+    for number in range(count):
+        yield Progress(1 + number, count + 2, f"filtering mip {number}")
         mip = next(filtering)
         mips.append(mip.faces.astype(np.float32))
         # Single precision rounds by half a unit in the last place; black has no error.
         bound = max(bound, 2.0**-24 + mip.bound / max(float(mip.faces.max()), 1e-300))
-    return MipChain(tuple(mips), _harmonics(light), roughness), bound
+    return MipChain(tuple(mips), _harmonics(light, settings), roughness, spread), bound
 
 
 def _texture_space(light: Environment, settings: MipChainSettings) -> MipChain:
     faces = resample(
         light.radiance[None], representation("equirect"), representation("cube_map"), settings.size
     )
-    mips = filtered_mips(faces, TEXTURE_SPACE[settings.filter])
-    return MipChain(tuple(mip.astype(np.float32) for mip in mips), _harmonics(light))
+    halved = TEXTURE_SPACE[settings.filter]
+    mips = tuple(mip.astype(np.float32) for mip in filtered_mips(faces, halved))
+    spread = texture_space_spread(settings.size, halved)
+    return MipChain(mips, _harmonics(light, settings), spread=spread)
 
 
-def _harmonics(light: Environment) -> Array:
-    return analyse_environment(light.radiance, 2).real(2)
+def _harmonics(light: Environment, settings: MipChainSettings) -> Array:
+    return analyse_environment(light.radiance, settings.degree).real(settings.degree)
 
 
 METHOD = Method(bake, cost)

@@ -29,6 +29,8 @@ class LiveLight:
     ----------
     size : int
         Width of a face in texels.
+    degree : int
+        Of the harmonics of diffuse light.
 
     Attributes
     ----------
@@ -36,8 +38,8 @@ class LiveLight:
         To be drawn with, once `is_ready`.
     """
 
-    def __init__(self, size: int) -> None:
-        self.gpu_map_set = GpuLiveEnvironment(size)
+    def __init__(self, size: int, degree: int) -> None:
+        self.gpu_map_set = GpuLiveEnvironment(size, degree=degree)
         self._camera = ViewportCamera(size, size)
         self._missing = FACE_COUNT
         self._due = FACE_COUNT

@@ -224,7 +224,7 @@ class MapSets:
         """Take the next step on a map set's way: have it read, upload a piece, have it used."""
         path, settings = surface.path, surface.item.rsibr
         if is_live_name(path):
-            light = self.lights[path] = LiveLight(int(settings.live.size))
+            light = self.lights[path] = LiveLight(int(settings.live.size), settings.live.degree)
             self.used[path] = ViewportMapSet("mip_chain", light.gpu_map_set)
             return
         if path not in self._coming:

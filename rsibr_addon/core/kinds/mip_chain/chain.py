@@ -1,16 +1,21 @@
-"""A cube map at falling sizes, each blurrier than the one before, and nine harmonics of its light."""
+"""A cube map at falling sizes, each blurrier than the one before, and harmonics of its light."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...conventions import Array
 from ...errors import RangeError, ShapeError
-from ...filtering.irradiance import turned_harmonics
+from ...filtering.irradiance import degree_of, turned_harmonics
 from ...maps import cube_map
+from .mip_lobes import MipLobes
 
 LARGEST = 1024
 """Width of the largest faces: to filter and upload such a chain takes some 1.5 GB."""
+
+
+MOST_DEGREES = 20
+"""Largest degree of harmonics: from there on, they miss less than 0.4 % of all light."""
 
 
 @dataclass(frozen=True)
@@ -21,25 +26,30 @@ class MipChain:
     ----------
     mips : tuple of ndarray, shape (6, n, n, 3), float32
         Radiance on the faces of `core.maps.cube_map`, n a power of 2 that halves from mip to mip.
-    harmonics : ndarray, shape (9, 3), float64
+    harmonics : ndarray, shape ((degree + 1)**2, 3), float64
         Coefficients of the environment's radiance, in the order of
-        `core.filtering.irradiance.real_harmonics`.
+        `core.filtering.irradiance.real_harmonics`: nine in the paper, up to `MOST_DEGREES`.
     roughness : tuple of float, or None
         Roughness of each mip, ascending in [0, 1]: square root of the alpha of its GGX lobe, 0 if it was not
         filtered. None where mips were not filtered with GGX lobes.
+    spread : tuple of float, or None
+        1 less the mean cosine between the axis of each mip's lobe and its light, ascending in [0, 2]; None
+        where it is not known, or follows from the roughness.
 
     Raises
     ------
     ShapeError
-        The mips are not cube faces that halve in size, there are not nine coefficients, or not as many
-        roughnesses as mips.
+        The mips are not cube faces that halve in size, the coefficients are not those of a degree, or there
+        are not as many roughnesses or spreads as mips.
     RangeError
-        The roughnesses do not ascend within [0, 1], or a size is out of range: see `check_size`.
+        Roughnesses or spreads do not ascend within their range, there are too many coefficients, or a size is
+        out of range: see `check_size`.
     """
 
     mips: tuple[Array, ...]
     harmonics: Array
     roughness: tuple[float, ...] | None = None
+    spread: tuple[float, ...] | None = None
 
     def __post_init__(self) -> None:
         check_size(self.size, len(self.mips))
@@ -47,14 +57,19 @@ class MipChain:
             expected = (6, self.size >> mip, self.size >> mip, 3)
             if faces.shape != expected:
                 raise ShapeError(f"Mip {mip} must have the shape {expected}, not {faces.shape}.")
-        if self.harmonics.shape != (9, 3):
-            raise ShapeError(f"A mip chain needs nine coefficients of three, not {self.harmonics.shape}.")
+        if self.harmonics.ndim != 2 or self.harmonics.shape[1] != 3:
+            raise ShapeError(f"A mip chain needs coefficients of three, not {self.harmonics.shape}.")
+        if degree_of(self.harmonics) > MOST_DEGREES:
+            raise RangeError(
+                f"{len(self.harmonics)} coefficients are of a degree above {MOST_DEGREES}: make fewer."
+            )
+        for name, values in (("roughnesses", self.roughness), ("spreads", self.spread)):
+            if values is not None and len(values) != len(self.mips):
+                raise ShapeError(f"{len(self.mips)} mips need as many {name}, not {len(values)}.")
         if self.roughness is not None:
-            if len(self.roughness) != len(self.mips):
-                raise ShapeError(
-                    f"{len(self.mips)} mips need as many roughnesses, not {len(self.roughness)}."
-                )
             check_roughness(self.roughness)
+        if self.spread is not None and (min(self.spread) < 0.0 or np.any(np.diff(self.spread) < 0.0)):
+            raise RangeError(f"Spreads {', '.join(f'{s:g}' for s in self.spread)} do not ascend from 0.")
 
     @property
     def size(self) -> int:
@@ -70,29 +85,12 @@ class MipChain:
             New directions from old ones; takes axes to axes.
         """
         mips = tuple(cube_map.turned(faces, rotation) for faces in self.mips)
-        return MipChain(mips, turned_harmonics(self.harmonics, rotation), self.roughness)
+        return replace(self, mips=mips, harmonics=turned_harmonics(self.harmonics, rotation))
 
-    def mip_of(self, roughness: float) -> float:
-        """The level of detail at which a GGX chain shows a roughness.
-
-        Parameters
-        ----------
-        roughness : float
-            In [0, 1]; beyond the first or last mip's roughness, that mip is used.
-
-        Returns
-        -------
-        float
-            In [0, mips - 1], linear between the mips' roughnesses.
-
-        Raises
-        ------
-        RangeError
-            The mips were not filtered with GGX lobes.
-        """
-        if self.roughness is None:
-            raise RangeError("A box-filtered mip chain has no roughness: choose a mip instead.")
-        return float(np.interp(roughness, self.roughness, np.arange(len(self.roughness))))
+    @property
+    def lobes(self) -> MipLobes:
+        """How wide the lobe of each mip is."""
+        return MipLobes(len(self.mips), self.roughness, self.spread)
 
 
 def check_size(size: int, count: int) -> None:

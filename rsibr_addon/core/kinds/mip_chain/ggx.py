@@ -1,27 +1,13 @@
 """Mips filtered with GGX lobes, wider for smaller mips: engines shade glossy surfaces from such mips."""
 
-import math
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass
 
 import numpy as np
 
-from ...conventions import Array, texel_centres
-from ...errors import RangeError
-from ...filtering.harmonics.analysis import analyse_environment
-from ...filtering.prefilter import analysis_degree, prefilter, resolved_width
+from ...conventions import Array
 from ...filtering.radial_lobes import ggx_n_dot_l_lobe
-from ...filtering.zonal import ZonalSeries, expand
-from ...maps.representation import representation
-from ...resample import lookup, resample
-from .chain import check_roughness, check_size
-
-TOLERANCE = 1e-4
-"""Relative root-mean-square error of a mip; because of the n.l lobe's kink, less would be expensive."""
-
-EQUIRECT = representation("equirect")
-CUBE = representation("cube_map")
+from .chain import check_roughness
+from .lobe_mips import LobeMip, lobe_mips
 
 
 def linear_roughness(count: int) -> tuple[float, ...]:
@@ -55,24 +41,7 @@ ROUGHNESS_RULES: dict[str, Callable[[int], tuple[float, ...]]] = {
 """Name -> function from a number of mips to their roughnesses, from 0 to 1."""
 
 
-@dataclass(frozen=True)
-class GgxMip:
-    """One mip.
-
-    Attributes
-    ----------
-    faces : ndarray, shape (6, n, n, 3), float64
-        Not negative.
-    bound : float
-        No value is further than this from the sum over all texels of the environment; 0 if the mip was not
-        filtered.
-    """
-
-    faces: Array
-    bound: float
-
-
-def ggx_mips(radiance: Array, size: int, roughness: Sequence[float]) -> Iterator[GgxMip]:
+def ggx_mips(radiance: Array, size: int, roughness: Sequence[float]) -> Iterator[LobeMip]:
     """Filter an environment with the GGX lobes that engines filter with: normal = view = mirror direction.
 
     Parameters
@@ -87,7 +56,7 @@ def ggx_mips(radiance: Array, size: int, roughness: Sequence[float]) -> Iterator
 
     Yields
     ------
-    GgxMip
+    LobeMip
         One mip after another.
 
     Raises
@@ -98,69 +67,10 @@ def ggx_mips(radiance: Array, size: int, roughness: Sequence[float]) -> Iterator
     Notes
     -----
     Radiance times `ggx_n_dot_l_lobe` of alpha = roughness^2, to a relative root-mean-square error of
-    `TOLERANCE`: [Karis2013], with the whole sum instead of samples. A map whose texels are too large for a
-    lobe is interpolated first, as a mip of roughness 0 shows it.
+    `TOLERANCE`: [Karis2013], with the whole sum instead of samples. See `lobe_mips`.
     """
-    check_size(size, len(roughness))
     check_roughness(tuple(roughness), repeated=True)
-    lobes = {}
-    for mip, r in enumerate(roughness):
-        if r > 0.0:
-            with _naming(mip, r):
-                lobes[mip] = expand(ggx_n_dot_l_lobe(r**2), TOLERANCE)
-    degree = analysis_degree([*lobes.values()]) if lobes else 0
-    harmonics = analyse_environment(_fine_enough(radiance, [*lobes.values()]), degree)
-    for mip, r in enumerate(roughness):
-        if mip not in lobes:
-            yield GgxMip(environment_faces(radiance, size >> mip), 0.0)
-            continue
-        with _naming(mip, r):
-            filtered = prefilter(harmonics, [lobes[mip]], CUBE.texel_directions(size >> mip))
-        yield GgxMip(filtered.radiance[0], float(filtered.bound.max()))
-
-
-def _fine_enough(radiance: Array, lobes: list[ZonalSeries]) -> Array:
-    """The map; or, where it does not resolve a lobe, a finer map interpolated from it."""
-    rows = len(radiance)
-    narrowest = min((lobe.width for lobe in lobes), default=np.pi)
-    if narrowest >= resolved_width(rows):
-        return radiance
-    finer = 2 * math.ceil(rows * resolved_width(rows) / narrowest)
-    interpolated: Array = resample(radiance[None], EQUIRECT, EQUIRECT, 2 * finer)[0]
-    return interpolated
-
-
-@contextmanager
-def _naming(mip: int, roughness: float) -> Iterator[None]:
-    """Name the mip in an error about its lobe."""
-    try:
-        yield
-    except RangeError as error:
-        raise RangeError(
-            f"Mip {mip} cannot have roughness {roughness:.3g}, choose a larger one: {error}"
-        ) from error
-
-
-def environment_faces(radiance: Array, size: int) -> Array:
-    """An environment as a mirror shows it, on the faces of a cube.
-
-    Parameters
-    ----------
-    radiance : ndarray, shape (height, 2 * height, 3)
-        Latitude-longitude map.
-    size : int
-        Width of a face in texels.
-
-    Returns
-    -------
-    ndarray, shape (6, size, size, 3), float64
-        Interpolated where a face has at least as many texels as a quarter turn of the map; else the mean over
-        each texel.
-    """
-    if 4 * size < radiance.shape[1]:
-        return resample(radiance[None], EQUIRECT, CUBE, size)
-    faces = np.empty((6, size, size, radiance.shape[2]))
-    uv = texel_centres(size, size)
-    for face, texels in enumerate(faces):  # one after the other, to limit the memory of a lookup
-        texels[...] = lookup(radiance[None], CUBE.direction_from_uv(uv, np.array(face)), EQUIRECT)
-    return faces
+    lobes = [None if r == 0.0 else ggx_n_dot_l_lobe(r**2) for r in roughness]
+    yield from lobe_mips(
+        radiance, size, lobes, [f"roughness {r:.3g}, choose a larger one" for r in roughness]
+    )

@@ -1,4 +1,4 @@
-"""Shading from a mip chain [Kautz2004]: nine harmonics for diffuse light, a mip for glossy light, Fresnel.
+"""Shading from a mip chain [Kautz2004]: harmonics for diffuse light, a mip for glossy light, Fresnel.
 
 Equation 8 of the paper in one pass: (1 - F) L_diffuse(normal) + F L_glossy(mirror direction).
 """
@@ -12,8 +12,7 @@ from ...antialiased.footprint import footprint_or_point, footprint_sides
 from ...antialiased.sampling import sample_counts, samples
 from ...brdf.fresnel import fresnel_schlick
 from ...conventions import Array, ArrayLike, Indices
-from ...errors import RangeError
-from ...filtering.irradiance import irradiance_matrix
+from ...filtering.irradiance import irradiance_from_harmonics
 from ...geometry.directions import dot, reflect
 from ...geometry.sides import seen_surface
 from ...maps import cube_map
@@ -22,6 +21,7 @@ from ...options import Choice, Options, option
 from ...resample import bilinear, lookup
 from ..look_options import antialiased_option, colour_option
 from .chain import MipChain
+from .mip_lobes import MipLobes
 
 _CUBE = representation("cube_map")
 
@@ -44,7 +44,7 @@ class MipLook(Options):
     Raises
     ------
     RangeError
-        A value is out of range, or mip and roughness are both given.
+        A value is out of range, or two of mip, roughness and exponent are given.
     """
 
     f0: tuple[float, float, float] = colour_option(
@@ -67,16 +67,28 @@ class MipLook(Options):
     roughness: float | None = option(
         None,
         label="Roughness",
-        help="Roughness that chooses the mip, for chains of the filter ggx",
+        help="Roughness that chooses the mip: the one as blurred as the highlight of a rough surface",
         least=0.0,
         most=1.0,
         none="that of the mip",
-        switch=Choice(
-            "By Roughness",
-            "Choose the mip of a roughness; the other one has to be 0. For chains of GGX lobes",
-        ),
+        switch=Choice("By Roughness", "Choose the mip of a roughness, whatever the size of the maps"),
         start=0.3,
+        replaces=("mip",),
         metavar="R",
+    )
+    exponent: float | None = option(
+        None,
+        label="Exponent",
+        help="Exponent of Phong's highlight that chooses the mip: the one as blurred",
+        least=1.0,
+        most=1e6,
+        soft_most=1000.0,
+        none="that of the mip",
+        switch=Choice("By Exponent", "Choose the mip of a Phong exponent, whatever the size of the maps"),
+        start=225.0,
+        replaces=("mip", "roughness"),
+        advanced=True,
+        metavar="N",
     )
     borders: Borders = option(
         Borders.SEAMLESS,
@@ -89,12 +101,7 @@ class MipLook(Options):
     )
     antialiased: bool = antialiased_option("glossy light")
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.roughness is not None and self.mip > 0.0:
-            raise RangeError("A roughness and a mip say the same in two ways: give one of them.")
-
-    def level(self, chain: MipChain) -> float:
+    def level(self, lobes: MipLobes) -> float:
         """The level of detail to look glossy light up at.
 
         Returns
@@ -105,16 +112,18 @@ class MipLook(Options):
         Raises
         ------
         RangeError
-            There is a roughness, and the chain was not filtered with GGX lobes.
+            See `MipLobes.level_of_roughness`.
 
         Notes
         -----
         Hardware adds b to the level that a pixel's footprint asks for. Here a mip means a material at any
         distance, and lookups are averaged over the region that a pixel reflects: see `glossy_mean`.
         """
+        if self.exponent is not None:
+            return lobes.level_of_exponent(self.exponent)
         if self.roughness is not None:
-            return chain.mip_of(self.roughness)
-        return min(self.mip, len(chain.mips) - 1.0)
+            return lobes.level_of_roughness(self.roughness)
+        return min(self.mip, lobes.count - 1.0)
 
 
 def mip_chain_radiance(
@@ -145,7 +154,7 @@ def mip_chain_radiance(
     diffuse = diffuse_radiance(chain, seen.normal, look.kd)
     mirror_dir = reflect(view_dir, seen.mirror_normal)
     corners = footprint_or_point(mirror_footprint if look.antialiased else None, mirror_dir)
-    glossy = glossy_mean(chain, mirror_dir, corners, look.level(chain), look.borders)
+    glossy = glossy_mean(chain, mirror_dir, corners, look.level(chain.lobes), look.borders)
     shaded: Array = (1.0 - fresnel) * diffuse + fresnel * glossy
     return shaded
 
@@ -164,14 +173,9 @@ def diffuse_radiance(chain: MipChain, normal: ArrayLike, kd: ArrayLike) -> Array
     Returns
     -------
     ndarray, shape (..., 3), float64
-        0 where nine harmonics are negative, opposite a strong light.
-
-    Notes
-    -----
-    GLSL twin: gpu_shaders/lib/irradiance_lib.glsl `irradiance`, 1e-6 of the coefficients' sum.
+        0 where the harmonics are negative, opposite a strong light.
     """
-    n = np.concatenate([normal, np.ones_like(np.asarray(normal)[..., :1])], axis=-1)
-    irradiance = np.einsum("...i,cij,...j->...c", n, irradiance_matrix(chain.harmonics), n)
+    irradiance = irradiance_from_harmonics(chain.harmonics, normal)
     radiance: Array = np.asarray(kd) / np.pi * np.maximum(irradiance, 0.0)
     return radiance
 

@@ -13,6 +13,9 @@ from .drawing import Draw, GpuMapSet, GpuMesh
 from .passes import plain_state, screen_interface, screen_triangle
 from .shaders import build, kept_until_exit
 
+STILL = np.eye(3)
+"""A turn that is none."""
+
 SAMPLES_PER_AXIS = 4
 """Samples along each axis of a pixel, whose mean is the pixel: antialiased, as by Cycles' box filter."""
 
@@ -38,6 +41,8 @@ class PreviewRenderer:
         camera: Camera,
         size: int,
         look: Any,
+        object_turn: Array = STILL,
+        light_turn: Array = STILL,
     ) -> Array:
         """Draw one picture.
 
@@ -51,6 +56,8 @@ class PreviewRenderer:
             Width and height of the picture in pixels.
         look : object
             Look of the content's kind: see `core.kinds`.
+        object_turn, light_turn : ndarray, shape (3, 3)
+            Rotations of the mesh and of the light, from where they were made.
 
         Returns
         -------
@@ -61,13 +68,16 @@ class PreviewRenderer:
         colour = buffers.render_target(fine)
         depth = gpu.types.GPUTexture((fine, fine), format="DEPTH_COMPONENT32F")
         target = gpu.types.GPUFrameBuffer(depth_slot=depth, color_slots=(colour,))
+        model = np.eye(4)
+        model[:3, :3] = object_turn
         placed = Draw(
-            model=np.eye(4),
+            model=model,
             view=np.linalg.inv(camera.world_from_camera),
             projection=camera.projection,
             eye=camera.eye,
+            turn=light_turn.T,
         )
-        mesh = GpuMesh(positions, normals, _nearest_first(positions, triangles, camera))
+        mesh = GpuMesh(positions, normals, _nearest_first(positions @ object_turn.T, triangles, camera))
         depth_test, depth_mask = gpu.state.depth_test_get(), gpu.state.depth_mask_get()
         with target.bind():
             target.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)

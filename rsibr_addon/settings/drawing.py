@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from enum import StrEnum
 
 from ..core.geometry.camera import Camera
 from ..core.options import Choice, Options, option
@@ -41,6 +42,14 @@ class SceneOptions(Options):
         return Camera(view_dir, None if self.perspective is None else math.radians(self.perspective))
 
 
+class Turned(StrEnum):
+    """What a turntable turns about Z."""
+
+    EYE = "eye"
+    OBJECT = "object"
+    LIGHT = "light"
+
+
 @dataclass(frozen=True, kw_only=True)
 class PreviewOptions(SceneOptions, Clamp):
     """What a preview shows."""
@@ -51,9 +60,20 @@ class PreviewOptions(SceneOptions, Clamp):
     turntable: int | None = option(
         None,
         label="Turntable",
-        help="Frames around the object: a contact sheet in OUT and a movie beside it, OUT.mp4",
+        help="Frames of a whole turn about Z: a contact sheet in OUT and a movie beside it, OUT.mp4",
         least=2,
         none="a single picture",
+    )
+    turned: Turned = option(
+        Turned.EYE,
+        label="Turned",
+        help="What a turntable turns",
+        choices={
+            Turned.EYE: Choice("Eye", "who looks goes around the object, in light that stays"),
+            Turned.OBJECT: Choice("Object", "the object turns in front of the eye, in light that stays"),
+            Turned.LIGHT: Choice("Light", "light turns around the object"),
+        },
+        flag="--turn",
     )
     exposure: float = exposure_option(
         0.0, "How much brighter a PNG or a movie is; EXR holds radiance as it is"

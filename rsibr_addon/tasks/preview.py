@@ -10,8 +10,9 @@ import numpy as np
 from ..core.conventions import Array
 from ..core.errors import RangeError
 from ..core.geometry.camera import Camera
+from ..core.geometry.directions import turn_about_z
 from ..core.progress import Progress, Steps
-from ..device.preview import PreviewRenderer
+from ..device.preview import STILL, PreviewRenderer
 from ..files.atomic import check_target, written_aside
 from ..files.kinds.registry import look_types
 from ..files.outputs import together
@@ -20,7 +21,7 @@ from ..files.temporary import temporary_folder
 from ..host.meshes import TriangleMesh, load_mesh
 from ..host.movies import save_movie
 from ..host.pictures import save_png
-from ..settings.drawing import PreviewOptions
+from ..settings.drawing import PreviewOptions, Turned
 from .compare.contact_sheet import contact_sheet
 from .methods.kinds import open_map_set
 
@@ -58,7 +59,7 @@ def preview(
 def turntable(
     map_set: Path, settings: PreviewOptions, output: Path, force: bool = False, look: Any = None
 ) -> Steps[tuple[Path, Path]]:
-    """Draw a turn around the world's Z axis, as a movie and a contact sheet.
+    """Draw a turn of the eye, the object or the light about Z, as a movie and a contact sheet.
 
     Parameters
     ----------
@@ -82,7 +83,7 @@ def turntable(
     Raises
     ------
     RangeError
-        The size is odd, or the view points along the axis.
+        The size is odd, or the eye turns about the axis that it looks along.
     MapSetError, InputFileError, OutputFileError, DeviceError, RenderError
     """
     movie = output.with_suffix(".mp4")
@@ -91,16 +92,16 @@ def turntable(
     if settings.size % 2:
         raise RangeError(f"A movie cannot be {settings.size} pixels wide: choose an even size.")
     frame_count = settings.turntable or 2
-    cameras = list(_orbit(settings.camera(settings.view), frame_count))
+    poses = list(_turn(settings, frame_count))
     yield Progress(0, frame_count + 1, f"reading {map_set.name}")
     draw = _Studio(map_set, settings, look)
     shown = _spaced(frame_count)
     sheet = []
     with temporary_folder() as folder:
         frames = [folder / f"{number:06d}.png" for number in range(frame_count)]
-        for number, (camera, frame) in enumerate(zip(cameras, frames, strict=True)):
+        for number, (pose, frame) in enumerate(zip(poses, frames, strict=True)):
             yield Progress(number, frame_count + 1, f"drawing frame {number + 1} of {frame_count}")
-            picture = draw(camera)
+            picture = draw(*pose)
             save_png(frame, picture, settings.exposure, settings.view_transform)
             if number in shown:
                 sheet.append(picture)
@@ -122,19 +123,25 @@ class _Studio:
         self._look = look or look_types()[opened.kind]()
         self._renderer = PreviewRenderer(opened.drawable())
 
-    def __call__(self, camera: Camera) -> Array:
+    def __call__(self, camera: Camera, object_turn: Array = STILL, light_turn: Array = STILL) -> Array:
         mesh = self._mesh.positions, self._mesh.normals, self._mesh.triangles
-        return self._renderer.draw(*mesh, camera, self._settings.size, self._look)
+        return self._renderer.draw(*mesh, camera, self._settings.size, self._look, object_turn, light_turn)
 
 
-def _orbit(camera: Camera, frame_count: int) -> Iterator[Camera]:
-    """Cameras spaced evenly about Z, counter-clockwise seen from above."""
-    x, y, z = camera.view_dir
-    if np.hypot(x, y) < 1e-6:
+def _turn(settings: PreviewOptions, frame_count: int) -> Iterator[tuple[Camera, Array, Array]]:
+    """The camera and the turns of object and light in each frame: counter-clockwise seen from above."""
+    camera = settings.camera(settings.view)
+    if settings.turned is Turned.EYE and np.hypot(*camera.view_dir[:2]) < 1e-6:
         raise RangeError("A turntable turns about Z, so its view cannot be along Z: look from aside.")
     for angle in 2.0 * np.pi * np.arange(frame_count) / frame_count:
-        cosine, sine = np.cos(angle), np.sin(angle)
-        yield replace(camera, view_dir=(cosine * x - sine * y, sine * x + cosine * y, z))
+        turn = turn_about_z(angle)
+        match settings.turned:
+            case Turned.EYE:
+                yield replace(camera, view_dir=tuple(turn @ camera.view_dir)), STILL, STILL
+            case Turned.OBJECT:
+                yield camera, turn, STILL
+            case Turned.LIGHT:
+                yield camera, STILL, turn
 
 
 def _spaced(frame_count: int) -> set[int]:

@@ -9,7 +9,7 @@ import pytest
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.errors import InputFileError, MapSetError, OutputFileError, RangeError
 from rsibr.rsibr_addon.core.geometry.camera import Camera
-from rsibr.rsibr_addon.core.geometry.directions import reflect
+from rsibr.rsibr_addon.core.geometry.directions import reflect, turn_about_z
 from rsibr.rsibr_addon.core.kinds.environment import EnvironmentLook
 from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, ViewsLook, Warping
 from rsibr.rsibr_addon.core.light.transfer_curve import srgb_from_linear
@@ -20,7 +20,7 @@ from rsibr.rsibr_addon.files.pictures import read_exr
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.host.display import displayed_colours
 from rsibr.rsibr_addon.host.scenes import temporary_scene
-from rsibr.rsibr_addon.settings.drawing import PreviewOptions
+from rsibr.rsibr_addon.settings.drawing import PreviewOptions, Turned
 from rsibr.rsibr_addon.tasks.preview import preview, turntable
 from rsibr.tests.mirror_capture import (
     BRIGHT_DIR,
@@ -167,6 +167,39 @@ def test_a_turntable_turns_once(tmp_path: Path, suffix: str, stored_bytes: Calla
             )
             expected, inside = mirrored_sphere(Camera(turned), 32)
             assert np.abs(frame[..., :3] - expected)[inside].mean() < 0.01
+
+
+def turn_of(tmp_path: Path, turned: Turned, **more: Any) -> list[np.ndarray]:
+    """Four frames of a turntable of a mirror."""
+    path = tmp_path / "mirror.rsibr.exr"
+    if not path.exists():
+        write_mirror_capture(path, size=32)
+    settings = PreviewOptions(view=VIEW, size=32, turntable=4, turned=turned, **more)
+    sheet, _ = drain(turntable(path, settings, tmp_path / "turn.exr", force=True))
+    return np.split(read_exr(sheet), 4, axis=1)
+
+
+def test_a_turntable_turns_the_light(tmp_path: Path) -> None:
+    camera = Camera(VIEW)
+    normals = sphere_map.normal_from_uv(texel_centres(32, 32)) @ camera.frame.T
+    seen = reflect(np.broadcast_to(camera.view_dir, normals.shape), normals)
+    _, inside = mirrored_sphere(camera, 32)
+    for number, frame in enumerate(turn_of(tmp_path, Turned.LIGHT)):
+        expected = radiance_from(seen @ turn_about_z(number * np.pi / 2.0))
+        assert np.abs(frame[..., :3] - expected)[inside].mean() < 0.01
+
+
+def test_a_turntable_turns_the_object(tmp_path: Path) -> None:
+    sphere = turn_of(tmp_path, Turned.OBJECT)
+    # The sphere's triangles turn: a few pixels of its rim
+    assert all(np.abs(frame - sphere[0]).mean() < 2e-3 for frame in sphere)
+    arrow = tmp_path / "arrow.obj"
+    arrow.write_text("v -1 -1 0\nv 1 -1 0.7\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n")
+    objects, eyes = (turn_of(tmp_path, turned, mesh=str(arrow)) for turned in (Turned.OBJECT, Turned.EYE))
+    # An object's turn one way looks as the eye's way around it does the other way
+    for number in range(4):
+        np.testing.assert_allclose(objects[number][..., 3], eyes[-number % 4][..., 3], atol=1e-6)
+    assert np.abs(objects[1][..., 3] - eyes[1][..., 3]).max() == 1.0
 
 
 def test_an_objs_picture_is_upright(tmp_path: Path) -> None:

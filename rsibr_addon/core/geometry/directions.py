@@ -145,6 +145,12 @@ def transformed_normal(matrix: ArrayLike, normal: ArrayLike) -> Array:
     return transformed
 
 
+def turn_about_z(angle: float) -> Array:
+    """The rotation about Z by an angle [rad], counter-clockwise seen from above, shape (3, 3)."""
+    cosine, sine = np.cos(angle), np.sin(angle)
+    return np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+
+
 def camera_frame(view_dir: ArrayLike) -> Array:
     """The axes of a camera that looks at the origin, upright.
 

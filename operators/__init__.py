@@ -11,6 +11,7 @@ from .bake_inputs import RSIBR_OT_bake_inputs
 from .cancel_bake import RSIBR_OT_cancel_bake
 from .capture_environment import RSIBR_OT_capture_environment
 from .compare import RSIBR_OT_compare
+from .convert_light import RSIBR_OT_convert_light
 from .drag_split import RSIBR_OT_drag_split
 from .fit_lobes import RSIBR_OT_fit_lobes
 from .lift_painting import RSIBR_OT_lift_painting
@@ -29,6 +30,7 @@ CLASSES: tuple[type, ...] = (
     RSIBR_OT_merge_brackets,
     RSIBR_OT_unwrap_ball,
     RSIBR_OT_assemble_faces,
+    RSIBR_OT_convert_light,
     RSIBR_OT_lift_painting,
     *bake_kinds.CLASSES,
     RSIBR_OT_fit_lobes,

@@ -71,7 +71,7 @@ def environment_from_pixels(pixels: Array, name: str, clamp: float | None = None
     if width != 2 * height or height < 1:
         raise InputFileError(
             f"{name} is {width}x{height}, but an environment is a latitude-longitude map, "
-            f"twice as wide as high: resize or convert it."
+            f"twice as wide as high: convert it, by rsibr convert or in the panel."
         )
     return Environment(usable_radiance(pixels, name, clamp), name, clamp)
 

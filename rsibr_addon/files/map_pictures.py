@@ -131,6 +131,50 @@ def layout(name: str, **parameters: float) -> Layout:
     return Layout(name, representation(name, **parameters))
 
 
+def fitting_layouts(path: Path, size: tuple[int, int]) -> tuple[str, ...]:
+    """The layouts that a picture may have, by its shape and the files beside it.
+
+    Parameters
+    ----------
+    path : Path
+        One of a map's files.
+    size : (int, int)
+        Its width and height.
+
+    Returns
+    -------
+    tuple of str
+        The likeliest first: one of `LIKELY` each.
+    """
+    return tuple(name for name in LIKELY if _may_be(layout(name), path, size))
+
+
+LIKELY = (
+    "equirect",
+    "cube_faces",
+    "dual_paraboloid",
+    "cube_cross",
+    "cube_strip",
+    "angular_map",
+    "mirror_ball",
+    "octahedral",
+    "sphere_map",
+)
+"""Layouts that light is found in, the likeliest first among those of one shape."""
+
+
+def _may_be(layout: Layout, path: Path, size: tuple[int, int]) -> bool:
+    width, height = size
+    if layout.grids:
+        return any(
+            width * grid.rows == height * grid.columns and width % grid.columns == 0 for grid in layout.grids
+        )
+    files = layout.paths(layout.whole(path))
+    if len(files) > 1 and not (path in files and all(file.exists() for file in files)):
+        return False
+    return _fits(layout, size)
+
+
 def read_map(path: Path, layout: Layout, read_picture: Callable[[Path], Array]) -> Array:
     """Read a map.
 
@@ -227,13 +271,18 @@ def check_map_target(path: Path, layout: Layout, force: bool = False) -> None:
         check_radiance_target(file, force)
 
 
-def _check_shape(path: Path, layout: Layout, size: tuple[int, ...]) -> None:
+def _fits(layout: Layout, size: tuple[int, ...]) -> bool:
+    """Whether a sheet may be so large."""
     width, height = size
     try:
-        fits = layout.representation.shape(width)[1] == height
+        return layout.representation.shape(width)[1] == height
     except RangeError:
-        fits = False
-    if not fits:
+        return False
+
+
+def _check_shape(path: Path, layout: Layout, size: tuple[int, ...]) -> None:
+    width, height = size
+    if not _fits(layout, size):
         shape = "square" if layout.representation.aspect == 1 else "twice as wide as high"
         raise InputFileError(
             f"{path} is {width}x{height}, but {layout.name} is {shape}: check the layout, or crop it."

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from ..core.errors import RangeError
-from ..core.options import option
+from ..core.options import Options, option
 from .environment import LARGEST, LAYOUTS
 from .light import Clamp
 from .photographs import BallDistance
@@ -13,12 +13,23 @@ PARAMETERS = {"overscan": "dual_paraboloid", "distance": "mirror_ball"}
 
 
 @dataclass(frozen=True, kw_only=True)
-class ConvertSettings(BallDistance, Clamp):
-    """The layouts of a map before and after."""
+class SourceLayout(Options):
+    """The layout of a map that is there."""
 
     source_layout: str = option(
-        label="From", help="Layout of IN", choices=LAYOUTS, flag="--from", metavar="LAYOUT"
+        label="From",
+        help="Layout of IN",
+        choices=LAYOUTS,
+        start="angular_map",
+        flag="--from",
+        metavar="LAYOUT",
     )
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConvertSettings(SourceLayout, BallDistance, Clamp):
+    """The layouts of a map before and after."""
+
     target_layout: str = option(
         label="To", help="Layout of OUT", choices=LAYOUTS, flag="--to", metavar="LAYOUT"
     )

@@ -7,7 +7,8 @@ import bpy
 
 from ..core.errors import RsibrError
 from ..host.bake_settings import chosen_environment
-from ..tasks.light.light_pictures import light_remarks
+from ..settings.environment import LAYOUTS
+from ..tasks.light.light_pictures import light_remarks, offered_layouts
 from .sentences import tell
 from .sidebar import InSidebar
 
@@ -33,8 +34,17 @@ def draw_light(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
                 layout.prop(chosen, "layer")
                 # The line above the button tells why it cannot be used
                 with suppress(RsibrError):
-                    for remark in light_remarks(Path(chosen_environment(chosen, context.scene) or "")):
+                    picture = Path(chosen_environment(chosen, context.scene) or "")
+                    for remark in light_remarks(picture):
                         tell(layout, remark, context.region.width)
+                    _offer_layouts(layout, picture)
+
+
+def _offer_layouts(layout: bpy.types.UILayout, picture: Path) -> None:
+    """Offer to convert a picture that is no latitude-longitude map."""
+    for name in offered_layouts(picture):
+        row = layout.operator("rsibr.convert_light", text=f"Convert from {LAYOUTS[name].label}")
+        row.filepath, row.source_layout, row.use, row.force = str(picture), name, True, True
 
 
 class RSIBR_MT_pictures(bpy.types.Menu):

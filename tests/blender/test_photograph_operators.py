@@ -8,10 +8,13 @@ import pytest
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.light.ball_circle import Circle
 from rsibr.rsibr_addon.core.light.ball_photograph import BallSide
-from rsibr.rsibr_addon.files.map_pictures import layout, write_map
+from rsibr.rsibr_addon.core.maps.representation import representation
+from rsibr.rsibr_addon.files.environments import read_environment
+from rsibr.rsibr_addon.files.map_pictures import LIKELY, layout, write_map
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
+from rsibr.rsibr_addon.tasks.light.light_pictures import light_remarks, offered_layouts
 from rsibr.tests.open_file import open_file_state
-from rsibr.tests.synthetic_ball import ball_photograph
+from rsibr.tests.synthetic_ball import ball_photograph, surroundings
 from rsibr.tests.written_pictures import write_png
 
 pytestmark = pytest.mark.usefixtures("registered")
@@ -149,6 +152,41 @@ def test_the_result_lies_beside_and_can_be_loaded_and_used(folder: Path) -> None
         assert (chosen.light, Path(bpy.path.abspath(chosen.picture))) == ("PICTURE", light)
     finally:
         bpy.data.images.remove(image)
+
+
+@pytest.mark.parametrize("name", LIKELY[1:])
+def test_a_picture_in_another_layout_is_offered_and_converted(folder: Path, name: str) -> None:
+    known = layout(name)
+    size = 128 if len(known.representation.sheets) == 1 else 64
+    directions = known.representation.texel_directions(size)
+    written = write_map(folder / "probe.exr", known, surroundings(directions))
+    assert name in offered_layouts(written[0])
+    given = {"filepath": str(written[0]), "source_layout": name, "use": True, "load_image": False}
+    assert bpy.ops.rsibr.convert_light(**given) == {"FINISHED"}
+    light = written[0].with_name(f"{written[0].stem}-from-{name.replace('_', '-')}.exr")
+    chosen = bpy.context.scene.rsibr_bake
+    assert (chosen.light, Path(bpy.path.abspath(chosen.picture))) == ("PICTURE", light)
+    assert offered_layouts(light) == () == light_remarks(light)
+    found = read_environment(light).radiance
+    assert found.shape[0] * found.shape[1] >= size**2 * len(written)
+    expected = surroundings(representation("equirect").texel_directions(found.shape[1])[0])
+    # A mirror ball shows what is behind it in ever fewer texels
+    error = np.abs(found - expected) / expected.max()
+    assert np.quantile(error, 0.9) < 0.02
+
+
+def test_what_is_offered_for_each_shape(folder: Path) -> None:
+    write_radiance(folder / "square.exr", np.ones((60, 60, 3)))
+    write_radiance(folder / "cross.exr", np.ones((40, 30, 3)))
+    write_radiance(folder / "odd.exr", np.ones((41, 30, 3)))
+    (folder / "photograph.jpg").write_bytes(b"JPEG")
+    disks = ("angular_map", "mirror_ball", "octahedral", "sphere_map")
+    assert offered_layouts(folder / "square.exr") == disks
+    assert offered_layouts(folder / "cross.exr") == ("cube_cross",)
+    for name in ("odd.exr", "photograph.jpg", "absent.exr"):
+        assert offered_layouts(folder / name) == ()
+    (remark,) = light_remarks(folder / "odd.exr")
+    assert remark == "odd.exr is 30x41, and an environment is twice as wide as high: convert it."
 
 
 def test_errors_are_reports(folder: Path) -> None:

@@ -48,7 +48,7 @@ def test_a_map_that_is_not_twice_as_wide_as_high_is_refused(height: int, width: 
         InputFileError, match=rf"^room\.exr is {width}x{height}, but .* twice as wide"
     ) as raised:
         environment_from_pixels(np.zeros((height, width, 3)), "room.exr")
-    assert "resize or convert" in str(raised.value)
+    assert "convert it, by rsibr convert or in the panel" in str(raised.value)
 
 
 def test_values_that_are_no_numbers_are_replaced_and_counted() -> None:

@@ -1,5 +1,6 @@
 """A map in another representation: from pictures to pictures."""
 
+import math
 from functools import partial
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from ...core.progress import Progress, Steps
 from ...core.resample import resample
 from ...files.map_pictures import check_map_target, layout, read_map, write_map
 from ...files.memory import check_memory
+from ...files.radiance_pictures import describe_radiance
 from ...settings.convert import ConvertSettings
 from .light_pictures import read_light
 
@@ -55,3 +57,23 @@ def convert(source: Path, settings: ConvertSettings, output: Path, force: bool =
     del image
     yield Progress(2, 3, f"writing {output.name}")
     return write_map(output, after, made, force)
+
+
+def made_environment(source: Path, layout_name: str, output: Path, force: bool = False) -> Steps[Path]:
+    """Convert a map of light to an environment of as many texels; see `convert` for what is raised.
+
+    Parameters
+    ----------
+    source : Path
+        One of the map's files: a picture of radiance.
+    layout_name : str
+        One of `settings.environment.LAYOUTS`.
+    """
+    before = layout(layout_name)
+    width, height = describe_radiance(source).size
+    texels = width * height * len(before.paths(before.whole(source)))
+    settings = ConvertSettings(
+        source_layout=layout_name, target_layout="equirect", size=2 * math.ceil(math.sqrt(texels / 2.0))
+    )
+    (made,) = yield from convert(before.whole(source), settings, output, force)
+    return made

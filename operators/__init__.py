@@ -8,6 +8,7 @@ from .assign import RSIBR_OT_assign
 from .bake_again import RSIBR_OT_bake_again
 from .bake_in_background import RSIBR_OT_bake
 from .bake_inputs import RSIBR_OT_bake_inputs
+from .bake_look import RSIBR_OT_bake_look
 from .cancel_bake import RSIBR_OT_cancel_bake
 from .capture_environment import RSIBR_OT_capture_environment
 from .compare import RSIBR_OT_compare
@@ -39,6 +40,7 @@ CLASSES: tuple[type, ...] = (
     RSIBR_OT_preview_scene,
     RSIBR_OT_bake_again,
     RSIBR_OT_bake_inputs,
+    RSIBR_OT_bake_look,
     RSIBR_OT_rebake,
     RSIBR_OT_cancel_bake,
     RSIBR_OT_assign,

@@ -47,6 +47,8 @@ class Materials:
         Texts to choose from.
     preset : str
         The preset that is chosen first.
+    parts : mapping of str to mapping
+        Preset -> name of another option -> the text that it has where it is not given.
     model : str
         The reflectance model that is chosen first; empty where models cannot be taken.
     spared : tuple of str
@@ -58,6 +60,7 @@ class Materials:
     own: str = ""
     presets: Mapping[str, Choice] = dataclasses.field(default_factory=dict)
     preset: str = ""
+    parts: Mapping[str, Mapping[str, str]] = dataclasses.field(default_factory=dict)
     model: str = ""
     instead: str = ""
     spared: tuple[str, ...] = ()

@@ -270,7 +270,8 @@ def plain_settings(group: bpy.types.PropertyGroup) -> dict[str, Any]:
     """
     settings: dict[str, Any] = {}
     for prop in group.bl_rna.properties:
-        if prop.identifier in bpy.types.PropertyGroup.bl_rna.properties:
+        # What is not saved shows what others say
+        if prop.is_skip_save or prop.identifier in bpy.types.PropertyGroup.bl_rna.properties:
             continue
         value = getattr(group, prop.identifier)
         if prop.type == "POINTER":

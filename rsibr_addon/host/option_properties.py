@@ -12,6 +12,7 @@ from ..core.errors import RangeError
 from ..core.options import Declared, Materials, Options, declared_options, value_from_text, value_text
 from ..files.measured_files import MEASURED_FORMATS, measured_spec
 from .bake_settings import existing
+from .model_properties import model_properties
 
 Given = TypeVar("Given", bound=Options)
 Update = Callable[[bpy.types.PropertyGroup, bpy.types.Context | None], None] | None
@@ -41,7 +42,8 @@ def properties_of(options: type[Options], update: Update = None, by_text: bool =
     Returns
     -------
     dict
-        Name -> property. An option that may be None and has a switch has a property `use_NAME` besides.
+        Name -> property. An option that may be None and has a switch has a property `use_NAME` besides; one
+        that names a model, those of `model_properties`.
     """
     found: dict[str, Any] = {}
     for declared in declared_options(options):
@@ -56,6 +58,8 @@ def properties_of(options: type[Options], update: Update = None, by_text: bool =
                 name=switch.label, description=switch.help, **common
             )
         found[property_name(declared)] = _property(declared, common, by_text)
+        if declared.option.models and not by_text:
+            found |= model_properties(options, declared, common)
     return found
 
 

@@ -36,6 +36,7 @@ class ReflectionTablesSettings(MethodSettings):
                 for name, parts in PRESETS.items()
             },
             preset=next(iter(PRESETS)),
+            parts=PRESETS,
         ),
     )
     diffuse: str | None = part_option("diffuse", _OF_PRESET)

@@ -8,6 +8,7 @@ from ..core.brdf.gallery import gallery_name
 from ..core.options import Declared, declared_options
 from ..files.kinds.registry import STORED
 from ..host.option_properties import property_name
+from .model_options import draw_model
 from .sentences import tell
 from .sidebar import InSidebar
 
@@ -89,4 +90,7 @@ def _draw_options(
     column.use_property_split = True
     column.use_property_decorate = False
     for each in options:
-        column.prop(chosen, property_name(each))
+        if each.option.models:
+            draw_model(column, chosen, each)
+        else:
+            column.prop(chosen, property_name(each))

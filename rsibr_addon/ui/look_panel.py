@@ -11,6 +11,7 @@ from ..host.option_properties import property_name, replaced_options, said_by
 from ..host.world_light import has_environment, holds_world, world_light
 from ..session.running import session
 from ..tasks.methods.kinds import KINDS
+from .model_options import draw_model
 from .sentences import SOLID, tell
 from .sidebar import InSidebar
 
@@ -116,13 +117,15 @@ def _show_look(layout: bpy.types.UILayout, item: bpy.types.Object, kind: str, ot
     replaced = replaced_options(look_types()[kind], group)
 
     def show(place: bpy.types.UILayout, each: Declared) -> None:
-        row = place.row()
-        row.active = each.name not in replaced
-        _show_option(row, group, each)
+        column = place.column()
+        column.active = each.name not in replaced
+        _show_option(column, group, each)
 
     for each in options:
         if not each.option.advanced:
             show(layout, each)
+    if any(each.option.models and getattr(group, each.name) for each in options):
+        layout.operator("rsibr.bake_look", icon="FILE_REFRESH")
     if more := [each for each in options if each.option.advanced]:
         header, opened = layout.panel(f"RSIBR_look_{kind}_{other}", default_closed=True)
         header.label(text="More")
@@ -132,7 +135,9 @@ def _show_look(layout: bpy.types.UILayout, item: bpy.types.Object, kind: str, ot
 
 def _show_option(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, declared: Declared) -> None:
     name = property_name(declared)
-    if declared.option.switch is not None:
+    if declared.option.models:
+        draw_model(layout, group, declared)
+    elif declared.option.switch is not None:
         row = layout.row(heading=declared.option.label)
         row.prop(group, f"use_{name}", text="")
         value = row.row()

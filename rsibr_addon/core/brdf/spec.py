@@ -169,7 +169,7 @@ def arguments_from_text(owner: type, text: str, read_measured: ReadMeasured) -> 
     RangeError, InputFileError
         See `brdf_from_spec`.
     """
-    values = _values(text)
+    values = key_values(text)
     hints = get_type_hints(owner)
     fields = dataclasses.fields(owner)
     keys = [key for field in fields for key in _keys(field.name, hints[field.name])]
@@ -194,6 +194,25 @@ def arguments_from_text(owner: type, text: str, read_measured: ReadMeasured) -> 
         else:
             arguments[field.name] = _number(owner, field.name, value)
     return arguments
+
+
+def key_values(text: str) -> dict[str, str]:
+    """The text of each value of ``key=value,key=value``.
+
+    Raises
+    ------
+    RangeError
+        It is no such text, or a key appears twice.
+    """
+    values: dict[str, str] = {}
+    for part in _split(text, ",") if text else ():
+        key, _, value = (piece.strip() for piece in part.partition("="))
+        if not key or not value:
+            raise RangeError(f'"{part.strip()}" is not of the form key=value.')
+        if key in values:
+            raise RangeError(f"{key} appears twice; give it once.")
+        values[key] = value
+    return values
 
 
 def _keys(field: str, kind: object) -> tuple[str, ...]:
@@ -244,19 +263,6 @@ def _taken(owner: type, key: str, kind: object) -> str:
         return A_MODEL
     limits, is_color = parameter_ranges(owner)[key]
     return f"{'one number, or three as red/green/blue,' if is_color else 'a number'} {limits}"
-
-
-def _values(text: str) -> dict[str, str]:
-    """Key -> text of its value."""
-    values: dict[str, str] = {}
-    for part in _split(text, ",") if text else ():
-        key, _, value = (piece.strip() for piece in part.partition("="))
-        if not key or not value:
-            raise RangeError(f'"{part.strip()}" is not of the form key=value.')
-        if key in values:
-            raise RangeError(f"{key} appears twice; give it once.")
-        values[key] = value
-    return values
 
 
 def _split(text: str, separator: str) -> list[str]:

@@ -9,6 +9,7 @@ from ...brdf.fresnel import Fresnel
 from ...brdf.model import Brdf
 from ...brdf.parameters import Checked, Color, Range
 from ...conventions import Array
+from ...curves import curve_points, on_curve
 from ...errors import RangeError
 
 
@@ -109,36 +110,6 @@ class ConstantReflectance(Checked):
     k: Annotated[Color, Range(0.0, 1.0)]
 
 
-def curve_points(text: str) -> Array:
-    """The points of a curve over the cosine between normal and view.
-
-    Parameters
-    ----------
-    text : str
-        ``cosine:value/cosine:value``, in the order of the cosines, which are in [0, 1]; values are 0 to 1e6.
-
-    Returns
-    -------
-    ndarray, shape (N, 2)
-
-    Raises
-    ------
-    RangeError
-        It is no such text.
-    """
-    try:
-        points = np.array([[float(number) for number in point.split(":")] for point in text.split("/")])
-        cosines, values = points.T
-    except ValueError:
-        raise RangeError(
-            f'a curve cannot be "{text}": write COSINE:VALUE/COSINE:VALUE, as in 0:1/0.5:0.3/1:0.04.'
-        ) from None
-    rising = np.all(np.diff(cosines) > 0.0)
-    if not (rising and 0.0 <= cosines[0] <= cosines[-1] <= 1.0 and np.all((values >= 0.0) & (values <= 1e6))):
-        raise RangeError("a curve's cosines must rise from 0 to 1 at most, its values be from 0 to 1e+06.")
-    return points
-
-
 @dataclass(frozen=True, kw_only=True)
 class Curves:
     """Wd and Ws of [Miller1984] section 7 as curves over the cosine, straight between points.
@@ -150,11 +121,12 @@ class Curves:
     """
 
     model: ClassVar[str] = "curve"
+    CURVES: ClassVar[tuple[str, ...]] = ("wd", "ws")
     wd: str = "0:1"
     ws: str = "0:1"
 
     def __post_init__(self) -> None:
-        for name in ("wd", "ws"):
+        for name in self.CURVES:
             try:
                 curve_points(getattr(self, name))
             except RangeError as error:
@@ -162,17 +134,11 @@ class Curves:
 
     def diffuse(self, cosine: Array) -> Array:
         """Wd, shape (N, 1), at cosines, shape (N,)."""
-        return _on_curve(self.wd, cosine)
+        return on_curve(self.wd, cosine)[:, None]
 
     def specular(self, cosine: Array) -> Array:
         """Ws, as `diffuse`."""
-        return _on_curve(self.ws, cosine)
-
-
-def _on_curve(text: str, cosine: Array) -> Array:
-    points = curve_points(text)
-    value: Array = np.interp(cosine, points[:, 0], points[:, 1])
-    return value[:, None]
+        return on_curve(self.ws, cosine)[:, None]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -3,7 +3,7 @@
 from typing import Any
 
 from ...options import option
-from .material import MODELS
+from .material import MODELS, Emission
 
 _TOLD = {
     "diffuse": ("Diffuse", "Light by the normal: lambert:kd=0.5/0.4/0.3 or luminous:kd=0.5"),
@@ -41,7 +41,6 @@ def part_option(part: str, none: str) -> Any:
         help=f"{help}; none for no such part",
         none=none,
         none_as="",
-        advanced=True,
         metavar="SPEC",
-        models=MODELS.get(part, ()),
+        models=MODELS.get(part, (Emission,)),
     )

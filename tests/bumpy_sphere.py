@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 import numpy as np
-from rsibr.rsibr_addon.core.antialiased.footprint import footprint_box, pixel_footprints
+from rsibr.rsibr_addon.core.antialiased.footprint import footprint_box, footprint_parts, pixel_footprints
 from rsibr.rsibr_addon.core.antialiased.quadrilateral import quadrilateral_mean
 from rsibr.rsibr_addon.core.antialiased.recursive import recursive_mean, table_entry
 from rsibr.rsibr_addon.core.antialiased.summed_area import box_mean, summed_area_table
@@ -36,14 +36,19 @@ def reflected_directions(across: np.ndarray, wrinkles: float, turn: float) -> np
     ndarray, shape (n, n, 3)
         Unit directions, row 0 at the bottom.
     """
+    normal = wrinkled_normals(across, wrinkles)
+    direction = reflect(np.broadcast_to(EYE, normal.shape), normal)
+    cosine, sine = np.cos(turn), np.sin(turn)
+    return direction @ np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+
+
+def wrinkled_normals(across: np.ndarray, wrinkles: float) -> np.ndarray:
+    """The ball's unit normals, as `reflected_directions` takes them."""
     x, z = np.meshgrid(*[HALF_FRAME / np.sqrt(2.0) * (2.0 * across - 1.0)] * 2)
     y = -np.sqrt(1.0 - x**2 - z**2)
     slope_x = np.cos(9.0 * x + 4.0 * z) + np.cos(5.0 * x - 11.0 * z + 1.0)
     slope_z = np.cos(12.0 * z + 2.0 * x + 2.0) + np.cos(7.0 * z - 8.0 * x)
-    normal = normalize(np.stack([x + wrinkles * slope_x, y, z + wrinkles * slope_z], axis=-1))
-    direction = reflect(np.broadcast_to(EYE, normal.shape), normal)
-    cosine, sine = np.cos(turn), np.sin(turn)
-    return direction @ np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+    return normalize(np.stack([x + wrinkles * slope_x, y, z + wrinkles * slope_z], axis=-1))
 
 
 def footprints(size: int, wrinkles: float, turn: float) -> tuple[np.ndarray, np.ndarray]:
@@ -83,7 +88,6 @@ def pictures(table: np.ndarray, size: int, wrinkles: float, turn: float) -> dict
     -------
     dict of str to ndarray, shape (size, size, channels)
     """
-    height, width = table.shape[:2]
 
     def lookup(direction: np.ndarray) -> np.ndarray:
         columns, rows = table_entry(table, direction)
@@ -95,8 +99,17 @@ def pictures(table: np.ndarray, size: int, wrinkles: float, turn: float) -> dict
         "point": lookup(middle),
         "recursive": recursive_mean(table, corners),
         "quadrilateral": quadrilateral_mean(table, corners),
-        "summed_area": box_mean(summed_area_table(table), footprint_box(corners, width, height)),
+        "summed_area": summed_area_mean(table, corners),
     }
+
+
+def summed_area_mean(table: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """As `summed_area.footprint_mean`, but with boxes where pixels are small, too."""
+    height, width = table.shape[:2]
+    summed, mean = summed_area_table(table), np.zeros((*corners.shape[:-2], table.shape[-1]))
+    for chosen, part, weight in footprint_parts(corners, height):
+        mean[chosen] += weight * box_mean(summed, footprint_box(part, width, height))
+    return mean
 
 
 def energy(frames: list[dict[str, np.ndarray]], way: str) -> np.ndarray:

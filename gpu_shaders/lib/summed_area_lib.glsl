@@ -4,7 +4,9 @@
 // next and the highest, as whole numbers. Sums and differences of four such numbers are whole and below
 // 2^24, so single precision holds them exactly, in whatever order a compiler takes them.
 #include "lib/equirect_lib.glsl"
+#include "lib/footprint_lib.glsl"
 
+const float PART_ROWS = 2.0;
 const float DIGIT = 2097152.0;  // 2^21
 
 // u and v of the box's lower left and upper right corners; u of the right one may lie beyond the seam.
@@ -46,6 +48,12 @@ void cut(float low, float high, int last_edge, out ivec4 edges, out vec3 weights
   bool several = last > first;
   edges = min(ivec4(first, first + 1.0, last, last + 1.0), last_edge);
   weights = vec3(min(high, first + 1.0) - low, several ? 1.0 : 0.0, several ? high - last : 0.0);
+}
+
+// A direction within a footprint, from 0 to 1 along its sides.
+vec3 within(vec3 corners[4], vec2 place)
+{
+  return mix(mix(corners[0], corners[1], place.x), mix(corners[3], corners[2], place.x), place.y);
 }
 
 // One digit of a sum below and left of a texel's corner, columns counted on into a second turn.
@@ -96,8 +104,8 @@ vec3 box_mean(sampler2DArray table, vec3 unit, vec4 box)
   return power * unit / (turn * dot(row_weights, bands));
 }
 
-// Mean radiance over a footprint. Of less than a texel, the map interpolated in the footprint's middle: the
-// same except for the solid angles of the rows, in a quarter of the time.
+// Mean radiance over a footprint, of whose parts each has a box. Of less than a texel, the map interpolated in
+// the footprint's middle: the same except for the solid angles of the rows, in a quarter of the time.
 vec3 footprint_mean(
     sampler2D bordered, sampler2DArray table, vec3 unit, vec3 direction, vec3 corners[4])
 {
@@ -107,5 +115,18 @@ vec3 footprint_mean(
   if (max(extent.x, extent.y) < 1.001) {
     return equirect_radiance(bordered, direction);
   }
-  return box_mean(table, unit, box);
+  vec3 across = 0.5 * (corners[1] - corners[0] + corners[2] - corners[3]);
+  vec3 up = 0.5 * (corners[3] - corners[0] + corners[2] - corners[1]);
+  ivec2 counts = sample_counts(across, up, PART_ROWS * PI / size.y);
+  vec3 sum = vec3(0.0);
+  for (int number = 0; number < counts.x * counts.y; number++) {
+    vec2 low = vec2(number % counts.x, number / counts.x) / vec2(counts);
+    vec2 high = low + 1.0 / vec2(counts);
+    vec3 part[4] = vec3[4](within(corners, low),
+                           within(corners, vec2(high.x, low.y)),
+                           within(corners, high),
+                           within(corners, vec2(low.x, high.y)));
+    sum += box_mean(table, unit, footprint_box(part, size));
+  }
+  return sum / float(counts.x * counts.y);
 }

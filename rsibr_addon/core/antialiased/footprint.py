@@ -1,9 +1,16 @@
 """The footprint of a pixel on the sphere of directions: from a picture's grid, and its box on a table."""
 
+from collections.abc import Iterator
+
 import numpy as np
+from numpy.typing import NDArray
 
 from ..conventions import Array, ArrayLike
 from ..maps import equirect
+from .sampling import sample_counts
+
+PART_ROWS = 2.0
+"""Rows of a table that a part of a footprint is high or wide, at least."""
 
 
 def pixel_footprints(directions: ArrayLike) -> Array:
@@ -122,6 +129,50 @@ def footprint_box(corners: ArrayLike, width: int, height: int) -> Array:
     low_v, high_v = _grown(low_v, high_v, 1.0 / height)
     turn = np.floor(low_u)
     return np.stack([low_u - turn, np.maximum(low_v, 0.0), high_u - turn, np.minimum(high_v, 1.0)], axis=-1)
+
+
+def footprint_parts(corners: Array, height: int) -> Iterator[tuple[NDArray[np.bool], Array, Array]]:
+    """Parts of footprints, whose boxes hold less that is no part of the footprint.
+
+    Parameters
+    ----------
+    corners : ndarray, shape (..., 4, 3)
+        Directions of lengths near 1, in order around the pixel.
+    height : int
+        Of the table, in texels.
+
+    Yields
+    ------
+    chosen : ndarray of bool, shape (...,)
+        The footprints that have a further part.
+    part : ndarray, shape (n, 4, 3)
+        The corners of that part.
+    weight : ndarray, shape (n, 1)
+        One over the number of a footprint's parts.
+
+    Notes
+    -----
+    A pixel's area is parted evenly: along each side into as many as leave two rows to each, but `MOST` at
+    most. GLSL twin: gpu_shaders/lib/summed_area_lib.glsl `footprint_mean`.
+    """
+    counts = sample_counts(*footprint_sides(corners), PART_ROWS * np.pi / height)
+    number_of = np.prod(counts, axis=-1)
+    for number in range(int(number_of.max(initial=0))):
+        chosen = number < number_of
+        row, column = np.divmod(number, counts[chosen][..., 0])
+        low = np.stack([column, row], axis=-1) / counts[chosen]
+        high = low + 1.0 / counts[chosen]
+        places = ((low, low), (high, low), (high, high), (low, high))
+        part = np.stack([_within(corners[chosen], x[..., :1], y[..., 1:]) for x, y in places], axis=-2)
+        yield chosen, part, 1.0 / number_of[chosen][:, None]
+
+
+def _within(corners: Array, across: Array, up: Array) -> Array:
+    """Directions within footprints, from 0 to 1 along their sides, shape (n, 3)."""
+    lower = corners[:, 0] + across * (corners[:, 1] - corners[:, 0])
+    upper = corners[:, 3] + across * (corners[:, 2] - corners[:, 3])
+    within: Array = lower + up * (upper - lower)
+    return within
 
 
 def _grown(low: Array, high: Array, least: float) -> tuple[Array, Array]:

@@ -15,7 +15,7 @@ from ..conventions import Array, ArrayLike, Indices
 from ..errors import RangeError
 from ..maps import equirect
 from ..resample import bilinear
-from .footprint import footprint_box
+from .footprint import footprint_box, footprint_parts
 
 TOTAL_BITS = 61
 """A table's total is about 2**61 of its units: two turns around it still fit a signed 64-bit integer."""
@@ -130,8 +130,9 @@ def footprint_mean(image: Array, direction: ArrayLike, corners: ArrayLike) -> Ar
     Returns
     -------
     ndarray, shape (..., channels), float64
-        Mean over the box that holds a footprint. For boxes no larger than a texel, radiance interpolated in
-        the middle, which is the same except for the solid angles of the rows.
+        Mean over the boxes that hold parts of a footprint, see `footprint.footprint_parts`. For boxes no
+        larger than a texel, radiance interpolated in the middle, which is the same except for the solid
+        angles of the rows.
 
     Raises
     ------
@@ -148,7 +149,11 @@ def footprint_mean(image: Array, direction: ArrayLike, corners: ArrayLike) -> Ar
     extent = (box[..., 2:] - box[..., :2]) * (width, height)
     small = np.all(extent < SMALL, axis=-1)
     mean = bilinear(image, equirect.uv_from_direction(direction), equirect.wrap)
-    mean[~small] = box_mean(summed_area_table(image), box[~small])
+    table, corners = summed_area_table(image), np.asarray(corners)[~small]
+    means = np.zeros((len(corners), image.shape[-1]))
+    for chosen, part, weight in footprint_parts(corners, height):
+        means[chosen] += weight * box_mean(table, footprint_box(part, width, height))
+    mean[~small] = means
     return mean
 
 

@@ -20,13 +20,13 @@ from material_studio import Light, draw, framed, start
 from rsibr.rsibr_addon.core.conventions import Array
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import bake_pyramid
 from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.core.threads import AtOnce
 from rsibr.rsibr_addon.host.map_sets import use_map_set
 from rsibr.rsibr_addon.host.visible_surfaces import View
 from rsibr.rsibr_addon.settings.kernel_pyramid import KernelPyramidSettings
 from rsibr.rsibr_addon.tasks.light.environments import load_environment
 from rsibr.rsibr_addon.tasks.methods.live_materials import LiveFits
 from rsibr.rsibr_addon.tasks.viewport.previews import Previews
-from rsibr.tests.at_once import AtOnce
 
 RSIBR = Path(sys.executable).with_name("rsibr")
 STACK = ["bake", "--environment", "forest", "--brdf", "ggx:alpha=0.3,metal=copper", "--lobes", "3"]

@@ -20,6 +20,7 @@ from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import bake_pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import Pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import Families
 from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.core.threads import AtOnce
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.kinds.kernel_pyramid import GpuPyramid
@@ -35,7 +36,6 @@ from rsibr.rsibr_addon.host.worlds import light_with
 from rsibr.rsibr_addon.settings.kernel_pyramid import KernelPyramidSettings
 from rsibr.rsibr_addon.tasks.methods.live_materials import LiveFits
 from rsibr.rsibr_addon.tasks.viewport.previews import Previews
-from rsibr.tests.at_once import AtOnce
 from split_family import split_families
 
 CAMERA = Camera((0.3, -1.0, 0.25))

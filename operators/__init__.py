@@ -9,6 +9,7 @@ from .bake_again import RSIBR_OT_bake_again
 from .bake_in_background import RSIBR_OT_bake
 from .bake_inputs import RSIBR_OT_bake_inputs
 from .bake_look import RSIBR_OT_bake_look
+from .bake_world import RSIBR_OT_bake_world
 from .cancel_bake import RSIBR_OT_cancel_bake
 from .capture_environment import RSIBR_OT_capture_environment
 from .compare import RSIBR_OT_compare
@@ -41,6 +42,7 @@ CLASSES: tuple[type, ...] = (
     RSIBR_OT_bake_again,
     RSIBR_OT_bake_inputs,
     RSIBR_OT_bake_look,
+    RSIBR_OT_bake_world,
     RSIBR_OT_rebake,
     RSIBR_OT_cancel_bake,
     RSIBR_OT_assign,

@@ -18,7 +18,14 @@ def register() -> None:
     from .host.map_sets import unpacked
     from .host.overrides import complete_overrides
     from .session.running import begun_session
-    from .ui import bake_properties, export_menu, result_properties, viewport_handlers
+    from .ui import (
+        bake_properties,
+        export_menu,
+        render_engine,
+        render_panel,
+        result_properties,
+        viewport_handlers,
+    )
 
     with ExitStack() as undo:
         undo.enter_context(begun_session(has_windows=not bpy.app.background))
@@ -27,6 +34,7 @@ def register() -> None:
             bpy.utils.register_class(cls)
             undo.callback(bpy.utils.unregister_class, cls)
         pointers = properties.POINTERS | bake_properties.POINTERS | result_properties.POINTERS
+        pointers = pointers | render_panel.POINTERS
         for name, (owner, group) in pointers.items():
             pointer = bpy.props.PointerProperty(type=group, override=properties.OVERRIDABLE)
             setattr(owner, name, pointer)
@@ -34,6 +42,8 @@ def register() -> None:
         add_handlers(dict.fromkeys(("load_post", "blend_import_post", "save_pre"), complete_overrides), undo)
         undo.callback(unpacked.remove)
         viewport_handlers.start(undo)
+        render_engine.start(undo)
+        render_panel.start(undo)
         export_menu.start(undo)
         keep_fresh.start(undo)
         undo.callback(background.stop)

@@ -15,6 +15,7 @@ from .parser import Parser
 COMMANDS = {
     "bake": "Make a map set: filter, capture or tabulate an environment.",
     "preview": "Draw a mesh shaded from a map set, once or as a turntable.",
+    "render": "Render frames of a Blender file as viewports show them, by the engine RSIBR.",
     "compare": "Measure how far previews are from what Cycles renders, or from a BRDF's exact reflection.",
     "info": "Tell what a map set is, or what would be used of a picture, without Blender.",
     "convert": "Lay a map of light out in another representation.",

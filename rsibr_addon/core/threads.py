@@ -4,9 +4,9 @@ import errno
 import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import contextmanager
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from .errors import RangeError
 
@@ -109,3 +109,16 @@ def in_order(function: Callable[[Item], Result], items: Iterable[Item]) -> Itera
                 yield ahead.popleft().result()
         while ahead:
             yield ahead.popleft().result()
+
+
+class AtOnce(Executor):
+    """Does work when it is given, where nobody need be kept from waiting."""
+
+    def submit(self, function: Callable[..., Result], /, *given: Any, **named: Any) -> Future[Result]:
+        """Do it."""
+        done = Future[Result]()
+        try:
+            done.set_result(function(*given, **named))
+        except Exception as error:
+            done.set_exception(error)
+        return done

@@ -19,6 +19,11 @@ def warn(sentence: str) -> None:
         kept.append(sentence)
 
 
+def is_recorded() -> bool:
+    """Whether somebody listens to the warnings of this thread."""
+    return _listening.get() is not None
+
+
 @contextmanager
 def recorded_warnings() -> Iterator[list[str]]:
     """Within, the warnings of this thread are kept in the list, and other threads' are not."""

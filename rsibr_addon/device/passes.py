@@ -29,9 +29,22 @@ def screen_interface() -> gpu.types.GPUShaderCreateInfo:
 @contextmanager
 def plain_state() -> Iterator[None]:
     """Within, drawing replaces the target's content, whatever state Blender had set."""
+    with blended("NONE"):
+        yield
+
+
+@contextmanager
+def blended(blending: str) -> Iterator[None]:
+    """Within, all that is drawn is blended with the target's content, whatever lies in front there.
+
+    Parameters
+    ----------
+    blending : str
+        As `gpu.state.blend_set` takes it.
+    """
     depth_test, blend = gpu.state.depth_test_get(), gpu.state.blend_get()
     gpu.state.depth_test_set("NONE")
-    gpu.state.blend_set("NONE")
+    gpu.state.blend_set(blending)
     try:
         yield
     finally:

@@ -26,7 +26,7 @@ _FONT, _LETTERS = 0, 12.0
 
 @dataclass(frozen=True)
 class Sight:
-    """The view that Blender is drawing.
+    """A view that is drawn.
 
     Attributes
     ----------
@@ -38,6 +38,13 @@ class Sight:
     view: Array
     projection: Array
     eye: Array
+
+    @classmethod
+    def by(cls, view: Array, projection: Array) -> "Sight":
+        """That of matrices."""
+        pose = np.linalg.inv(view)
+        # The camera's origin, or the direction from which a parallel projection's rays come
+        return cls(view, projection, pose[:, 3] if projection[3, 3] == 0.0 else pose[:, 2])
 
     def on(self, model: Array, turn: Array, strength: float = 1.0) -> Draw:
         """A mesh in this view.
@@ -56,10 +63,7 @@ class Sight:
 def current_sight() -> Sight:
     """The view that Blender is drawing now."""
     view, projection = gpu.matrix.get_model_view_matrix(), gpu.matrix.get_projection_matrix()
-    pose = view.inverted()
-    # The camera's origin, or the direction from which a parallel projection's rays come
-    eye = pose.col[3] if projection[3][3] == 0.0 else pose.col[2]
-    return Sight(np.array(view), np.array(projection), np.array(eye))
+    return Sight.by(np.array(view), np.array(projection))
 
 
 def draw_occluder(mesh: GpuMesh, draw: Draw) -> None:
@@ -164,6 +168,16 @@ class Stage:
         shader.uniform_sampler("others", compared.radiance)
         with _depth_test("LESS_EQUAL" if among_others else "ALWAYS", "ALPHA"):
             self._screen.draw(shader)
+
+    def depths(self) -> Array:
+        """The window's depths of what was drawn last, at the active frame buffer's pixels; 1 for nothing.
+
+        Returns
+        -------
+        ndarray, shape (height, width), float32
+        """
+        x, y, width, height = gpu.state.active_framebuffer_get().viewport_get()
+        return np.array(self._target.read_depth(x, y, width, height), np.float32)
 
     def _fit(self, width: int, height: int) -> None:
         """Grow for a viewport that is larger than those before."""

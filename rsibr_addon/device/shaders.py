@@ -6,6 +6,7 @@ Each raises a DeviceError where the driver refuses the program.
 import atexit
 from collections.abc import Callable, Mapping
 from functools import cache
+from threading import current_thread, main_thread
 
 import gpu
 
@@ -20,11 +21,13 @@ _DESTINATION_BLOCK = "struct Destination { vec4 view_dir; };"
 def kept_until_exit(build: Callable[[], gpu.types.GPUShader]) -> Callable[[], gpu.types.GPUShader]:
     """Build a program on first use, and free it before Blender's graphics end.
 
-    A program that is freed after them ends the process with a segmentation fault.
+    A program that is freed after them ends the process with a segmentation fault. The values that are set of
+    one belong to all threads, so renders, which have a thread of their own in a window, have programs of
+    their own.
     """
-    cached = cache(build)
+    cached = cache(lambda of_render: build())
     _kept.append(cached.cache_clear)
-    return cached
+    return lambda: cached(current_thread() is not main_thread())
 
 
 _kept: list[Callable[[], None]] = []

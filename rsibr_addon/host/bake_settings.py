@@ -33,6 +33,12 @@ class LightSettings(Settings, Protocol):
     layer: str
 
 
+def enable_extension() -> None:
+    """Have Blender know our properties and our render engine, where nobody has enabled the extension."""
+    if not hasattr(bpy.types.Scene, "rsibr_render"):
+        bpy.ops.preferences.addon_enable(module=EXTENSION)
+
+
 def chosen_picture(settings: LightSettings) -> str:
     """The light's picture as Blender writes paths, FILE.exr:LAYER if a layer is named; empty for none."""
     path = chosen_path(settings)

@@ -10,6 +10,7 @@ from ..core.errors import RenderError
 from ..core.threads import limited, thread_count
 from ..files.exr import read_parts
 from ..files.temporary import temporary_folder
+from .visible_surfaces import RENDER_ENGINE
 
 AXES = "RGBAXYZ"
 """Order of the channels of a pass."""
@@ -55,7 +56,8 @@ def render_to(scene: bpy.types.Scene, path: Path) -> None:
         with bpy.context.temp_override(scene=scene):
             bpy.ops.render.render(write_still=True)
     except RuntimeError as error:
-        raise RenderError(f"Blender cannot render: {str(error).strip()}.") from error
+        told = str(error).strip().removeprefix("Error: ").rstrip(".")
+        raise RenderError(f"Blender cannot render: {told}.") from error
     if not path.exists():
         raise RenderError("Blender's render was cancelled, or another one is going on: try again.")
 
@@ -92,3 +94,36 @@ def render_passes(scene: bpy.types.Scene) -> dict[str, Array]:
         of_pass: np.stack([pixels[axis] for axis in sorted(pixels, key=AXES.index)], axis=-1)
         for of_pass, pixels in channels.items()
     }
+
+
+def render_frame(
+    scene: bpy.types.Scene, number: int, picture_format: str, path: Path, samples: int | None
+) -> None:
+    """Render a frame of a scene by our engine, into a file of a format of Blender's.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        Its settings are changed, and the open file is at this frame afterwards.
+    number : int
+    picture_format : {"OPEN_EXR", "PNG"}
+        EXR has 32-bit floats.
+    path : Path
+        Does not exist yet.
+    samples : int or None
+        None for the scene's.
+
+    Raises
+    ------
+    RenderError
+        See `render_to`.
+    """
+    scene.render.engine = RENDER_ENGINE
+    if samples is not None:
+        scene.rsibr_render.samples = samples
+    image = scene.render.image_settings
+    image.media_type, image.file_format = "IMAGE", picture_format
+    image.color_mode = "RGBA" if scene.render.film_transparent else "RGB"
+    image.color_depth = "32" if picture_format == "OPEN_EXR" else "8"
+    scene.frame_set(number)
+    render_to(scene, path)

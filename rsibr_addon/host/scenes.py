@@ -106,3 +106,10 @@ def _resting_handlers() -> Iterator[None]:
     finally:
         for functions, rested in zip(handlers, resting, strict=True):
             functions[:] = rested
+
+
+@contextlib.contextmanager
+def worked_in(scene: bpy.types.Scene) -> Iterator[None]:
+    """Within, a scene is the one that the artist works in."""
+    with bpy.context.temp_override(scene=scene):
+        yield

@@ -12,7 +12,10 @@ from .map_sets import planned_path
 from .world_light import AS_IT_IS, WorldLight, follows_world, world_light
 
 UNSHADED = ("WIRE", "BOUNDS")
-"""Ways to display an object without its surface."""
+"""Ways to display an object without its surface, in viewports."""
+
+RENDER_ENGINE = "RSIBR"
+"""Blender's name of our render engine."""
 
 Layer = tuple[int, str]
 """A view layer: its scene, and its name."""
@@ -25,8 +28,8 @@ class Surface:
     Attributes
     ----------
     item : bpy.types.Object
-        The surface's object: the artist's own, not its evaluated copy. It may be deleted before the scene is
-        looked at anew, and then it has no properties any more.
+        The surface's object: the artist's own, not its evaluated copy, but in a render. It may be deleted
+        before the scene is looked at anew, and then it has no properties any more.
     number : int
         The object's `session_uid`.
     shown_by : bpy.types.Object
@@ -36,7 +39,9 @@ class Surface:
     matrix : ndarray, shape (4, 4)
         World from object coordinates.
     path : str
-        See `map_set_of`.
+        The file that shades it, see `map_set_of`; empty for none.
+    in_world : bool
+        Whether that is the world's own, as the object has none.
     """
 
     item: bpy.types.Object
@@ -45,6 +50,7 @@ class Surface:
     mesh: int
     matrix: Array
     path: str
+    in_world: bool = False
 
 
 @dataclass(frozen=True)
@@ -95,6 +101,20 @@ class View:
         return bool(self.space.shading.type != "WIREFRAME")
 
     @property
+    def shades_all(self) -> bool:
+        """Whether objects without a map set are shaded too, from the world's."""
+        return bool(self.space.shading.type == "RENDERED" and self.scene.render.engine == RENDER_ENGINE)
+
+    @property
+    def content(self) -> tuple[Layer, bool]:
+        """Equal for views that show the same surfaces, and shade the same of them."""
+        return self.layer, self.shades_all
+
+    def shows(self, surface: Surface) -> bool:
+        """Whether a surface is not hidden."""
+        return bool(surface.shown_by.visible_in_viewport_get(self.space))
+
+    @property
     def has_depth(self) -> bool:
         """Whether Blender leaves its surfaces' depths for later drawing."""
         return bool(self.space.shading.type == "SOLID" or self.space.overlay.show_overlays)
@@ -127,10 +147,15 @@ class View:
         """Tells viewports apart."""
         return int(bpy.context.region.as_pointer())
 
-    def lights_of(self, items: Iterable[bpy.types.Object]) -> list[WorldLight]:
-        """The world's turn and strength for objects' map sets; none for those that do not follow it."""
-        of_world = world_light(self.scene.world) or AS_IT_IS
-        return [of_world if follows_world(item) else AS_IT_IS for item in items]
+    @property
+    def world_light(self) -> WorldLight:
+        """The world's turn and strength, as far as its map set does not hold them."""
+        return world_light(self.scene.world) or AS_IT_IS
+
+    def lights_of(self, surfaces: Iterable[Surface]) -> list[WorldLight]:
+        """The world's turn and strength for surfaces' map sets; none for those that do not follow it."""
+        of_world = self.world_light
+        return [of_world if each.in_world or follows_world(each.item) else AS_IT_IS for each in surfaces]
 
 
 def current_view() -> View:
@@ -189,11 +214,15 @@ def surfaces(depsgraph: bpy.types.Depsgraph) -> Iterator[tuple[Surface, bpy.type
     Curves, texts, metaballs and results of geometry nodes are included: Blender lists an instance of type
     mesh for each.
     """
+    rendered = depsgraph.mode == "RENDER"
     for instance in depsgraph.object_instances:
         evaluated = instance.object
-        if evaluated.type != "MESH" or not instance.show_self or evaluated.display_type in UNSHADED:
+        bare = evaluated.display_type in UNSHADED and not rendered
+        if evaluated.type != "MESH" or not instance.show_self or bare:
             continue
         item = evaluated.original
         shown_by = instance.parent.original if instance.is_instance else item
+        if rendered:  # A render sets no key's value but in its own copies
+            item = item.evaluated_get(depsgraph)
         mesh, matrix = evaluated.data.session_uid, np.array(instance.matrix_world)
         yield Surface(item, item.session_uid, shown_by, mesh, matrix, map_set_of(item)), evaluated

@@ -9,6 +9,7 @@ from ..tasks.methods.live_materials import LiveFits
 from ..tasks.queue.background import BakeQueue
 from ..tasks.queue.bake_request import ObjectBake
 from ..tasks.queue.freshness import Freshness
+from ..tasks.render.renders import Renders
 from ..tasks.viewport.previews import Previews
 from .map_pictures import MapPictures
 from .material_notes import MaterialNotes
@@ -33,6 +34,8 @@ class Session:
         Makes what viewports request.
     previews : Previews
         In viewports.
+    renders : Renders
+        What renders keep from frame to frame.
     map_pictures : MapPictures
         In panels.
     material_notes : MaterialNotes
@@ -52,6 +55,8 @@ class Session:
             undo.callback(self._reader.shutdown, cancel_futures=True)
             self.previews = Previews(LiveFits(self.worker), self._reader)
             undo.callback(self.previews.release)
+            self.renders = Renders()
+            undo.callback(self.renders.release)
             self.map_pictures = MapPictures(has_windows)
             undo.callback(self.map_pictures.close)
             self._undo = undo.pop_all()

@@ -9,6 +9,8 @@ from .map_set_panel import RSIBR_PT_map_set
 from .models import RSIBR_MT_live_models, RSIBR_MT_models
 from .preferences import INPUTS_GROUP, RSIBR_AP_preferences
 from .preview_panel import RSIBR_PT_preview
+from .render_engine import RSIBR_RE_previews
+from .render_panel import RENDER_GROUP, RSIBR_PT_film, RSIBR_PT_passes, RSIBR_PT_render
 from .result_panel import RSIBR_PT_result, RSIBR_PT_result_lobes, RSIBR_PT_result_maps
 
 CLASSES: tuple[type, ...] = (
@@ -29,5 +31,10 @@ CLASSES: tuple[type, ...] = (
     RSIBR_PT_result,
     RSIBR_PT_result_maps,
     RSIBR_PT_result_lobes,
+    RENDER_GROUP,
+    RSIBR_RE_previews,
+    RSIBR_PT_render,
+    RSIBR_PT_film,
+    RSIBR_PT_passes,
 )
 """Every class, in the order of registration, which is that of the panels."""

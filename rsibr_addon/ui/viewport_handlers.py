@@ -12,7 +12,7 @@ from ..device.shaders import release_programs
 from ..host.handlers import add_handlers
 from ..host.materials import materials_changed
 from ..host.sidebars import redraw_viewports
-from ..host.visible_surfaces import current_view, shown_layers
+from ..host.visible_surfaces import RENDER_ENGINE, current_view, shown_layers
 from ..session.running import Session, session
 
 Given = ParamSpec("Given")
@@ -67,6 +67,8 @@ def _draw(running: Session) -> None:
         bpy.app.timers.register(_add_displays, first_interval=0.0)
     if _is_busy(running) and not bpy.app.timers.is_registered(_show_news):
         bpy.app.timers.register(_show_news, first_interval=NEWS_SECONDS)
+    if running.previews.worlds.is_unasked and not bpy.app.timers.is_registered(_ask_for_world):
+        bpy.app.timers.register(_ask_for_world, first_interval=0.0)
     if running.previews.inputs.is_unasked and not bpy.app.timers.is_registered(_ask_for_inputs):
         bpy.app.timers.register(_ask_for_inputs, first_interval=0.0)
 
@@ -110,10 +112,20 @@ def _ask_for_inputs(running: Session) -> None:
         redraw_viewports()
 
 
-def _ask_soon() -> None:
-    if bpy.app.timers.is_registered(_ask_for_inputs):
-        bpy.app.timers.unregister(_ask_for_inputs)
-    bpy.app.timers.register(_ask_for_inputs, first_interval=REST_SECONDS)
+@_guarded
+def _ask_for_world(running: Session) -> None:
+    """After edits have rested: have the world baked that is shown as it was before."""
+    running.previews.worlds.is_unasked = False
+    for window in shown_layers().values():
+        if window.scene.render.engine == RENDER_ENGINE and window.scene.world:
+            with bpy.context.temp_override(window=window):
+                bpy.ops.rsibr.bake_world()
+
+
+def _ask_soon(asks: Callable[[], None]) -> None:
+    if bpy.app.timers.is_registered(asks):
+        bpy.app.timers.unregister(asks)
+    bpy.app.timers.register(asks, first_interval=REST_SECONDS)
 
 
 @_guarded
@@ -128,9 +140,8 @@ def _add_displays(running: Session) -> float | None:
 
 
 def _stop_timers() -> None:
-    for timer in filter(
-        bpy.app.timers.is_registered, (_add_displays, _draw_again, _show_news, _ask_for_inputs)
-    ):
+    timers = _add_displays, _draw_again, _show_news, _ask_for_inputs, _ask_for_world
+    for timer in filter(bpy.app.timers.is_registered, timers):
         bpy.app.timers.unregister(timer)
 
 
@@ -140,7 +151,9 @@ def _scene_changed(running: Session, scene: bpy.types.Scene, depsgraph: bpy.type
     if depsgraph.mode == "VIEWPORT":  # A render evaluates scenes too, in a thread of its own.
         running.previews.scene_changed(materials_changed(depsgraph))
         if running.previews.has_baked_inputs:
-            _ask_soon()
+            _ask_soon(_ask_for_inputs)
+        if bpy.app.timers.is_registered(_ask_for_world):
+            _ask_soon(_ask_for_world)
 
 
 @persistent

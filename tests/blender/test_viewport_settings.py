@@ -153,6 +153,7 @@ def test_the_world_is_read_once_for_all_objects_of_a_frame(monkeypatch: pytest.M
     other = bpy.data.objects["Cube"].copy()
     other.rsibr.follow_world = False
     view = visible_surfaces.View(scene, visible_surfaces.layer_of(bpy.context), None, None)
-    lights = view.lights_of([bpy.data.objects["Cube"]] * 2 + [other])
+    items = [bpy.data.objects["Cube"]] * 2 + [other]
+    lights = view.lights_of([visible_surfaces.Surface(each, 0, each, 0, np.eye(4), "set") for each in items])
     assert [each.strength for each in lights] == [2.0, 2.0, 1.0]
     assert read == [scene.world]

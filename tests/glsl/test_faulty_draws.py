@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 from mathutils import Matrix
 from rsibr.rsibr_addon import host
+from rsibr.rsibr_addon.core.threads import AtOnce
 from rsibr.rsibr_addon.device.shaders import release_programs
 from rsibr.rsibr_addon.files.map_set import MapSet, write_map_set
 from rsibr.rsibr_addon.host.map_sets import use_map_set
@@ -26,7 +27,6 @@ from rsibr.rsibr_addon.tasks.methods.live_materials import LiveFits
 from rsibr.rsibr_addon.tasks.viewport import live_light
 from rsibr.rsibr_addon.tasks.viewport.previews import Previews
 from rsibr.rsibr_addon.ui import viewport_handlers as ui
-from rsibr.tests.at_once import AtOnce
 from rsibr.tests.faults.small_map_sets import map_sets
 
 STRIDE = 1 if "RSIBR_MOMENTS" in os.environ else 5

@@ -13,6 +13,7 @@ import bpy
 import gpu
 import pytest
 from mathutils import Matrix
+from rsibr.rsibr_addon.core.threads import AtOnce
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.host.map_sets import use_map_set
 from rsibr.rsibr_addon.host.visible_surfaces import View
@@ -20,7 +21,6 @@ from rsibr.rsibr_addon.tasks.methods import live_materials
 from rsibr.rsibr_addon.tasks.methods.latest_request_worker import LatestRequestWorker
 from rsibr.rsibr_addon.tasks.methods.live_materials import LiveFits
 from rsibr.rsibr_addon.tasks.viewport.previews import Previews
-from rsibr.tests.at_once import AtOnce
 from rsibr.tests.faults.small_map_sets import map_sets
 
 SIZE = 32

@@ -8,6 +8,7 @@ import gpu
 import numpy as np
 import pytest
 from mathutils import Matrix
+from rsibr.rsibr_addon.core.threads import AtOnce
 from rsibr.rsibr_addon.device.kinds.kernel_pyramid import GpuPyramid
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.host.map_sets import use_map_set
@@ -16,7 +17,6 @@ from rsibr.rsibr_addon.host.world_light import WorldLight
 from rsibr.rsibr_addon.tasks.methods.live_materials import LiveFits
 from rsibr.rsibr_addon.tasks.viewport import own_materials
 from rsibr.rsibr_addon.tasks.viewport.previews import Previews
-from rsibr.tests.at_once import AtOnce
 from rsibr.tests.faults.small_map_sets import map_sets
 
 SIZE = 16
@@ -300,7 +300,9 @@ def test_what_is_in_front_hides_what_has_another_strength_of_light(
     space.shading.type, space.overlay.show_overlays = "MATERIAL", False  # Blender leaves no depths
     strengths = {"sheet": 1.0, above.name: 2.0}
     monkeypatch.setattr(
-        View, "lights_of", lambda _, items: [WorldLight(strengths[each.name], np.eye(3)) for each in items]
+        View,
+        "lights_of",
+        lambda _, surfaces: [WorldLight(strengths[each.item.name], np.eye(3)) for each in surfaces],
     )
     check(draw(), GREEN, RED)
     above.location.z = -1.0
@@ -311,7 +313,7 @@ def test_what_is_in_front_hides_what_has_another_strength_of_light(
 def test_what_is_emitted_shows_in_a_world_without_light(
     sheet: bpy.types.Object, draw: Draw, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(View, "lights_of", lambda _, items: [WorldLight(0.0, np.eye(3)) for _ in items])
+    monkeypatch.setattr(View, "lights_of", lambda _, surfaces: [WorldLight(0.0, np.eye(3)) for _ in surfaces])
     check(draw(), RED, GREEN)
 
 

@@ -4,9 +4,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ...core.environment import Environment
 from ...core.errors import RangeError
 from ...core.kinds.kernel_pyramid.pyramid import Pyramid
+from ...core.lobes.bank import KernelBank
+from ...core.lobes.family import KERNELS
 from ...device.drawing import GpuMapSet
 from ...device.kinds.environment import GpuEnvironment
 from ...device.kinds.kernel_pyramid import GpuPyramid
@@ -50,6 +54,13 @@ KINDS: dict[str, Kind] = {
 def own_materials_kind() -> str:
     """The kind that shades objects with their own materials."""
     return next(name for name, kind in KINDS.items() if kind.own)
+
+
+def darkness() -> GpuMapSet:
+    """No light, of the kind of `own_materials_kind`: in it, materials show what they emit."""
+    none = np.zeros((2, 2, 2, 3), np.float32)
+    bank = KernelBank(KERNELS.concentrations[:1])
+    return _pyramid(Pyramid(bank, none[:1], (none[:1],), none))
 
 
 @dataclass(frozen=True)

@@ -1,15 +1,17 @@
 """What view layers show: surfaces with a preview, and those that may hide them."""
 
 from collections.abc import Callable, Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ...device.drawing import GpuMesh
+from ...host.live_light import is_live_name
 from ...host.textured_meshes import MeshNeeds
 from ...host.visible_surfaces import Layer, Surface, View, is_wanted, map_set_of, shown_layers, surfaces
 from .baked_inputs import InputBakes
 from .faults import Faults
 from .meshes import UploadedMeshes
 from .own_materials import Materials, ShownMaterials
+from .worlds import Worlds
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,8 +37,8 @@ class Drawable:
         return self.materials.needs if self.materials else None
 
     def is_seen(self, view: View) -> bool:
-        """Whether a viewport shows it."""
-        return bool(self.surface.shown_by.visible_in_viewport_get(view.space))
+        """Whether a view shows it."""
+        return view.shows(self.surface)
 
 
 @dataclass
@@ -49,21 +51,31 @@ class Contents:
         Surfaces with a preview.
     others : list of Drawable or None
         Surfaces without a preview, if they were asked for.
+    shades_all : bool
+        Whether all surfaces have one, the world's where they have none of their own.
     changed : bool
         Whether the scene has changed since.
     """
 
     previews: list[Drawable]
     others: list[Drawable] | None
+    shades_all: bool = False
     changed: bool = False
 
     def serves(self, with_others: bool) -> bool:
         """Whether it is still right. Blender sends no notice of a map set that was packed or moved."""
-        paths = {each.surface.item: each.surface.path for each in self.previews}
+        own = [each.surface for each in self.previews if not each.surface.in_world]
+        paths = {each.item: each.path for each in own}
         return (
             not self.changed
             and (self.others is not None) == with_others
             and all(map_set_of(item) == path for item, path in paths.items())
+        )
+
+    def has_faulty(self, faults: Faults) -> bool:
+        """Whether the file of an object, which may be shaded from the world's instead, cannot be had."""
+        return self.shades_all and any(
+            faults.stands(each.surface.item) for each in self.previews if not each.surface.in_world
         )
 
 
@@ -76,10 +88,13 @@ class LayerContents:
         Whether a surface is to be drawn with its own materials.
     inputs : InputBakes
         What was baked of materials.
+    worlds : Worlds
+        What surfaces without a map set of their own are shaded from.
     """
 
-    def __init__(self, shows_own: Callable[[Surface], bool], inputs: InputBakes) -> None:
-        self.layers: dict[Layer, Contents] = {}
+    def __init__(self, shows_own: Callable[[Surface], bool], inputs: InputBakes, worlds: Worlds) -> None:
+        self.layers: dict[tuple[Layer, bool], Contents] = {}
+        self._worlds = worlds
         self.meshes = UploadedMeshes()
         self._materials = Materials(inputs)
         self._shows_own = shows_own
@@ -99,25 +114,29 @@ class LayerContents:
 
     def collect(self, view: View, with_others: bool, faults: Faults) -> Contents:
         """Find what a view layer shows, upload the meshes that are new, and let go of what nobody shows."""
-        contents = Contents([], [] if with_others else None)
-        if is_wanted():
+        contents = Contents([], [] if with_others else None, view.shades_all)
+        if view.shades_all or is_wanted():
             self._fill(contents, view, faults)
         else:
             faults.clear()
-        self.layers[view.layer] = contents  # at last: what fails above is tried again
-        for layer in self.layers.keys() - shown_layers().keys():
-            del self.layers[layer]
+        self.layers[view.content] = contents  # at last: what fails above is tried again
+        layers = {view.layer, *shown_layers()}
+        self.layers = {content: each for content, each in self.layers.items() if content[0] in layers}
         shown = [each for layer in self.layers.values() for each in (*layer.previews, *(layer.others or ()))]
         self.meshes.keep({(each.surface.mesh, each.needs) for each in shown})
         return contents
 
     def previewed(self, layers: Collection[Layer] | None = None) -> list[Drawable]:
         """What has a preview, of some view layers or of all."""
-        shown = [each for layer, each in self.layers.items() if layers is None or layer in layers]
+        shown = [each for (layer, _), each in self.layers.items() if layers is None or layer in layers]
         return [each for contents in shown for each in contents.previews]
 
     def _fill(self, contents: Contents, view: View, faults: Faults) -> None:
+        world = self._worlds.of(view.scene) if view.shades_all else ""
         for surface, evaluated in surfaces(view.depsgraph):
+            lit = bool(surface.path) and not is_live_name(surface.path) and not faults.stands(surface.item)
+            if world and not lit:
+                surface = replace(surface, path=world, in_world=True)
             if not surface.path:
                 faults.forget(surface.item)
             found = contents.previews if surface.path else contents.others

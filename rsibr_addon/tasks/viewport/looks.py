@@ -17,11 +17,13 @@ def wants_own(item: Any, kind: str) -> bool:
 
 
 def own_look(drawable: Drawable, kind: str, other: bool) -> OwnMaterials | None:
-    """A look that shows an object's own materials; None where it asks for none."""
+    """A look that shows an object's own materials; None where it asks for none, and is not in the world's."""
     if not (KINDS[kind].own and drawable.materials):
         return None
     settings = _settings(drawable.surface.item, kind, other)
-    return OwnMaterials(drawable.materials.slots, settings.antialiased) if settings.own else None
+    if not (settings.own or drawable.surface.in_world):
+        return None
+    return OwnMaterials(drawable.materials.slots, settings.antialiased)
 
 
 def _settings(item: Any, kind: str, other: bool) -> Any:

@@ -6,11 +6,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from ...core.environment import Environment
 from ...core.warned import recorded_warnings
+from ...device.backdrop import Backdrop
 from ...host.live_light import is_live_name
 from ...host.map_sets import written_path
 from ...host.visible_surfaces import Surface
-from ..methods.kinds import open_map_set
+from ..methods.kinds import KINDS, darkness, open_map_set, own_materials_kind
 from ..methods.live_materials import LiveFits
 from .live_light import LiveLight
 
@@ -22,6 +26,11 @@ TEXEL_BYTES = 16
 
 PIECE_BYTES = 16 * 2**20
 """What a redraw uploads: it takes Mesa's software driver some 20 ms."""
+
+DARKNESS = "darkness\0"
+"""What stands for the file of a world that is not there: a name that no file can have."""
+
+NO_LIGHT = Environment(np.zeros((2, 4, 3), np.float32), "no world")
 
 Stamp = tuple[int, int, int]
 """Another for a file that has been written anew."""
@@ -42,6 +51,8 @@ class ViewportMapSet:
         Bytes that it takes on the GPU, about.
     warnings : tuple of str
         What reading it had to tell.
+    backdrop : Backdrop or None
+        Of a kind that shades own materials: its environment, to be seen behind them.
     """
 
     kind: str
@@ -49,6 +60,7 @@ class ViewportMapSet:
     stamp: Stamp | None = None
     size: int = 0
     warnings: tuple[str, ...] = ()
+    backdrop: Backdrop | None = None
 
 
 def read_if_new(path: Path, fits: LiveFits, known: Stamp | None) -> ViewportMapSet | None:
@@ -78,7 +90,10 @@ def read_if_new(path: Path, fits: LiveFits, known: Stamp | None) -> ViewportMapS
     with recorded_warnings() as warnings:
         opened = open_map_set(path)
         drawable = opened.drawable(fits)
-    return ViewportMapSet(opened.kind, drawable, stamp, TEXEL_BYTES * opened.texels, tuple(warnings))
+    light = opened.environment if KINDS[opened.kind].own else None
+    backdrop = None if light is None else Backdrop(light)
+    size = TEXEL_BYTES * opened.texels
+    return ViewportMapSet(opened.kind, drawable, stamp, size, tuple(warnings), backdrop)
 
 
 def stamp_of(path: Path) -> Stamp | None:
@@ -189,25 +204,39 @@ class MapSets:
             As `read_if_new`, or it is too large for the device.
         """
         path, item = surface.path, surface.number
-        if path not in self.used:
-            try:
-                self._fetch(surface)
-            except Exception:
-                self._shown.pop(item, None)
-                self._drop(path)
-                raise
+        try:
+            self._fetch(path, None if surface.in_world else surface.item)
+        except Exception:
+            self._shown.pop(item, None)
+            raise
         if path in self.used and self._is_lit(path):
             self._shown[item] = self.used[path]
         return self._shown.get(item)
+
+    def world(self, path: str) -> ViewportMapSet | None:
+        """A world's map set, once it is whole.
+
+        Parameters
+        ----------
+        path : str
+            See `Worlds.of`.
+
+        Raises
+        ------
+        MapSetError, InputFileError, DeviceError
+            See `shading`.
+        """
+        self._fetch(path, None)
+        return self.used.get(path)
 
     def shown(self, item: Any) -> ViewportMapSet | None:
         """What an object was shaded from when `shading` was asked last."""
         return self._shown.get(item.session_uid)
 
-    def keep(self, surfaces: Iterable[Surface]) -> None:
-        """Let go of what none of these uses any more, of files in a while."""
+    def keep(self, surfaces: Iterable[Surface], worlds: Iterable[str] = ()) -> None:
+        """Let go of what none of these surfaces and worlds uses any more, of files in a while."""
         shown = {each.number: each.path for each in surfaces}
-        paths = set(shown.values())
+        paths = {*shown.values(), *worlds}
         for path in self.used.keys() - paths:
             self.unused.keep(path, self.used.pop(path))
         for path in self._coming.keys() - paths:
@@ -220,17 +249,31 @@ class MapSets:
         light = self.lights.get(path)
         return light is None or light.is_ready
 
-    def _fetch(self, surface: Surface) -> None:
+    def _fetch(self, path: str, item: Any) -> None:
+        """See to it that a map set, of an object or of the world, is used once it is there."""
+        if path in self.used:
+            return
+        try:
+            self._come_nearer(path, item)
+        except Exception:
+            self._drop(path)
+            raise
+
+    def _come_nearer(self, path: str, item: Any) -> None:
         """Take the next step on a map set's way: have it read, upload a piece, have it used."""
-        path, settings = surface.path, surface.item.rsibr
         if is_live_name(path):
-            light = self.lights[path] = LiveLight(int(settings.live.size), settings.live.degree)
+            live = item.rsibr.live
+            light = self.lights[path] = LiveLight(int(live.size), live.degree)
             self.used[path] = ViewportMapSet("mip_chain", light.gpu_map_set)
+            return
+        if path == DARKNESS:
+            self.used[path] = ViewportMapSet(own_materials_kind(), darkness(), backdrop=Backdrop(NO_LIGHT))
             return
         if path not in self._coming:
             known = self.unused.take(path)
             stamp = known.stamp if known else None
-            read = self._reader.submit(read_if_new, written_path(settings), self._fits, stamp)
+            file = Path(path) if item is None else written_path(item.rsibr)
+            read = self._reader.submit(read_if_new, file, self._fits, stamp)
             self._coming[path] = _Coming(read, known)
         coming = self._coming[path]
         if not coming.read.done():

@@ -2,13 +2,10 @@
 
 from collections.abc import Collection
 from concurrent.futures import Executor
-from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
-from ...device.drawing import Draw, GpuMesh
-from ...device.own_materials import OwnMaterials
-from ...device.preview_stage import Difference, Stage, current_sight, draw_occluder, draw_scale_numbers
+from ...device.preview_stage import Difference, Sight, Stage, current_sight, draw_scale_numbers
 from ...host.bake_settings import bakes_inputs_by_itself
 from ...host.live_light import is_readable, shows_surroundings
 from ...host.visible_surfaces import Layer, Side, Surface, View, map_set_of, objects_numbered
@@ -20,27 +17,10 @@ from .blender_pictures import BlenderPictures
 from .contents import Contents, Drawable, LayerContents
 from .displays import Displays
 from .faults import Faults
+from .frame import Frame, Shown
 from .looks import Looks, own_look, wants_own
 from .map_sets import MapSets, ViewportMapSet
-
-
-@dataclass(frozen=True, eq=False)
-class _Shown:
-    """All that an object's preview in one frame is drawn with.
-
-    Attributes
-    ----------
-    drawable : Drawable
-    map_set : ViewportMapSet
-    placed : Draw
-    looks : dict
-        Whether it is the other look -> the look; None for one that is not there yet.
-    """
-
-    drawable: Drawable
-    map_set: ViewportMapSet
-    placed: Draw
-    looks: dict[bool, Any]
+from .worlds import Worlds
 
 
 class Previews:
@@ -60,6 +40,8 @@ class Previews:
     ----------
     inputs : InputBakes
         What was baked of materials.
+    worlds : Worlds
+        The worlds' own map sets.
     faults : Faults
         What went wrong. Call `draw`, `render_surroundings` and `add_display` within its `guarded`.
     """
@@ -73,7 +55,8 @@ class Previews:
         """Let go of everything: the file is closed, or the extension leaves."""
         self._stage, self._other_stage = Stage(), Stage()
         self.inputs = InputBakes(self._reader)
-        self._layers = LayerContents(self._shows_own, self.inputs)
+        self.worlds = Worlds()
+        self._layers = LayerContents(self._shows_own, self.inputs, self.worlds)
         self._displays = Displays()
         self._blender_pictures = BlenderPictures()
         self.reload()
@@ -83,6 +66,8 @@ class Previews:
         self._map_sets.keep([])
         self._map_sets = MapSets(self._fits, self._reader)
         self._looks, self.faults = Looks(), Faults()
+        self.worlds.changed()
+        self._layers.scene_changed(materials=False)
 
     def scene_changed(self, materials: bool = True) -> None:
         """Look at each scene anew when it is drawn next; what is the same stays uploaded.
@@ -92,6 +77,8 @@ class Previews:
         materials : bool
             Whether materials, or what they are made of, may have changed too.
         """
+        if materials:
+            self.worlds.changed()
         self._layers.scene_changed(materials)
         self._blender_pictures.scene_changed()
         for light in self._map_sets.lights.values():
@@ -165,54 +152,72 @@ class Previews:
         """
         if self.faults.trouble or not view.shaded:
             return True
-        has_depth, sides = view.has_depth, view.sides
-        if self.inputs.upload():
-            self._layers.scene_changed(materials=False)
-        contents = self._layers.layers.get(view.layer)
-        if contents is None or not contents.serves(not has_depth):
-            contents = self._collected(view)
-        self._map_sets.begin_frame()
-        seen = self._seen(contents, view)
-        lacking = [each.surface for each, map_set in seen if KINDS[map_set.kind].own and not each.materials]
-        if any(map(self._shows_own, lacking)):
-            contents = self._collected(view)  # a map set has come that wants its objects' materials
-            seen = self._seen(contents, view)
-        if not seen:
+        sides = view.sides
+        wanted = {side.other for side in sides} | {
+            not side.other for side in sides if side.difference and not side.from_blender
+        }
+        frame = self.frame(view, current_sight(), wanted)
+        if not frame.shown:
             return True
         display, scale = self._displays.of(view.scene)
         if display is None:
             return False
-        wanted = {side.other for side in sides} | {
-            not side.other for side in sides if side.difference and not side.from_blender
-        }
+        for side, strength in product(sides, frame.strengths):
+            self._set(self._stage, frame, strength, view, side.other)
+            if side.difference and not side.from_blender:
+                self._set(self._other_stage, frame, strength, view, not side.other)
+            difference = self._difference(view, side, strength * scale, scale)
+            if side.from_blender and difference is None:  # Blender's own shading stays in sight
+                continue
+            span = side.left, side.right
+            self._stage.show(display, strength * scale, span, view.has_depth, difference)
+        return True
+
+    def frame(self, view: View, sight: Sight, wanted: Collection[bool] = (False,)) -> Frame:
+        """What a view shows now, as far as it has been read; a piece more is uploaded.
+
+        Parameters
+        ----------
+        view : View
+        sight : Sight
+        wanted : collection of bool
+            Which looks: the first, as False, or the other one.
+        """
+        if self.inputs.upload():
+            self._layers.scene_changed(materials=False)
+        contents = self._layers.layers.get(view.content)
+        if contents is None or not contents.serves(not view.has_depth):
+            contents = self._collected(view)
+        self._map_sets.begin_frame()
+        world = self._world(view)
+        seen = self._seen(contents, view)
+        lacking = [each.surface for each, map_set in seen if KINDS[map_set.kind].own and not each.materials]
+        if any(map(self._shows_own, lacking)) or contents.has_faulty(self.faults):
+            contents = self._collected(view)  # a map set has come that wants its objects' materials, or none
+            seen = self._seen(contents, view)
         looked = [
             (each, map_set, looks)
             for each, map_set in seen
             if (looks := self._looks_of(each, map_set, wanted))
         ]
-        lights = view.lights_of(each.surface.item for each, *_ in looked)
-        sight = current_sight()
+        lights = view.lights_of([each.surface for each, *_ in looked])
         hiding = [
             (each.mesh, sight.on(each.surface.matrix, AS_IT_IS.turn))
             for each in contents.others or ()
             if each.is_seen(view)
         ]
         shown = [
-            _Shown(each, map_set, sight.on(each.surface.matrix, light.turn, light.strength), looks)
+            Shown(each, map_set, sight.on(each.surface.matrix, light.turn, light.strength), looks)
             for (each, map_set, looks), light in zip(looked, lights, strict=True)
         ]
-        for side, strength in product(sides, dict.fromkeys(each.placed.strength for each in shown)):
-            group = [each for each in shown if each.placed.strength == strength]
-            others = [(each.drawable.mesh, each.placed) for each in shown if each.placed.strength != strength]
-            behind = [] if has_depth else hiding + others
-            self._set(self._stage, behind, group, side.other)
-            if side.difference and not side.from_blender:
-                self._set(self._other_stage, behind, group, not side.other)
-            difference = self._difference(view, side, strength * scale, scale)
-            if side.from_blender and difference is None:  # Blender's own shading stays in sight
-                continue
-            self._stage.show(display, strength * scale, (side.left, side.right), has_depth, difference)
-        return True
+        return Frame(shown, hiding, world.backdrop if world else None, self.faults)
+
+    def draw_backdrop(self, view: View) -> None:
+        """Fill the active frame buffer with the world, in linear radiance, where all objects are shaded."""
+        world = self._world(view)
+        if world and world.backdrop and not view.scene.render.film_transparent:
+            light = view.world_light
+            world.backdrop.draw(Sight.by(*view.matrices), light.turn, light.strength)
 
     def render_surroundings(self, view: View) -> bool:
         """Render the light around objects that are in live light, as far as the scene has changed.
@@ -227,7 +232,7 @@ class Previews:
         bool
             Whether any light has changed, and what shows it has to be drawn again.
         """
-        lights, contents = self._map_sets.lights, self._layers.layers.get(view.layer)
+        lights, contents = self._map_sets.lights, self._layers.layers.get(view.content)
         if self.faults.trouble or not (lights and contents and shows_surroundings(view.space, view.layer)):
             return False
         first: dict[str, Surface] = {}  # instances share the light of their object
@@ -283,8 +288,13 @@ class Previews:
         surfaces = [each.surface for each in self._layers.previewed()]
         self.inputs.keep({each.number for each in surfaces})
         self._looks.keep({each.path for each in surfaces})
-        self._map_sets.keep(surfaces)
+        self._map_sets.keep(surfaces, self.worlds.shown)
         return contents
+
+    def _world(self, view: View) -> ViewportMapSet | None:
+        """What a view that shades all objects shows behind them, once it is there."""
+        path = self.worlds.of(view.scene) if view.shades_all else ""
+        return self._map_sets.world(path) if path else None
 
     def _seen(self, contents: Contents, view: View) -> list[tuple[Drawable, ViewportMapSet]]:
         """What a view shows with a preview, and what it is shaded from."""
@@ -296,6 +306,8 @@ class Previews:
 
     def _shows_own(self, surface: Surface) -> bool:
         """Whether an object is to be drawn with its own materials, by what shades it now."""
+        if surface.in_world:
+            return True
         map_set = self._map_sets.shown(surface.item)
         return map_set is not None and wants_own(surface.item, map_set.kind)
 
@@ -310,6 +322,8 @@ class Previews:
 
     def _shading(self, surface: Surface) -> ViewportMapSet | None:
         """What an object is shaded from; None where that is not there yet, or something has gone wrong."""
+        if surface.in_world:
+            return self._map_sets.shading(surface)
         if self.faults.stands(surface.item):
             return None
         try:
@@ -318,7 +332,9 @@ class Previews:
             self.faults.note(surface.item, error)
             return None
 
-    def _looks_of(self, drawable: Drawable, map_set: ViewportMapSet, wanted: set[bool]) -> dict[bool, Any]:
+    def _looks_of(
+        self, drawable: Drawable, map_set: ViewportMapSet, wanted: Collection[bool]
+    ) -> dict[bool, Any]:
         """The looks that are wanted of an object, by whether it is the other one; empty after a fault."""
         try:
             return {
@@ -330,22 +346,6 @@ class Previews:
             self.faults.note(drawable.surface.item, error)
             return {}
 
-    def _set(
-        self, stage: Stage, behind: list[tuple[GpuMesh, Draw]], group: list[_Shown], other: bool
-    ) -> None:
-        """Draw previews, in their first or their other look, onto a stage, and what hides them."""
-        with stage.drawing():
-            for mesh, placed in behind:
-                draw_occluder(mesh, placed)
-            for each in sorted(group, key=lambda each: not _is_opaque(each.looks[other])):
-                surface, look = each.drawable.surface, each.looks[other]
-                if look is not None:
-                    try:
-                        each.map_set.gpu_map_set.draw(each.drawable.mesh, each.placed, look)
-                    except Exception as error:
-                        self.faults.note(surface.item, error)
-
-
-def _is_opaque(look: Any) -> bool:
-    """Whether it hides all that is behind it; what does not is drawn over that."""
-    return not isinstance(look, OwnMaterials) or look.is_opaque
+    def _set(self, stage: Stage, frame: Frame, strength: float, view: View, other: bool) -> None:
+        """Draw previews in light of one strength, in their first or their other look, onto a stage."""
+        frame.set(stage, strength, not view.has_depth, lambda each: each.draw(other), other)

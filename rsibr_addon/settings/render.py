@@ -1,0 +1,71 @@
+"""How pictures are rendered from map sets."""
+
+import re
+from dataclasses import dataclass
+from typing import Any
+
+from ..core.errors import RangeError
+from ..core.options import Options, option
+
+LAST_FRAME = 1048574
+"""Blender counts no further."""
+
+
+def _samples_option(default: int | None, **more: Any) -> Any:
+    return option(
+        default,
+        label="Samples",
+        help="Draws of a picture, each moved by a part of a pixel; their mean has smooth edges",
+        least=1,
+        most=4096,
+        soft_most=256,
+        **more,
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class RenderOptions(Options):
+    """How the render engine draws a picture."""
+
+    samples: int = _samples_option(16)
+
+
+@dataclass(frozen=True, kw_only=True)
+class FramesOptions(Options):
+    """Which frames of a file are rendered, and how."""
+
+    frames: str | None = option(
+        None,
+        label="Frames",
+        help="A frame, or the first and the last of several",
+        none="the file's current frame",
+        metavar="N|N-N",
+    )
+    samples: int | None = _samples_option(None, none="what the file says")
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.frames is not None:
+            _range_of(self.frames)
+
+    @property
+    def numbers(self) -> range | None:
+        """The frames; None for the file's current one."""
+        return None if self.frames is None else _range_of(self.frames)
+
+
+def _range_of(frames: str) -> range:
+    """The frames that a text names.
+
+    Raises
+    ------
+    RangeError
+        It names none, or one beyond Blender's last.
+    """
+    named = re.fullmatch(r"(\d+)(?:-(\d+))?", frames)
+    first, last = (int(named[1]), int(named[2] or named[1])) if named else (1, 0)
+    if not first <= last <= LAST_FRAME:
+        raise RangeError(
+            f"Frames cannot be '{frames}': give one, such as 12, or the first and the last, such as 1-48."
+        )
+    return range(first, last + 1)

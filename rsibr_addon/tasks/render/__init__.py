@@ -1,0 +1,1 @@
+"""Pictures of a scene as its camera sees it."""

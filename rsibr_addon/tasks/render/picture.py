@@ -1,0 +1,115 @@
+"""A picture of one frame: the previews that a camera sees, drawn sample by sample."""
+
+from collections.abc import Collection
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from ...core.conventions import Array
+from ...core.geometry.pixel_samples import pixel_samples
+from ...device.drawing import GpuMapSet
+from ...device.film import Film, normal_shader
+from ...device.own_materials import OwnMaterials
+from ...device.preview_stage import Sight, Stage, draw_occluder
+from ...host.render_views import CameraView
+from ...host.working_space import working_from_rec709
+from ...host.world_light import AS_IT_IS
+from ..viewport.frame import Frame, Shown
+
+COMBINED, DEPTH, NORMAL, EMISSION = "Combined", "Depth", "Normal", "Emission"
+
+CHANNELS = {COMBINED: 4, DEPTH: 1, NORMAL: 3, EMISSION: 3}
+"""Name of a pass, as Blender has it -> its number of channels."""
+
+
+class Picture:
+    """The passes of a picture, as far as they are drawn; in the graphics context that it is made in.
+
+    Parameters
+    ----------
+    frame : Frame
+        What the view shows.
+    view : CameraView
+    passes : collection of str
+        Of `CHANNELS`.
+    darkness : GpuMapSet
+        No light, in which own materials show what they emit.
+    """
+
+    def __init__(
+        self,
+        frame: Frame,
+        view: CameraView,
+        passes: Collection[str],
+        darkness: GpuMapSet,
+    ) -> None:
+        self._frame, self._view, self._darkness = frame, view, darkness
+        self._backdrop = None if view.scene.render.film_transparent else frame.backdrop
+        self._stage = Stage()
+        self._films = {name: Film(*view.size) for name in _DRAWN if name in passes}
+        self._wants_depth = DEPTH in passes
+        self._depths: Array = np.ones(view.size[::-1], np.float32)
+        self._places = pixel_samples()
+        self._is_first = True
+
+    @property
+    def items(self) -> list[Any]:
+        """The objects that it shows."""
+        return [each.drawable.surface.item for each in self._frame.shown]
+
+    def add_sample(self) -> None:
+        """Draw the picture once more, a part of a pixel aside; the first time at the pixels' centres."""
+        sight = Sight.by(*self._view.moved(next(self._places)).matrices)
+        frame = self._frame.seen_by(sight)
+        for name, film in self._films.items():
+            with film.sample():
+                if name == COMBINED and self._backdrop is not None:
+                    light = self._view.world_light
+                    self._backdrop.draw(sight, light.turn, light.strength)
+                for strength in frame.strengths:
+                    frame.set(self._stage, strength, True, partial(_DRAWN[name], self))
+                    film.lay(self._stage.radiance, 1.0 if name == NORMAL else strength)
+                if self._is_first and frame.strengths:  # a picture of all that is there, whatever is drawn
+                    self._depths, self._is_first = self._stage.depths(), False
+
+    def read(self) -> dict[str, Array]:
+        """The passes so far.
+
+        Returns
+        -------
+        dict of str to ndarray, shape (height, width, channels), float32
+            Pass -> pixels, row 0 at the bottom. Combined is premultiplied; colours are in the working space.
+        """
+        read = {name: film.read() for name, film in self._films.items()}
+        for name in read.keys() - {NORMAL}:
+            read[name][..., :3] = working_from_rec709(read[name][..., :3])
+        found = {name: pixels[..., : CHANNELS[name]] for name, pixels in read.items()}
+        if self._wants_depth:
+            found[DEPTH] = self._view.distances(self._depths)[..., None]
+        return found
+
+    def _draw_combined(self, shown: Shown) -> None:
+        shown.draw(other=False)
+
+    def _draw_normal(self, shown: Shown) -> None:
+        shader = normal_shader()
+        shader.bind()
+        shown.drawable.mesh.draw(shader, replace(shown.placed, turn=AS_IT_IS.turn))
+
+    def _draw_emission(self, shown: Shown) -> None:
+        """Only own materials tell what of their light is their own."""
+        mesh, placed, look = shown.drawable.mesh, shown.placed, shown.looks[False]
+        if isinstance(look, OwnMaterials):
+            self._darkness.draw(mesh, placed, look)
+        else:
+            draw_occluder(mesh, placed)
+
+
+_DRAWN = {
+    COMBINED: Picture._draw_combined,
+    NORMAL: Picture._draw_normal,
+    EMISSION: Picture._draw_emission,
+}
+"""Pass that is drawn -> how an object is."""

@@ -1,0 +1,109 @@
+"""What one frame shows, with all that it is drawn with."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+from ...device.backdrop import Backdrop
+from ...device.drawing import Draw, GpuMesh
+from ...device.own_materials import OwnMaterials
+from ...device.preview_stage import Sight, Stage, draw_occluder
+from .contents import Drawable
+from .faults import Faults
+from .map_sets import ViewportMapSet
+
+
+@dataclass(frozen=True, eq=False)
+class Shown:
+    """All that an object's preview in one frame is drawn with.
+
+    Attributes
+    ----------
+    drawable : Drawable
+    map_set : ViewportMapSet
+    placed : Draw
+    looks : dict
+        Whether it is the other look -> the look; None for one that is not there yet.
+    """
+
+    drawable: Drawable
+    map_set: ViewportMapSet
+    placed: Draw
+    looks: dict[bool, Any]
+
+    def draw(self, other: bool) -> None:
+        """Draw it in its first or its other look, if that is there."""
+        if (look := self.looks[other]) is not None:
+            self.map_set.gpu_map_set.draw(self.drawable.mesh, self.placed, look)
+
+    def is_opaque(self, other: bool) -> bool:
+        """Whether it hides all that is behind it; what does not is drawn over that."""
+        look = self.looks[other]
+        return not isinstance(look, OwnMaterials) or look.is_opaque
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """What one frame shows.
+
+    Attributes
+    ----------
+    shown : list of Shown
+    hiding : list of (GpuMesh, Draw)
+        What may hide it, where the frame buffer does not have its depths.
+    backdrop : Backdrop or None
+        The world behind all that, where all objects are shaded.
+    faults : Faults
+        Takes what goes wrong with an object.
+    """
+
+    shown: list[Shown]
+    hiding: list[tuple[GpuMesh, Draw]]
+    backdrop: Backdrop | None
+    faults: Faults
+
+    @property
+    def strengths(self) -> list[float]:
+        """Those of the light of its objects: what is drawn together has the same."""
+        return list(dict.fromkeys(each.placed.strength for each in self.shown))
+
+    def seen_by(self, sight: Sight) -> "Frame":
+        """The same in another view."""
+
+        def placed(draw: Draw) -> Draw:
+            return replace(draw, view=sight.view, projection=sight.projection, eye=sight.eye)
+
+        return replace(
+            self,
+            shown=[replace(each, placed=placed(each.placed)) for each in self.shown],
+            hiding=[(mesh, placed(draw)) for mesh, draw in self.hiding],
+        )
+
+    def set(
+        self, stage: Stage, strength: float, hidden: bool, draw: Callable[[Shown], None], other: bool = False
+    ) -> None:
+        """Draw the objects in light of one strength onto a stage.
+
+        Parameters
+        ----------
+        stage : Stage
+        strength : float
+            One of `strengths`.
+        hidden : bool
+            Whether what hides them is drawn as well, and not left to the frame buffer's depths.
+        draw : callable
+            Draws one.
+        other : bool
+            Whether in their other look.
+        """
+        group = [each for each in self.shown if each.placed.strength == strength]
+        others = [each for each in self.shown if each.placed.strength != strength]
+        hiding = [*self.hiding, *((each.drawable.mesh, each.placed) for each in others)]
+        with stage.drawing():
+            for mesh, placed in hiding if hidden else ():
+                draw_occluder(mesh, placed)
+            for each in sorted(group, key=lambda each: not each.is_opaque(other)):
+                try:
+                    draw(each)
+                except Exception as error:
+                    self.faults.note(each.drawable.surface.item, error)

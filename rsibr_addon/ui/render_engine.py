@@ -1,0 +1,175 @@
+"""A render engine of Blender's: what previews show, as pictures."""
+
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from typing import Any
+
+import bpy
+import numpy as np
+from bpy.app.handlers import persistent
+
+from ..core.errors import RsibrError
+from ..core.progress import drain
+from ..core.warned import is_recorded, recorded_warnings, warn
+from ..device.context import ensure_context
+from ..host.handlers import add_handlers
+from ..host.option_properties import options_of
+from ..host.render_views import camera_view, left_out
+from ..host.visible_surfaces import RENDER_ENGINE, current_view
+from ..session.running import session
+from ..settings.render import RenderOptions
+from ..tasks.queue.background import State
+from ..tasks.queue.bake_request import ObjectBake, is_baked
+from ..tasks.queue.world_bakes import bake_world, world_bake_of, world_file
+from ..tasks.render.picture import CHANNELS, COMBINED, DEPTH, EMISSION, NORMAL, Picture
+
+WAIT_SECONDS = 0.1
+"""Between two looks at a bake of the world."""
+
+SHOW_SECONDS = 1.0
+"""Between two pictures of a render that goes on."""
+
+SWITCHES = {DEPTH: "use_pass_z", NORMAL: "use_pass_normal", EMISSION: "use_pass_emit"}
+"""Pass -> the view layer's switch."""
+
+LETTERS = {1: ("Z", "VALUE"), 3: ("XYZ", "VECTOR"), 4: ("RGBA", "COLOR")}
+"""Number of channels -> their letters, and the type of socket in the compositor."""
+
+
+class RSIBR_RE_previews(bpy.types.RenderEngine):
+    """Renders what previews show."""
+
+    bl_idname = RENDER_ENGINE
+    bl_label = "RSIBR"
+    bl_use_preview = False
+    bl_use_postprocess = True
+    bl_use_gpu_context = True
+    bl_use_eevee_viewport = True
+
+    def update_render_passes(self, scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> None:
+        """Say which passes there are."""
+        for name in _passes(layer):
+            letters, kind = ("RGB", "COLOR") if name == EMISSION else LETTERS[CHANNELS[name]]
+            self.register_pass(scene, layer, name, CHANNELS[name], letters, kind)
+
+    def update(self, data: bpy.types.BlendData, depsgraph: bpy.types.Depsgraph) -> None:
+        """Write down what a background Blender needs for the world, while nobody can change it."""
+        self._bake: ObjectBake | None = None
+        self._has_failed, scene = False, depsgraph.scene
+        with self._telling():
+            if scene.world and not bpy.app.background and not is_baked(world_file(scene)):
+                self._bake = world_bake_of(scene)
+
+    def render(self, depsgraph: bpy.types.Depsgraph) -> None:
+        """Render a view layer."""
+        with self._telling():
+            ensure_context()
+            if not self._has_failed and (self._bake is None or self._wait_for(self._bake)):
+                self._render(depsgraph)
+
+    def view_update(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
+        """Nothing: the viewport's previews notice by themselves."""
+
+    def view_draw(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
+        """Draw the world; objects come with the viewport's other previews."""
+        previews = session().previews
+        with previews.faults.guarded():
+            previews.draw_backdrop(current_view())
+
+    @contextmanager
+    def _telling(self) -> Iterator[None]:
+        """Within, our errors end the render, and our warnings are told."""
+        with recorded_warnings() as warnings:
+            try:
+                yield
+            except (RsibrError, OSError) as error:
+                self._has_failed = True
+                self.report({"ERROR"}, str(error))
+        for warning in warnings:
+            self._warn(warning)
+
+    def _warn(self, sentence: str) -> None:
+        """Tell whoever had us rendered: a command, or else whoever looks at Blender's reports."""
+        if is_recorded():
+            warn(sentence)
+        else:
+            self.report({"WARNING"}, sentence)
+
+    def _wait_for(self, bake: ObjectBake) -> bool:
+        """Have the world baked; False where that is cancelled, or fails."""
+        bake.start()
+        try:
+            while not bake.ended:
+                if self.test_break():
+                    return False
+                self.update_stats("", f"Baking the world: {100.0 * bake.fraction:.0f}%")
+                self.update_progress(bake.fraction)
+                time.sleep(WAIT_SECONDS)
+                bake.update()
+        finally:
+            bake.cancel()
+            bake.tidy()
+        if bake.state is State.FAILED:
+            self.report({"ERROR"}, bake.message)
+        return bake.state is State.DONE
+
+    def _render(self, depsgraph: bpy.types.Depsgraph) -> None:
+        camera = self.camera_override
+        pose = np.array(self.camera_model_matrix(camera)) if camera else np.eye(4)
+        view = camera_view(depsgraph, camera, pose, (self.resolution_x, self.resolution_y))
+        passes, renders = _passes(depsgraph.view_layer_eval), session().renders
+        picture = renders.picture(view, passes)
+        for message in [*left_out(depsgraph.scene, camera), *renders.news(picture)]:
+            warn(message)
+        samples = options_of(RenderOptions, depsgraph.scene.rsibr_render).samples
+        since = time.monotonic()
+        for done in range(samples):
+            if self.test_break():
+                return
+            picture.add_sample()
+            self.update_stats("", f"Sample {done + 1} of {samples}")
+            self.update_progress((done + 1) / samples)
+            if done + 1 < samples and time.monotonic() > since + SHOW_SECONDS and not bpy.app.background:
+                self._show(picture, view.size, depsgraph.view_layer.name)
+                since = time.monotonic()
+        self._show(picture, view.size, depsgraph.view_layer.name)
+
+    def _show(self, picture: Picture, size: tuple[int, int], layer: str) -> None:
+        result = self.begin_result(0, 0, *size, layer=layer)
+        of_layer = result.layers[0].passes
+        for name, pixels in picture.read().items():
+            of_layer[name].rect.foreach_set(pixels.ravel())
+        self.end_result(result)
+
+
+def start(undo: ExitStack) -> None:
+    """Have renders prepared and ended.
+
+    Parameters
+    ----------
+    undo : ExitStack
+        Takes what ends it.
+    """
+    add_handlers({"render_init": _prepare, "render_complete": _end, "render_cancel": _end}, undo)
+
+
+@persistent
+def _prepare(scene: bpy.types.Scene, *_: object) -> None:
+    """Bake the world where no window waits for it: no render can begin within another."""
+    if scene.render.engine != RENDER_ENGINE or scene.world is None or not bpy.app.background:
+        return
+    try:
+        drain(bake_world(scene))
+    except (RsibrError, OSError) as error:
+        session().renders.trouble = str(error)
+
+
+@persistent
+def _end(scene: bpy.types.Scene, *_: object) -> None:
+    session().renders.release()
+
+
+def _passes(layer: Any) -> list[str]:
+    """The passes that a view layer asks for."""
+    return [COMBINED, *(name for name, switch in SWITCHES.items() if getattr(layer, switch))]

@@ -5,6 +5,7 @@ from typing import cast
 
 import bpy
 import numpy as np
+from mathutils import Matrix
 
 from ..core.conventions import Array
 from ..core.errors import SceneError
@@ -91,7 +92,7 @@ class CameraView(View):
 def camera_view(
     depsgraph: bpy.types.Depsgraph,
     camera: bpy.types.Object | None,
-    pose: Array,
+    pose: Matrix | None,
     resolution: tuple[int, int],
 ) -> CameraView:
     """The view of a camera, within the render's border if it has one.
@@ -102,7 +103,7 @@ def camera_view(
         That of the render.
     camera : bpy.types.Object or None
         Evaluated.
-    pose : ndarray, shape (4, 4)
+    pose : Matrix or None
         The camera's; its scale does not count.
     resolution : (int, int)
         Width and height of the whole frame in pixels.

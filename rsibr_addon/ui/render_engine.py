@@ -6,7 +6,6 @@ from contextlib import ExitStack, contextmanager
 from typing import Any
 
 import bpy
-import numpy as np
 from bpy.app.handlers import persistent
 
 from ..core.errors import RsibrError
@@ -116,7 +115,7 @@ class RSIBR_RE_previews(bpy.types.RenderEngine):
 
     def _render(self, depsgraph: bpy.types.Depsgraph) -> None:
         camera = self.camera_override
-        pose = np.array(self.camera_model_matrix(camera)) if camera else np.eye(4)
+        pose = self.camera_model_matrix(camera) if camera else None
         view = camera_view(depsgraph, camera, pose, (self.resolution_x, self.resolution_y))
         passes, renders = _passes(depsgraph.view_layer_eval), session().renders
         picture = renders.picture(view, passes)

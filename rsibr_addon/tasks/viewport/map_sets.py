@@ -262,8 +262,8 @@ class MapSets:
     def _come_nearer(self, path: str, item: Any) -> None:
         """Take the next step on a map set's way: have it read, upload a piece, have it used."""
         if is_live_name(path):
-            live = item.rsibr.live
-            light = self.lights[path] = LiveLight(int(live.size), live.degree)
+            settings = item.rsibr
+            light = self.lights[path] = LiveLight(int(settings.live.size), settings.live.degree)
             self.used[path] = ViewportMapSet("mip_chain", light.gpu_map_set)
             return
         if path == DARKNESS:

@@ -7,8 +7,8 @@ int harmonics_degree(sampler2D coefficients)
   return int(sqrt(float(textureSize(coefficients, 0).x)) + 0.5) - 1;
 }
 
-// From degree l - 1 to l of harmonics of one order m < l: `values` are those of degrees l - 2 and l - 1, `a` is
-// the factor of the step before, 1 of the first.
+// From degree l - 1 to l of harmonics of one order m < l: `values` are those of degrees l - 2 and l - 1, `a`
+// is the factor of the step before, 1 of the first.
 void next_degree(int l, int m, float z, inout vec2 values, inout float a)
 {
   float step = sqrt(float(4 * l * l - 1) / float(l * l - m * m));
@@ -62,8 +62,8 @@ float cosine_coefficient(int degree)
   return coefficient;
 }
 
-// Irradiance from its coefficients (`irradiance_coefficients`), the texels of a row: [Kautz2004] Eq. 12, of any
-// degree. Those of odd degrees above 1 are 0.
+// Irradiance from its coefficients (`irradiance_coefficients`), the texels of a row: [Kautz2004] Eq. 12, of
+// any degree. Those of odd degrees above 1 are 0.
 vec3 irradiance(sampler2D coefficients, vec3 normal)
 {
   int degree = harmonics_degree(coefficients);

@@ -44,6 +44,11 @@ def bilinear(image: Array, uv: ArrayLike, wrap: Wrap, layer: Indices | None = No
     return _weighted_sum(weights, texels)
 
 
+def clamp_to_edge(columns: Indices, rows: Indices, width: int, height: int) -> tuple[Indices, Indices]:
+    """The texels to take for those beyond a picture's edges, which has no neighbour: see `bilinear`."""
+    return np.clip(columns, 0, width - 1), np.clip(rows, 0, height - 1)
+
+
 def lookup(image: Array, direction: ArrayLike, representation: Representation) -> Array:
     """Radiance of a map in given directions, bilinear between texel centres, across all seams.
 

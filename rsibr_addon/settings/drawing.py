@@ -7,6 +7,7 @@ from enum import StrEnum
 from ..core.geometry.camera import Camera
 from ..core.options import Choice, Options, option
 from .light import Clamp, exposure_option
+from .matte import MatteOptions
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,11 +52,19 @@ class Turned(StrEnum):
 
 
 @dataclass(frozen=True, kw_only=True)
-class PreviewOptions(SceneOptions, Clamp):
+class PreviewOptions(SceneOptions, MatteOptions, Clamp):
     """What a preview shows."""
 
     view: tuple[float, float, float] = option(
         (0.0, -1.0, 0.0), label="View", help="Direction from the object to the eye", metavar="X,Y,Z"
+    )
+    fill: float = option(
+        1.0,
+        label="Fill",
+        help="Share of the frame's width that the object has: less shows more of what is around it",
+        least=0.05,
+        most=1.0,
+        metavar="F",
     )
     turntable: int | None = option(
         None,

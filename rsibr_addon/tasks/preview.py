@@ -23,6 +23,7 @@ from ..host.movies import save_movie
 from ..host.pictures import save_png
 from ..settings.drawing import PreviewOptions, Turned
 from .compare.contact_sheet import contact_sheet
+from .matte import Matte
 from .methods.kinds import open_map_set
 
 SHEET_COLUMNS, SHEET_ROWS = 4, 3
@@ -122,10 +123,13 @@ class _Studio:
         opened = open_map_set(map_set, clamp=settings.clamp)
         self._look = look or look_types()[opened.kind]()
         self._renderer = PreviewRenderer(opened.drawable())
+        self._positions = settings.fill * self._mesh.positions
+        self._matte = Matte(settings, opened.environment, self._positions, self._mesh.triangles)
 
     def __call__(self, camera: Camera, object_turn: Array = STILL, light_turn: Array = STILL) -> Array:
-        mesh = self._mesh.positions, self._mesh.normals, self._mesh.triangles
-        return self._renderer.draw(*mesh, camera, self._settings.size, self._look, object_turn, light_turn)
+        mesh, turns = (self._positions, self._mesh.normals, self._mesh.triangles), (object_turn, light_turn)
+        picture = self._renderer.draw(*mesh, camera, self._settings.size, self._look, *turns)
+        return self._matte.under(picture, camera, *turns)
 
 
 def _turn(settings: PreviewOptions, frame_count: int) -> Iterator[tuple[Camera, Array, Array]]:

@@ -14,6 +14,8 @@ from rsibr.rsibr_addon.core.kinds.environment import EnvironmentLook
 from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, ViewsLook, Warping
 from rsibr.rsibr_addon.core.light.transfer_curve import srgb_from_linear
 from rsibr.rsibr_addon.core.maps import sphere_map
+from rsibr.rsibr_addon.core.maps.representation import representation
+from rsibr.rsibr_addon.core.pictures.matte import rays
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.files.pictures import read_exr
@@ -167,6 +169,58 @@ def test_a_turntable_turns_once(tmp_path: Path, suffix: str, stored_bytes: Calla
             )
             expected, inside = mirrored_sphere(Camera(turned), 32)
             assert np.abs(frame[..., :3] - expected)[inside].mean() < 0.01
+
+
+def test_the_light_lies_behind_and_the_floor_takes_a_shadow(tmp_path: Path) -> None:
+    light = tmp_path / "light.exr"
+    write_radiance(light, radiance_from(representation("equirect").texel_directions(256)[0]))
+    view = (0.0, -1.0, 0.7)
+
+    def seen(**more: Any) -> np.ndarray:
+        options = {"view": view, "size": 64, "fill": 0.5, "perspective": 60.0, **more}
+        output = tmp_path / "out.exr"
+        return read_exr(drain(preview(light, PreviewOptions(**options), output, force=True)))
+
+    alone, over = seen(), seen(background="light")
+    outside = alone[..., 3] == 0.0
+    np.testing.assert_array_equal(over[alone[..., 3] == 1.0], alone[alone[..., 3] == 1.0])
+    directions = rays(Camera(view, np.radians(60.0)), 64)[1]
+    # As of mirrors: interpolation of texels
+    assert np.abs(over[..., :3] - radiance_from(directions))[outside].max() < 0.01
+    brighter = seen(background="light", background_exposure=1.0)
+    np.testing.assert_allclose(brighter[outside], over[outside] * (2.0, 2.0, 2.0, 1.0), rtol=1e-5)
+    lamp = [
+        seen(view=tuple(-BRIGHT_DIR), fill=0.2, background="light", background_blur=blur)[outside, 0].max()
+        for blur in (0.0, 20.0)
+    ]
+    # Some 18 degrees beside its middle, the lobe exp(4 (cos - 1)) is filtered with one of concentration 8
+    assert lamp[0] == pytest.approx(0.05 + np.exp(4.0 * (np.cos(np.radians(18.0)) - 1.0)), abs=0.06)
+    assert 0.6 < lamp[1] / lamp[0] < 0.9
+    box = tmp_path / "box.obj"
+    corners = [f"v {x} {y} {z}" for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+    sides = ("1 2 4 3", "5 7 8 6", "1 5 6 2", "3 4 8 7", "1 3 7 5", "2 6 8 4")
+    box.write_text("\n".join([*corners, *(f"f {side}" for side in sides)]))
+    alone, over, floor, shadow = (
+        seen(mesh=str(box), **more)
+        for more in ({}, {"background": "light"}, {"background": "light", "floor": True}, {"floor": True})
+    )
+    outside = alone[..., 3] == 0.0
+    share = floor[..., :3] / over[..., :3]
+    assert np.all(share[outside] <= 1.0 + 1e-5)
+    assert share[outside].min() < 0.7
+    assert np.all(share[:, :8][outside[:, :8]] > share[outside].min() + 0.2)
+    np.testing.assert_allclose(shadow[outside, 3], 1.0 - share.mean(axis=-1)[outside], atol=1e-4)
+    assert not shadow[outside, :3].any()
+
+
+def test_a_photograph_lies_behind(tmp_path: Path) -> None:
+    path = write_mirror_capture(tmp_path / "mirror.rsibr.exr", size=32)
+    picture = np.random.default_rng(7).random((64, 96, 3))
+    write_radiance(tmp_path / "photo.exr", picture)
+    options = PreviewOptions(view=VIEW, size=32, background=str(tmp_path / "photo.exr"))
+    shown = read_exr(drain(preview(path, options, tmp_path / "out.exr")))
+    corner = picture[:2, 16:18].mean(axis=(0, 1))
+    np.testing.assert_allclose(shown[0, 0, :3], corner, rtol=1e-5)
 
 
 def turn_of(tmp_path: Path, turned: Turned, **more: Any) -> list[np.ndarray]:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from rsibr.rsibr_addon.core.errors import DeviceError
-from rsibr.rsibr_addon.device import preview, shaders, stage_shaders, textures
+from rsibr.rsibr_addon.device import floor_shadow, preview, shaders, stage_shaders, textures
 from rsibr.rsibr_addon.device import shader_source as sources
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.kinds import (
@@ -35,6 +35,7 @@ PROGRAMS = [
     kernel_pyramid.opaque_shader,
     kernel_pyramid.translucent_shader,
     preview.sample_means_shader,
+    floor_shadow.floor_shadow_shader,
     textures.texels_shader,
     stage_shaders.composite_shader,
     stage_shaders.occluder_shader,
@@ -44,7 +45,6 @@ PROGRAMS = [
     live_environment_shaders.tent_shader,
     live_environment_shaders.rows_shader,
     live_environment_shaders.harmonics_shader,
-    live_environment_shaders.live_mip_chain_shader,
 ]
 
 

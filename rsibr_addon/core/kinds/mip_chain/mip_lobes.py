@@ -15,6 +15,7 @@ from ...conventions import Array
 from ...errors import RangeError
 from ...filtering.radial_lobes import ggx_n_dot_l_lobe
 from ...filtering.zonal import zonal_coefficients
+from ...light.lamps import directions_in_cap
 from ...maps.representation import representation
 from ...resample import lookup
 from .texture_space import filtered_mips
@@ -125,17 +126,8 @@ def texture_space_spread(size: int, halved: Callable[[Array], Array]) -> tuple[f
     -----
     Filters are linear. So the mean direction of a lobe's light is what they make of a cube map of directions.
     """
-    axes = _everywhere()
+    axes = directions_in_cap((0.0, 0.0, 1.0), np.pi, _DIRECTIONS)
     return tuple(
         1.0 - float(np.einsum("ni,ni->n", lookup(faces, axes, _CUBE), axes).mean())
         for faces in filtered_mips(_CUBE.texel_directions(size), halved)
     )
-
-
-def _everywhere() -> Array:
-    """Directions that fill the sphere evenly: a spiral of golden angles."""
-    number = np.arange(_DIRECTIONS) + 0.5
-    z = 1.0 - 2.0 * number / _DIRECTIONS
-    azimuth = np.pi * (3.0 - np.sqrt(5.0)) * number
-    radius = np.sqrt(1.0 - z**2)
-    return np.stack([radius * np.cos(azimuth), radius * np.sin(azimuth), z], axis=-1)

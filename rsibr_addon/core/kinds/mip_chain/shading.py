@@ -11,14 +11,14 @@ import numpy as np
 from ...antialiased.footprint import footprint_or_point, footprint_sides
 from ...antialiased.sampling import sample_counts, samples
 from ...brdf.fresnel import fresnel_schlick
-from ...conventions import Array, ArrayLike, Indices
+from ...conventions import Array, ArrayLike
 from ...filtering.irradiance import irradiance_from_harmonics
 from ...geometry.directions import dot, reflect
 from ...geometry.sides import seen_surface
 from ...maps import cube_map
 from ...maps.representation import representation
 from ...options import Choice, Options, option
-from ...resample import bilinear, lookup
+from ...resample import bilinear, clamp_to_edge, lookup
 from ..look_options import antialiased_option, colour_option
 from .chain import MipChain
 from .mip_lobes import MipLobes
@@ -246,8 +246,4 @@ def _mip_radiance(faces: Array, direction: ArrayLike, borders: Borders) -> Array
     half = 0.5 / faces.shape[1]
     # Half a texel inside, interpolation ends at the face's last texel centres and needs no neighbour.
     inside = np.clip(uv, half, 1.0 - half)
-    return bilinear(faces, inside, _no_neighbour, layer=face)
-
-
-def _no_neighbour(columns: Indices, rows: Indices, width: int, height: int) -> tuple[Indices, Indices]:
-    return np.clip(columns, 0, width - 1), np.clip(rows, 0, height - 1)
+    return bilinear(faces, inside, clamp_to_edge, layer=face)

@@ -1,0 +1,6 @@
+// The irradiance that a mesh takes from the floor, of one lamp.
+
+void main()
+{
+  radiance = vec4(lamp.irradiance.rgb, 1.0);
+}

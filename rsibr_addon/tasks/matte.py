@@ -1,0 +1,151 @@
+"""The object over its own light or a camera's picture, on a floor that takes its shadow."""
+
+from pathlib import Path
+
+import numpy as np
+
+from ..core.conventions import Array, Indices
+from ..core.environment import Environment
+from ..core.errors import MapSetError
+from ..core.filtering.harmonics.analysis import analyse_environment
+from ..core.filtering.irradiance import irradiance_exact
+from ..core.filtering.prefilter import analysis_degree, prefilter
+from ..core.filtering.radial_lobes import von_mises_fisher_lobe
+from ..core.filtering.zonal import expand
+from ..core.geometry.camera import Camera
+from ..core.light.median_cut import Lamps, lamps_above
+from ..core.maps.representation import representation
+from ..core.pictures.matte import backdrop_directions, fitted, floor_share, over
+from ..core.resample import lookup
+from ..device.floor_shadow import floor_shadow
+from ..settings.matte import LIGHT, MatteOptions
+from .light.light_pictures import read_light
+
+LAMPS = 256
+"""Lamps that the floor's light is made of: a step of a shadow is 0.4 % of it."""
+
+SHADOW_SIZE = 512
+"""Width of the floor's map in texels: 64 to the object's radius."""
+
+BLURRED_ROWS = 256
+"""Height of a blurred background's map; a blur of a degree is wider than its texels."""
+
+BACKDROP_SAMPLES = 2
+"""Lookups along each side of a pixel of the background."""
+
+_EQUIRECT = representation("equirect")
+_UP = np.array([0.0, 0.0, 1.0])
+
+
+class Matte:
+    """What is behind an object, made once for all pictures of it.
+
+    Parameters
+    ----------
+    options : MatteOptions
+    environment : Environment or None
+        The map set's light.
+    positions : ndarray, shape (V, 3)
+        The object's vertices in world coordinates.
+    triangles : ndarray of int, shape (F, 3)
+
+    Raises
+    ------
+    MapSetError
+        Light is asked for, and the map set does not hold it.
+    InputFileError
+        The background's picture cannot be read.
+    RangeError
+        The blur is narrower than the light resolves.
+    """
+
+    def __init__(
+        self, options: MatteOptions, environment: Environment | None, positions: Array, triangles: Indices
+    ) -> None:
+        self._options = options
+        self._picture: Array | None = None
+        self._light: Array | None = None
+        self._floor: _Floor | None = None
+        if options.background == LIGHT:
+            self._light = _blurred(_known(environment), options.background_blur)
+        elif options.background is not None:
+            self._picture = read_light(Path(options.background))
+        if options.floor:
+            self._floor = _Floor(_known(environment), positions, triangles)
+
+    def under(self, picture: Array, camera: Camera, object_turn: Array, light_turn: Array) -> Array:
+        """Put what is behind an object under its picture.
+
+        Parameters
+        ----------
+        picture : ndarray, shape (size, size, 4)
+            Radiance times coverage, and coverage; row 0 at the bottom.
+        camera : Camera
+            The one that it was drawn with.
+        object_turn, light_turn : ndarray, shape (3, 3)
+            Rotations of object and light from where they were made.
+
+        Returns
+        -------
+        ndarray, shape (size, size, 4), float32
+            Opaque where there is a background; else with the floor's shadow in its coverage.
+        """
+        behind = self._background(camera, len(picture), light_turn)
+        share: Array | float = 1.0
+        if self._floor is not None:
+            share = self._floor.share(camera, len(picture), object_turn, light_turn)
+        if behind is not None:
+            return over(picture, behind * share)
+        if self._floor is None:
+            return picture
+        shaded = picture.copy()
+        shaded[..., 3] += (1.0 - picture[..., 3]) * (1.0 - np.mean(share, axis=-1))
+        return shaded
+
+    def _background(self, camera: Camera, size: int, light_turn: Array) -> Array | None:
+        seen = self._picture
+        if self._light is not None:
+            directions = backdrop_directions(camera, BACKDROP_SAMPLES * size) @ light_turn
+            seen = lookup(self._light[None], directions, _EQUIRECT)
+        return None if seen is None else fitted(2.0**self._options.background_exposure * seen, size)
+
+
+class _Floor:
+    """The floor below an object, and the shadow that it had last."""
+
+    def __init__(self, light: Array, positions: Array, triangles: Indices) -> None:
+        self._positions, self._triangles = positions, triangles
+        self._lamps = lamps_above(light, LAMPS)
+        self._irradiance = irradiance_exact(light, _UP)
+        self._height = float(positions[:, 2].min())
+        self._shadow: tuple[bytes, Array] | None = None
+
+    def share(self, camera: Camera, size: int, object_turn: Array, light_turn: Array) -> Array:
+        """Of its light that each pixel's point of the floor gets, shape (size, size, 3)."""
+        turns = object_turn.tobytes() + light_turn.tobytes()
+        if self._shadow is None or self._shadow[0] != turns:
+            lamps = Lamps(self._lamps.directions @ light_turn.T, self._lamps.irradiance)
+            placed = self._positions @ object_turn.T
+            made = floor_shadow(placed, self._triangles, self._height, lamps, SHADOW_SIZE)
+            self._shadow = turns, made
+        return floor_share(camera, self._height, self._shadow[1], self._irradiance, size)
+
+
+def _known(environment: Environment | None) -> Array:
+    if environment is None:
+        raise MapSetError(
+            "The map set does not hold its light: choose a picture as the background, and no floor."
+        )
+    return environment.radiance
+
+
+def _blurred(radiance: Array, degrees: float) -> Array:
+    """Light filtered with a spherical Gaussian whose standard deviation is a blur, each way."""
+    if not degrees:
+        return radiance
+    lobe = expand(von_mises_fisher_lobe(1.0 / np.radians(degrees) ** 2), 1e-4)
+    harmonics = analyse_environment(radiance, analysis_degree([lobe]))
+    filtered: Array = prefilter(harmonics, [lobe], _EQUIRECT.texel_directions(2 * BLURRED_ROWS)[0]).radiance[
+        0
+    ]
+    return filtered

@@ -1,0 +1,60 @@
+#!/bin/bash
+# Draws figures of the papers with rsibr on the path: figures.sh [SECTION ...], all sections by default
+set -euo pipefail
+docs=$(cd "$(dirname "$0")" && pwd)
+images=$docs/images
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+
+sheet() { # PICTURE COLUMNS STOPS PREVIEW.exr ...
+    python "$docs/../.ci/contact_sheet.py" "$images/$1.png" "${@:2}"
+}
+
+# Kautz, Daubert & Seidel 2004; docs/mip-chains.md shows and explains them
+kautz2004() {
+    bake() { # NAME SIZE OPTIONS
+        rsibr bake mip-chain --environment courtyard --size "$2" "${@:3}" -o "$1.rsibr.exr"
+    }
+    draw() { # NAME.exr MAP-SET OPTIONS
+        rsibr preview "$2.rsibr.exr" --size 128 --fill 0.9 "${@:3}" -o "$1.exr"
+    }
+    monkey=(--mesh monkey --view 0.4,-1,0.25 --perspective 30 --background light)
+    bake box 64 --filter box
+    # Figure 3: materials from one chain, by f and b
+    draw bunny box "${monkey[@]}" --kd 0.5,0.35,0.2 --f0 0.05 --mip 2.3
+    draw bust box "${monkey[@]}" --kd 0.3 --f0 0.24 --mip 1.5
+    draw paint box "${monkey[@]}" --kd 0.5,0.02,0.02 --f0 0.15 --mip 0.2
+    draw rubber box "${monkey[@]}" --kd 0.03 --f0 0.15 --mip 3.3
+    sheet kautz2004-3 4 0 {bunny,bust,paint,rubber}.exr
+    # Figure 4: the border problem at b = 9.4, and without it
+    bake large 512 --filter box
+    bake bordered 512 --filter bordered
+    ball=(--f0 1 --mip 9.4 --view 1,-1,0.8)
+    draw clamped large "${ball[@]}" --borders clamped
+    draw seamless large "${ball[@]}"
+    draw across bordered "${ball[@]}"
+    sheet kautz2004-4 3 0 {clamped,seamless,across}.exr
+    # Figure 5: Phong's N = 225, as before the paper, and the box filter's mip that is as blurred
+    bake phong 64 --filter phong --exponents 225
+    glossy=(--kd 0.2 --f0 0.6)
+    draw phong phong "${monkey[@]}" "${glossy[@]}" --mip 0
+    draw box225 box "${monkey[@]}" "${glossy[@]}" --exponent 225
+    draw b225 box "${monkey[@]}" "${glossy[@]}" --mip 2.25
+    sheet kautz2004-5 3 0 {phong,box225,b225}.exr
+    # Figure 6: f from left to right, b from top to bottom
+    grid=()
+    for b in 0 0.8 1.7 2.4; do
+        for f in 0.03 0.09 0.26 0.42; do
+            draw "grid-$b-$f" box "${monkey[@]}" --kd 0.4,0.25,0.1 --f0 $f --mip $b
+            grid+=("grid-$b-$f.exr")
+        done
+    done
+    sheet kautz2004-6 4 0 "${grid[@]}"
+}
+
+sections=("$@")
+[ $# -gt 0 ] || sections=(kautz2004)
+for section in "${sections[@]}"; do
+    "$section"
+done

@@ -33,15 +33,18 @@ class BakeJob(Generic[Settings]):
     light : Light
     force : bool
         Whether `output` is replaced if it exists.
+    if_missing : bool
+        Whether an `output` that exists is kept, if it was made with the same settings.
     """
 
     settings: Settings
     output: str
     light: Light = field(default_factory=Light)
     force: bool = False
+    if_missing: bool = False
 
     def to_json(self) -> str:
-        """The job as a JSON object, which `read_job` takes back."""
+        """The job as a JSON object, which `read_job` takes back; without `if_missing`, as jobs have it."""
         plain = {
             "format": FORMAT,
             "kind": self.settings.KIND,
@@ -97,7 +100,7 @@ class _BakeFile:
 
 
 def read_job(text: str, name: str) -> BakeJob[Any] | CommandJob:
-    """Read a job.
+    """Read a job. A bake that does not replace its output is `if_missing`, so that it can be repeated.
 
     Parameters
     ----------
@@ -133,4 +136,5 @@ def _bake_job(found: _BakeFile) -> BakeJob[Any]:
     if found.kind not in STORED:
         raise SchemaError(f"kind is not one of {', '.join(STORED)}")
     settings = decode(STORED[found.kind].settings, found.settings, "settings")
-    return BakeJob(settings, found.output, decode(Light, found.light, "light"), found.force)
+    light = decode(Light, found.light, "light")
+    return BakeJob(settings, found.output, light, found.force, if_missing=not found.force)

@@ -45,7 +45,13 @@ class BakeCommand:
         """Declare what `run` reads."""
         add_options(parser, Light)
         add_options(parser, self.settings)
-        add_output(parser, "NAME.rsibr.exr", "the map set to write")
+        existing = add_output(parser, "NAME.rsibr.exr", "the map set to write")
+        existing.add_argument(
+            "--if-missing",
+            action="store_true",
+            help="do nothing if the map set exists and was made with the same settings; if with others, say "
+            "which",
+        )
 
     def run(self, arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         """Bake.
@@ -61,7 +67,8 @@ class BakeCommand:
             See `tasks.methods.bake.bake`.
         """
         settings, light = given(arguments, self.settings), given(arguments, Light)
-        return run_job(BakeJob(settings, str(arguments.output), light, arguments.force), console)
+        output, force, if_missing = str(arguments.output), arguments.force, arguments.if_missing
+        return run_job(BakeJob(settings, output, light, force, if_missing), console)
 
 
 def run_job(job: BakeJob[Any], console: Console) -> dict[str, Any]:
@@ -70,7 +77,8 @@ def run_job(job: BakeJob[Any], console: Console) -> dict[str, Any]:
     Returns
     -------
     dict
-        "map_set", the path of the file; and the figures of its method, see `tasks.methods.method.Baked`.
+        "map_set", the path of the file; and the figures of its method, see `tasks.methods.method.Baked`; or
+        "found", true, where the file was there already.
 
     Raises
     ------

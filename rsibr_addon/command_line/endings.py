@@ -25,6 +25,9 @@ AGAIN = "Interrupted: give the same command again."
 GOES_ON = "Interrupted: give the same command again, and it goes on from the views that are finished."
 MAY_GO_ON = "Interrupted: give the same command again; a capture goes on from the views that are finished."
 
+TRY_AGAIN = 75
+"""Exit code of what failed and may succeed another time, BSD's EX_TEMPFAIL; 1 is wrong for good."""
+
 _asked = threading.Event()
 _done = threading.Event()
 _working = threading.Lock()
@@ -95,9 +98,9 @@ def done() -> None:
     _done.set()
 
 
-def failed(sentence: str) -> str:
+def failed(sentence: str, try_again: bool) -> str:
     """The result of a command that has not begun, or cannot tell its own, as JSON."""
-    return json.dumps({"ok": False, "error": sentence, "warnings": []})
+    return json.dumps({"ok": False, "error": sentence, "try_again": try_again, "warnings": []})
 
 
 def tell(sentence: str, argv: Sequence[str], out: int, err: int) -> None:
@@ -118,4 +121,4 @@ def tell(sentence: str, argv: Sequence[str], out: int, err: int) -> None:
         told.control(CLEAR_LINE)  # a bar may stand there
     told.write(f"rsibr: error: {sentence}\n")
     if "--json" in argv:
-        Outlet(out).write(f"{failed(sentence)}\n")
+        Outlet(out).write(f"{failed(sentence, try_again=True)}\n")

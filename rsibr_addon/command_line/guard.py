@@ -42,7 +42,8 @@ def guarded(work: Callable[[], int], argv: Sequence[str]) -> int:
     Returns
     -------
     int
-        The exit code: the work's, 128 and the number of the signal that ended it, or 1 after a crash.
+        The exit code: the work's, 128 and the number of the signal that ended it, or `endings.TRY_AGAIN`
+        after a crash.
     """
     asking = endings.heeded()
     signal.signal(signal.SIGCHLD, lambda number, frame: None)  # of an ignored one there would be no word
@@ -64,10 +65,10 @@ def guarded(work: Callable[[], int], argv: Sequence[str]) -> int:
         return 128 + number
     if code < 0:
         endings.tell(_crash(number), argv, 1, 2)
-        return 1
+        return endings.TRY_AGAIN
     if not _came_to_its_end(reader):
         endings.tell(f"A library ended the process{_remedy()}", argv, 1, 2)
-        return 1
+        return endings.TRY_AGAIN
     return code
 
 

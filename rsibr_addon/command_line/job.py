@@ -41,6 +41,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     if isinstance(job, BakeJob):
         return run_job(job, console)
     asked = _parsed(job.arguments, arguments.job)
+    if hasattr(asked, "if_missing"):
+        asked.if_missing = not asked.force
     result: dict[str, Any] = asked.run(asked, console)
     return result
 

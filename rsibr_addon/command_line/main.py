@@ -1,8 +1,8 @@
 """The command line: `rsibr ...` beside the bpy module, `blender --command rsibr ...` within Blender.
 
 Results go to standard output (with ``--json`` one JSON object, its last line); progress, warnings and errors
-to standard error, and nothing that Blender says, unless ``--verbose``. Exit codes: 0 done, 1 failed, 2 usage;
-128 and its number after a signal that asked for the end.
+to standard error, and nothing that Blender says, unless ``--verbose``. Exit codes: 0 done, 1 failed for good,
+2 usage, 75 failed but may succeed another time; 128 and its number after a signal that asked for the end.
 
 What is imported here is light: a signal is heeded before Python reads the rest.
 """
@@ -19,8 +19,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
-from ..core.errors import RsibrError
+from ..core.errors import NotNowError, RenderError, RsibrError
 from ..files.locks import held
+from ..files.outputs import MAY_PASS
 from ..files.staging import remove_own
 from . import endings
 from .streams import Outlet, open_closed_streams, others_hushed, own_streams
@@ -87,7 +88,7 @@ def run(argv: Sequence[str]) -> int:
     Returns
     -------
     int
-        0 done, 1 failed, 2 wrong usage.
+        0 done, 1 failed for good, 2 wrong usage, `endings.TRY_AGAIN` failed for now.
     """
     from .commands import parsed
     from .parser import UsageError
@@ -100,14 +101,16 @@ def run(argv: Sequence[str]) -> int:
         except UsageError as error:
             told.write(f"{error.usage}: error: {error}\n")
             if "--json" in argv:
-                out.write(f"{endings.failed(str(error))}\n")
+                out.write(f"{endings.failed(str(error), try_again=False)}\n")
             return 2
         result, lines = _done(arguments, told)
         for line in [json.dumps(result)] if arguments.json else lines:
             out.write(f"{line}\n")
         if out.full:
             told.write(f"rsibr: warning: Standard output took no result ({out.error}): see its device.\n")
-    return 0 if result["ok"] else 1
+    if result["ok"]:
+        return 0
+    return endings.TRY_AGAIN if result["try_again"] else 1
 
 
 def _done(arguments: argparse.Namespace, told: Outlet) -> tuple[dict[str, Any], list[str]]:
@@ -122,12 +125,20 @@ def _done(arguments: argparse.Namespace, told: Outlet) -> tuple[dict[str, Any], 
         except (RsibrError, OSError, MemoryError, ModuleNotFoundError) as error:
             if isinstance(error, ModuleNotFoundError) and error.name not in BLENDERS_MODULES:
                 raise
-            result = {"ok": False, "error": _sentence(error, arguments.command)}
+            sentence = sentence_of(error, arguments.command)
+            result = {"ok": False, "error": sentence, "try_again": may_pass(error)}
             told.write(f"rsibr: error: {result['error']}\n")
     return result | {"warnings": console.warnings}, console.lines if result["ok"] else []
 
 
-def _sentence(error: Exception, command: str) -> str:
+def may_pass(error: Exception) -> bool:
+    """Whether the same work may succeed another time, as its error tells of the machine alone."""
+    if isinstance(error, OSError):
+        return error.errno in MAY_PASS
+    return isinstance(error, NotNowError | RenderError | MemoryError)
+
+
+def sentence_of(error: Exception, command: str) -> str:
     """What to tell of an error, naming the file where the system knows it."""
     if isinstance(error, ModuleNotFoundError):
         return (

@@ -178,7 +178,15 @@ def add_map_set(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("map_set", metavar="NAME.rsibr.exr", type=Path, help="a map set")
 
 
-def add_output(parser: argparse.ArgumentParser, metavar: str, description: str) -> None:
-    """Declare where the result goes, `output`, and whether it replaces what is there, `force`."""
+def add_output(parser: argparse.ArgumentParser, metavar: str, description: str) -> Any:
+    """Declare where the result goes, `output`, and whether it replaces what is there, `force`.
+
+    Returns
+    -------
+    argparse group
+        Takes other options that say what happens to what is there.
+    """
     parser.add_argument("-o", "--output", metavar=metavar, type=Path, required=True, help=description)
-    parser.add_argument("--force", action="store_true", help="replace what exists")
+    existing = parser.add_mutually_exclusive_group()
+    existing.add_argument("--force", action="store_true", help="replace what exists")
+    return existing

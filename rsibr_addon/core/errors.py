@@ -37,6 +37,10 @@ class OutputFileError(RsibrError):
     """A file cannot be written, or exists and was not to be replaced."""
 
 
+class NotNowError(OutputFileError):
+    """A file cannot be written now, but perhaps later: its disk is full, or does not answer."""
+
+
 class SceneError(RsibrError):
     """Something in the Blender file (scene, world, material, mesh) cannot be used."""
 

@@ -5,6 +5,7 @@ from functools import partial
 from pathlib import Path
 
 from .read_once import read_once
+from .reading import opened
 
 MOST = 4096
 """Hashes that are kept. All images of a scene are looked at in turn: with fewer, each would be read anew."""
@@ -16,8 +17,8 @@ def digest(path: Path) -> str:
 
     Raises
     ------
-    OSError
+    InputFileError
         It cannot be read.
     """
-    with path.open("rb") as file:
+    with opened(path) as file:
         return hashlib.file_digest(file, "sha256").hexdigest()

@@ -79,6 +79,35 @@ class _Part(TypedDict):
     sha256: Hash
 
 
+class Recipe(TypedDict):
+    """All that a map set depends on; equal ones make the same map set.
+
+    Attributes
+    ----------
+    kind : str
+    settings : dict
+        Every setting of the method, as JSON values; of the files that they name, the names alone.
+    clamp : float or None
+        Greatest radiance.
+    light : str
+        SHA-256 of the environment's file, and ``:LAYER`` where one is named; or a fingerprint of the world.
+    material : str or None
+        Fingerprint of the material, where it is one of a Blender file.
+    files : list of str
+        SHA-256 of the other files that the settings name.
+    software : str
+        As in the description.
+    """
+
+    kind: str
+    settings: dict[str, Any]
+    clamp: float | None
+    light: str
+    material: str | None
+    files: list[str]
+    software: str
+
+
 class Header(TypedDict):
     """The description that all kinds of map sets share."""
 
@@ -91,6 +120,7 @@ class Header(TypedDict):
     error_bound: dict[str, float | Annotated[list[float], length(1, MOST_KERNELS)]] | None
     settings: dict[str, Any]
     software: str
+    recipe: NotRequired[Recipe]
 
 
 def role_in_words(part: dict[str, Any]) -> str:

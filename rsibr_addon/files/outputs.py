@@ -13,8 +13,16 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from ..core.errors import OutputFileError
+from ..core.errors import NotNowError, OutputFileError
 from .staging import REPLACED, staging_folder
+
+FULL = frozenset({errno.ENOSPC, errno.EDQUOT})
+MAY_PASS = FULL | {
+    getattr(errno, name)
+    for name in ("EIO", "EAGAIN", "EBUSY", "EMFILE", "ENFILE", "ENOMEM", "ESTALE", "ETIMEDOUT", "EHOSTDOWN")
+    if hasattr(errno, name)
+}
+"""Numbers of the system's errors that another try may not meet."""
 
 
 @dataclass(frozen=True)
@@ -108,13 +116,12 @@ def outputs_now() -> contextlib.AbstractContextManager[Outputs]:
 
 def not_written(path: Path, error: OSError) -> OutputFileError:
     """The error to raise when the system refuses to write `path`."""
-    if error.errno in (errno.ENOSPC, errno.EDQUOT):
-        return OutputFileError(
+    if error.errno in FULL:
+        return NotNowError(
             f"{path} was not written because the disk is full: free some space, or write elsewhere."
         )
-    return OutputFileError(
-        f"{path} was not written ({error.strerror}): check its folder, or write elsewhere."
-    )
+    kind = NotNowError if error.errno in MAY_PASS else OutputFileError
+    return kind(f"{path} was not written ({error.strerror}): check its folder, or write elsewhere.")
 
 
 def _appear(outputs: list[Output]) -> None:

@@ -2,19 +2,19 @@
 
 import contextlib
 from collections.abc import Iterator
+from io import BufferedReader
 from pathlib import Path
-from typing import BinaryIO
 
 from ..core.errors import InputFileError
 
 
 @contextlib.contextmanager
-def opened(path: str | Path) -> Iterator[BinaryIO]:
+def opened(path: str | Path) -> Iterator[BufferedReader]:
     """Open `path` for reading.
 
     Yields
     ------
-    BinaryIO
+    BufferedReader
         The file's bytes, from the first.
 
     Raises

@@ -6,7 +6,7 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-from ..core.errors import InputFileError, OutputFileError, RenderError
+from ..core.errors import InputFileError, NotNowError, OutputFileError, RenderError
 from .staging import is_staging_folder, staging_folder
 
 _PROBE_BYTES = 65536
@@ -40,7 +40,7 @@ def temporary_folder() -> Iterator[Path]:
             if _is_full(folder):
                 # A command has its own folder in the user's
                 place = next(each for each in folder.parents if not is_staging_folder(each))
-                raise OutputFileError(
+                raise NotNowError(
                     f"The disk with the temporary files is full ({place}): free some space there, or set "
                     f"TMPDIR to another folder."
                 ) from error

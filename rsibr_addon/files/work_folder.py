@@ -1,4 +1,7 @@
-"""A folder for finished parts of long work, so that work can continue after an interruption."""
+"""The folder beside an output of whoever makes it, with finished parts of long work.
+
+It is held by one process at a time, and lets interrupted work go on.
+"""
 
 import contextlib
 import hashlib
@@ -29,82 +32,73 @@ def work_folder_beside(output: Path) -> Path:
 
 
 @contextlib.contextmanager
-def work_folder(path: Path, work: dict[str, Any]) -> Iterator[Path]:
-    """Keep parts of `work` in its own folder until all is done.
+def held_work_folder(path: Path) -> Iterator[None]:
+    """Hold the folder of some work alone, even after this process was killed; then it is released.
 
     Parameters
     ----------
     path : Path
-        Made if it does not exist. It is removed after the body, unless the body raises and has left files in
-        it.
-    work : dict
-        JSON values that identify the work. Parts of the same work are kept; parts of other work are removed
-        before the body.
-
-    Yields
-    ------
-    Path
-        `path`, for the body's files. No other process can hold it at the same time, even after this one was
-        killed.
+        Made if it does not exist. It is removed after the body, unless parts are left in it.
 
     Raises
     ------
+    BlockingIOError
+        Another process holds it.
     OutputFileError
-        Another process has the folder, or it cannot be made; or a folder of that name holds files, but
-        no work of ours.
+        It cannot be made; or a folder of that name holds files, but no work of ours.
+    """
+    _make(path)
+    with held(path):
+        yield
+
+
+@contextlib.contextmanager
+def kept_parts(path: Path, work: dict[str, Any]) -> Iterator[None]:
+    """Keep parts of `work` in its folder until all is done.
+
+    Parameters
+    ----------
+    path : Path
+        Of `held_work_folder`. It is emptied after the body, unless the body raises and has left files in it.
+    work : dict
+        JSON values that identify the work. Parts of the same work are kept; parts of other work are removed
+        before the body.
 
     Warns
     -----
     RsibrWarning
         Parts of other work were removed.
     """
-    _make(path)
-    with _alone(path):
-        _prepare(path, work)
-        try:
-            yield path
-        except BaseException:
-            if not _parts(path):
-                (path / WORK).unlink(missing_ok=True)
-            raise
-        _empty(path)
+    _prepare(path, work)
+    try:
+        yield
+    except BaseException:
+        if not _parts(path):
+            (path / WORK).unlink(missing_ok=True)
+        raise
+    clear_parts(path)
 
 
-def clear_work_folder(path: Path) -> None:
-    """Remove the folder that a killed process left of work that it had just finished.
+def clear_parts(path: Path) -> None:
+    """Remove all parts from a folder of `held_work_folder`.
 
-    Parameters
-    ----------
-    path : Path
-        See `work_folder`.
-
-    Raises
-    ------
-    OutputFileError
-        As `work_folder`.
+    The description goes first: without it the rest counts as other work.
     """
-    _make(path)
-    with _alone(path):
-        _empty(path)
+    (path / WORK).unlink(missing_ok=True)
+    for part in _parts(path):
+        part.unlink()
 
 
 def _make(path: Path) -> None:
-    if path.is_dir() and not (path / LOCK).exists() and any(path.iterdir()):
-        raise OutputFileError(f"{path} holds files other than unfinished work: move it, or write elsewhere.")
     try:
         path.mkdir(exist_ok=True)
+        names = os.listdir(path)
+    except FileNotFoundError:  # its former holder has just removed it
+        return
     except OSError as error:
         raise OutputFileError(f"{path} cannot be made ({error.strerror}): write elsewhere.") from error
-
-
-@contextlib.contextmanager
-def _alone(path: Path) -> Iterator[None]:
-    with contextlib.ExitStack() as stack:
-        try:
-            stack.enter_context(held(path))
-        except BlockingIOError as error:
-            raise OutputFileError(f"Another process is working in {path}: wait for it, or end it.") from error
-        yield
+    if names and LOCK not in names:
+        raise OutputFileError(f"{path} holds files other than unfinished work: move it, or write elsewhere.")
 
 
 def _prepare(path: Path, work: dict[str, Any]) -> None:
@@ -113,16 +107,9 @@ def _prepare(path: Path, work: dict[str, Any]) -> None:
         return
     if _parts(path):
         warn(f"{path} held parts of another job (or of another version), so this one starts afresh.")
-    _empty(path)
+    clear_parts(path)
     with written_aside(path / WORK) as aside:
         aside.write_text(json.dumps(work))
-
-
-def _empty(path: Path) -> None:
-    """Remove all but the lock, the description first: without it the rest counts as other work."""
-    (path / WORK).unlink(missing_ok=True)
-    for part in _parts(path):
-        part.unlink()
 
 
 def _parts(path: Path) -> list[Path]:

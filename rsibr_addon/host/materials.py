@@ -80,6 +80,17 @@ def material_name(spec: str) -> str:
     return _parsed(spec)[1]
 
 
+def material_file(spec: str) -> str:
+    """The file in a text that `load_material` takes; empty for a preset and for the open file.
+
+    Raises
+    ------
+    InputFileError
+        The text names no material.
+    """
+    return _parsed(spec)[0] or ""
+
+
 def names_other_file(spec: str) -> bool:
     """Whether `load_material` would open another file for a text.
 

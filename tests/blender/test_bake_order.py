@@ -16,7 +16,7 @@ from rsibr.rsibr_addon.core.errors import InputFileError, MapSetError, OutputFil
 from rsibr.rsibr_addon.core.options import declared_options, quality_values
 from rsibr.rsibr_addon.files.exr import Part, write_parts
 from rsibr.rsibr_addon.files.kinds.registry import STORED
-from rsibr.rsibr_addon.files.map_set import write_map_set
+from rsibr.rsibr_addon.files.map_set import read_map_set_header, write_map_set
 from rsibr.rsibr_addon.files.staging import is_staging_folder
 from rsibr.rsibr_addon.host.bake_settings import apply_settings, plain_settings
 from rsibr.rsibr_addon.host.option_properties import property_name, shown_value
@@ -24,7 +24,9 @@ from rsibr.rsibr_addon.job import CommandJob, read_job
 from rsibr.rsibr_addon.session.running import session
 from rsibr.rsibr_addon.settings.kernel_pyramid import PyramidComparison
 from rsibr.rsibr_addon.tasks.light.light_pictures import NO_RADIANCE, light_remarks
+from rsibr.rsibr_addon.tasks.methods.recipe import recipe_hash
 from rsibr.rsibr_addon.tasks.queue.bake_request import (
+    HASH_LETTERS,
     BakeRequest,
     bake_of,
     comparison_of,
@@ -152,6 +154,8 @@ def test_the_file_is_as_large_as_was_said(tmp_path: Path) -> None:
         # Said for any light; how well a picture is compressed depends on it
         assert 0.4 < path.stat().st_size / order().cost.disk < 1.6
         assert is_baked(path)
+        # A job given by hand is known by what the panel names its files after
+        assert f"-{recipe_hash(read_map_set_header(path)['recipe'])[:HASH_LETTERS]}.rsibr.exr" in path.name
 
 
 @pytest.mark.parametrize(

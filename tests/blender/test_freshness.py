@@ -147,7 +147,7 @@ def test_a_baked_material_is_out_of_date_when_it_changes() -> None:
 
 def test_a_file_of_another_version_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
     baked("kernel_pyramid", "WORLD", cube())
-    monkeypatch.setattr("rsibr.rsibr_addon.tasks.queue.bake_request.software", lambda: "rsibr 9")
+    monkeypatch.setattr("rsibr.rsibr_addon.host.version.software", lambda: "rsibr 9")
     monkeypatch.setattr("rsibr.rsibr_addon.tasks.queue.freshness.rsibr", lambda: "rsibr 9")
     stale = staleness(cube())
     assert stale is not None

@@ -168,15 +168,11 @@ def test_every_option_goes_every_way(
     operator = getattr(bpy.ops.rsibr, f"bake_{kind}")
     assert operator(filepath="out.rsibr.exr", **by_operator(kind, values, light)) == {"FINISHED"}
     in_panel(kind, values, light)
-    jobs.append(
-        replace(
-            request_for(bpy.context.scene.rsibr_bake, bpy.context.scene, bpy.context.object).job(
-                Path("out.rsibr.exr")
-            ),
-            force=False,
-        )
-    )
-    assert jobs == 4 * [expected]
+    request = request_for(bpy.context.scene.rsibr_bake, bpy.context.scene, bpy.context.object)
+    jobs.append(request.job(Path("out.rsibr.exr")))
+    # Commands and operators refuse what exists, jobs keep it
+    assert [job.if_missing for job in jobs] == [False, True, False, True]
+    assert [replace(job, if_missing=False) for job in jobs] == 4 * [expected]
 
 
 @pytest.mark.slow

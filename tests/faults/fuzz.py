@@ -24,7 +24,7 @@ from rsibr.rsibr_addon.files.exr import Part, read_parts, write_parts
 from rsibr.rsibr_addon.files.fits import read_fit
 from rsibr.rsibr_addon.files.map_set import read_map_set, read_map_set_header, write_map_set
 from rsibr.rsibr_addon.files.map_set_mark import ATTRIBUTE
-from rsibr.rsibr_addon.files.work_folder import work_folder
+from rsibr.rsibr_addon.files.work_folder import held_work_folder, kept_parts
 from rsibr.rsibr_addon.tasks.compare.measured_error import measured_facts
 from rsibr.rsibr_addon.tasks.export.engines.export import export_for_engine
 from rsibr.rsibr_addon.tasks.export.engines.settings import CubeSettings
@@ -84,7 +84,7 @@ def _work(path: Path) -> None:
     folder.mkdir(exist_ok=True)
     (folder / "lock").touch()
     (folder / "job.json").write_bytes(path.read_bytes())
-    with work_folder(folder, {"a": 1}):
+    with held_work_folder(folder), kept_parts(folder, {"a": 1}):
         pass
 
 

@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 import pytest
+from rsibr.rsibr_addon.command_line.endings import TRY_AGAIN
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="has no guard")
 
@@ -24,10 +25,10 @@ def ended(work: str) -> subprocess.CompletedProcess[str]:
 @pytest.mark.parametrize("code", [0, 1])
 def test_an_exit_of_a_library_is_told(code: int) -> None:
     found = ended(f"lambda: ctypes.CDLL(None).exit({code})")
-    assert found.returncode == 1
+    assert found.returncode == TRY_AGAIN
     assert found.stderr.startswith("rsibr: error: A library ended the process")
     assert len(found.stderr.splitlines()) == 1
-    assert json.loads(found.stdout)["ok"] is False
+    assert [json.loads(found.stdout)[name] for name in ("ok", "try_again")] == [False, True]
 
 
 @pytest.mark.parametrize("code", [0, 1, 2])
@@ -38,5 +39,5 @@ def test_work_that_came_to_its_end_keeps_its_code(code: int) -> None:
 
 def test_a_crash_is_told_without_naming_blender() -> None:
     found = ended("os.abort")
-    assert found.returncode == 1
+    assert found.returncode == TRY_AGAIN
     assert found.stderr.startswith("rsibr: error: The process crashed (SIGABRT)")

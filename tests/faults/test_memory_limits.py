@@ -124,7 +124,8 @@ def test_a_result_or_a_sentence(name: str, size: str, limit: int, sources: Path,
         assert last == "" or last.startswith("rsibr: warning: ")
         assert ended.left
         return
-    assert ended.code == 1
+    # Memory of others may be free another time
+    assert ended.code in (1, 75)
     assert last.startswith("rsibr: error: ")
     assert any(word in last for word in ("memory", "addresses", "choose", "shrink")), last
     # A capture's finished views are kept

@@ -162,6 +162,6 @@ def test_a_killed_command_leaves_no_staging_folder(output: list[str], tmp_path: 
     )
     command = [sys.executable, "-c", script, "bake", *output]
     killed = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert killed.returncode == 1
+    assert killed.returncode == 75
     assert killed.stdout.startswith(".rsibr-")
     assert list(tmp_path.iterdir()) == []

@@ -1,18 +1,26 @@
 """The work folder: for one process and one work, and gone when that is done."""
 
+import contextlib
 import json
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from rsibr.rsibr_addon.core.errors import OutputFileError, RsibrWarning
 from rsibr.rsibr_addon.files.staging import staging_name
-from rsibr.rsibr_addon.files.work_folder import work_folder, work_folder_beside
+from rsibr.rsibr_addon.files.work_folder import held_work_folder, kept_parts, work_folder_beside
 
 
 class Interruption(Exception):  # noqa: N818
     """Whatever ends work early."""
+
+
+@contextlib.contextmanager
+def work_folder(path: Path, work: dict[str, object]) -> Iterator[Path]:
+    with held_work_folder(path), kept_parts(path, work):
+        yield path
 
 
 def work_and_stop(path: Path, work: dict[str, object], *parts: str) -> None:
@@ -69,15 +77,15 @@ def test_nobody_else_gets_in(tmp_path: Path) -> None:
     path = tmp_path / "work"
     script = (
         "import sys\n"
-        "from rsibr.rsibr_addon.files.work_folder import work_folder\n"
-        "with work_folder(__import__('pathlib').Path(sys.argv[1]), {'n': 1}):\n"
+        "from rsibr.rsibr_addon.files.work_folder import held_work_folder\n"
+        "with held_work_folder(__import__('pathlib').Path(sys.argv[1])):\n"
         "    print('in', flush=True)\n"
         "    sys.stdin.read()\n"
     )
     command = [sys.executable, "-c", script, str(path)]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as other:
         assert other.stdout.readline() == "in\n"
-        with pytest.raises(OutputFileError, match="Another process is working in"), work_folder(path, {}):
+        with pytest.raises(BlockingIOError), held_work_folder(path):
             pass
         assert path.is_dir()
         other.kill()

@@ -47,6 +47,17 @@ def load_environment(spec: str | None, clamp: float | None = None, bare_world: b
         from ...host.worlds import sample_world, world_of
 
         return sample_world(world_of(find_scene(None)), WORLD_HEIGHT, clamp, bare_world)
+    return read_environment(environment_file(spec), clamp)
+
+
+def environment_file(spec: str) -> str:
+    """The file that a text of `load_environment` names, which may be missing.
+
+    Raises
+    ------
+    InputFileError
+        There is no environment of this name.
+    """
     own = studio_environments()
     # A folder may have the name of one of Blender's own
     if spec in own and not Path(spec).is_file():
@@ -56,4 +67,4 @@ def load_environment(spec: str | None, clamp: float | None = None, bare_world: b
         near = did_you_mean(spec, own)
         known = f", or one of {', '.join(own)}" if own else "; those with names come with Blender"
         raise InputFileError(f"There is no environment {spec}{near}: give a file{known}.")
-    return read_environment(spec, clamp)
+    return spec

@@ -1,24 +1,38 @@
 """Making map sets, by any method."""
 
+import time
+from contextlib import ExitStack
+from pathlib import Path
 from typing import Any
 
+from ...core.errors import OutputFileError
 from ...core.lazy_table import LazyTable
-from ...core.progress import Steps
+from ...core.progress import Progress, Steps
 from ...files.kinds.registry import STORED
+from ...files.map_set import check_map_set_target
+from ...files.map_set_header import Recipe
+from ...files.work_folder import clear_parts, held_work_folder, work_folder_beside
 from ...job import BakeJob
 from .method import Baked, Method
+from .recipe import check_made_by, recipe_of
 
 METHODS = LazyTable[Method](__package__, "METHOD", STORED)
 """Kind of map sets -> how it is made."""
 
+WAIT_SECONDS = 0.3
+"""Between two looks whether another process is done."""
+
 
 def bake(job: BakeJob[Any]) -> Steps[Baked]:
-    """Make a map set.
+    """Make a map set, unless it is there and may be kept.
+
+    Of two processes that make the same file one works. The other waits until it is done, or has died.
 
     Raises
     ------
     OutputFileError
-        The output exists, or cannot be written.
+        The output cannot be written; or it exists and is neither replaced nor kept, or was made with other
+        settings.
     RsibrError
         See `bake` of the job's method.
 
@@ -27,5 +41,43 @@ def bake(job: BakeJob[Any]) -> Steps[Baked]:
     RsibrWarning
         Likewise.
     """
-    baked: Steps[Baked] = METHODS[job.settings.KIND].bake(job)
+    method, output = METHODS[job.settings.KIND], Path(job.output)
+    folder = work_folder_beside(output)
+    # A process killed at its very end has written its output, and left its folder
+    keeps = not job.force and (job.if_missing or folder.is_dir())
+    if not (keeps and output.exists()):
+        check_map_set_target(output, job.force)
+    recipe = recipe_of(job, method.sources(job.settings))
+    if keeps and output.exists() and not folder.is_dir():
+        return _found(output, recipe)
+    with ExitStack() as stack:
+        yield from _hold(folder, output, stack)
+        if keeps and output.exists():
+            found = _found(output, recipe)
+            clear_parts(folder)
+            return found
+        try:
+            baked: Baked = yield from method.bake(job, recipe)
+        except OutputFileError:
+            # Where the disk knows no locks, another process may have been first
+            if keeps and output.exists():
+                return _found(output, recipe)
+            raise
     return baked
+
+
+def _found(output: Path, recipe: Recipe) -> Baked:
+    check_made_by(output, recipe)
+    return Baked(output, "is there already, made with these settings", {"found": True})
+
+
+def _hold(folder: Path, output: Path, stack: ExitStack) -> Steps[None]:
+    """Hold the folder of an output's work as long as `stack` is open; wait while another process does."""
+    while True:
+        try:
+            stack.enter_context(held_work_folder(folder))
+        except BlockingIOError:
+            yield Progress(0, 1, f"waiting for another process that makes {output.name}")
+            time.sleep(WAIT_SECONDS)
+        else:
+            return

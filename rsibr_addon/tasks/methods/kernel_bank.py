@@ -7,7 +7,7 @@ from ...core.lobes.bake import bake_bank
 from ...core.options import to_plain
 from ...core.progress import Steps
 from ...files.kinds.kernel_bank import to_map_set
-from ...files.map_set_header import Origin
+from ...files.map_set_header import Origin, Recipe
 from ...job import BakeJob
 from ...settings.kernel_bank import KernelBankSettings
 from . import method
@@ -22,7 +22,7 @@ def cost(settings: KernelBankSettings) -> Cost:
     return cost_in_blender(0.5 + 1e-7 * maps, memory, STORED * maps)
 
 
-def bake(job: BakeJob[KernelBankSettings]) -> Steps[Baked]:
+def bake(job: BakeJob[KernelBankSettings], recipe: Recipe) -> Steps[Baked]:
     """Filter an environment with every kernel that the maps resolve: see `Method`.
 
     Raises
@@ -35,7 +35,7 @@ def bake(job: BakeJob[KernelBankSettings]) -> Steps[Baked]:
     afford = method.afforded_by(job, BYTES_BESIDES)
     baked = yield from bake_bank(light.radiance, settings.layout, settings.size, afford)
     origin = Origin(light, to_plain(settings), method.software_of(job))
-    path = yield from method.written(job, to_map_set(baked, origin))
+    path = yield from method.written(job, recipe, to_map_set(baked, origin))
     kernels, sharpest, size = len(baked.filtered.bank), baked.filtered.sharpest, settings.size
     return Baked(
         path,

@@ -7,7 +7,7 @@ from ...core.lobes.family import KERNELS
 from ...core.options import to_plain
 from ...core.progress import Steps
 from ...files.kinds.kernel_pyramid import to_map_set
-from ...files.map_set_header import Origin
+from ...files.map_set_header import Origin, Recipe
 from ...job import BakeJob
 from ...settings.kernel_pyramid import KernelPyramidSettings
 from . import method
@@ -29,7 +29,7 @@ def _memory(size: int) -> float:
     return bytes_needed(2, size**2)
 
 
-def bake(job: BakeJob[KernelPyramidSettings]) -> Steps[Baked]:
+def bake(job: BakeJob[KernelPyramidSettings], recipe: Recipe) -> Steps[Baked]:
     """Filter an environment with every kernel that it resolves: see `Method`.
 
     Raises
@@ -44,7 +44,7 @@ def bake(job: BakeJob[KernelPyramidSettings]) -> Steps[Baked]:
     origin = Origin(light, to_plain(settings), method.software_of(job))
     map_set = to_map_set(baked, origin)
     # As graphics cards keep it
-    path = yield from method.written(job, map_set, half_holds([*map_set.maps.values()]))
+    path = yield from method.written(job, recipe, map_set, half_holds([*map_set.maps.values()]))
     size, concentrations = baked.pyramid.mirror.shape[1], baked.pyramid.bank.concentrations
     return Baked(
         path,

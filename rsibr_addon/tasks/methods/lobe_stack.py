@@ -1,5 +1,6 @@
 """An environment and a reflectance model, or its fit, to a lobe stack, in a map set."""
 
+from functools import partial
 from itertools import count
 from math import ceil, log2
 from pathlib import Path
@@ -16,13 +17,13 @@ from ...core.progress import Progress, Steps
 from ...core.warned import warn
 from ...files.fits import read_fit
 from ...files.kinds.lobe_stack import in_turn
-from ...files.map_set_header import Origin
+from ...files.map_set_header import Origin, Recipe
 from ...job import BakeJob
 from ...settings.lobe_stack import LobeStackSettings
-from ..reflectance.brdfs import MATERIAL, is_material, load_brdf
+from ..reflectance.brdfs import MATERIAL, is_material, load_brdf, material_of
 from ..reflectance.fit_lobes import fitted
 from . import method
-from .method import RGB, STORED, Baked, Cost, Method, cost_in_blender
+from .method import RGB, STORED, Baked, Cost, Method, Sources, cost_in_blender
 
 TOLD_INTERPOLATION = 0.01
 """Relative error that lookups may be expected to cost before somebody is told."""
@@ -63,6 +64,15 @@ def cost(settings: LobeStackSettings) -> Cost:
     return cost_in_blender(measuring + fitting + filtering, memory, stored * maps)
 
 
+def sources(settings: LobeStackSettings) -> Sources:
+    """See `Method`."""
+    if settings.brdf is None:
+        return Sources((settings.fit or "",))
+    if is_material(settings.brdf):
+        return Sources(material=material_of(settings.brdf))
+    return Sources(method.measured_files(partial(brdf_from_spec, settings.brdf)))
+
+
 def _layers_and_size(spec: str) -> tuple[int, int]:
     """How many layers a model has, and how large its maps will be: roughly, by its sharpest lobe."""
     if spec.startswith((MATERIAL, *MEASURED)):
@@ -72,7 +82,7 @@ def _layers_and_size(spec: str) -> tuple[int, int]:
     return len(layers), min(2 ** ceil(log2(TEXELS_BY_ALPHA / alpha)), SIZES[-1])
 
 
-def bake(job: BakeJob[LobeStackSettings]) -> Steps[Baked]:
+def bake(job: BakeJob[LobeStackSettings], recipe: Recipe) -> Steps[Baked]:
     """Filter an environment with the lobes of a model, or of a fit that was made before.
 
     Raises
@@ -104,7 +114,7 @@ def bake(job: BakeJob[LobeStackSettings]) -> Steps[Baked]:
         )
     stated = {"layout": settings.layout, "size": size, "half": settings.half}
     origin = Origin(light, stated, method.software_of(job, is_material(settings.brdf or "")))
-    path = yield from method.written(job, in_turn(baked, origin), settings.half)
+    path = yield from method.written(job, recipe, in_turn(baked, origin), settings.half)
     lobes, maps = baked.fit.weights.shape[:2]
     return Baked(
         path,
@@ -139,4 +149,4 @@ def _resolved_fit(spec: str, settings: LobeStackSettings, light: Environment) ->
     return coarser
 
 
-METHOD = Method(bake, cost, material)
+METHOD = Method(bake, cost, material, sources)

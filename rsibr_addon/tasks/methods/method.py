@@ -2,13 +2,17 @@
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from ...core.brdf.lambert import Lambert
+from ...core.brdf.model import Brdf
+from ...core.brdf.spec import ReadMeasured
 from ...core.environment import Environment
 from ...core.progress import Progress, Steps
 from ...files.map_set import check_map_set_target, write_map_set
+from ...files.map_set_header import Recipe
 from ...files.memory import check_memory
 from ...files.version import rsibr
 from ...job import BakeJob
@@ -54,6 +58,24 @@ class Cost:
         return self.processor_seconds / (os.cpu_count() or 1)
 
 
+def measured_files(describe: Callable[[ReadMeasured], object]) -> tuple[str, ...]:
+    """The files that a material's text names, none of which is opened.
+
+    Parameters
+    ----------
+    describe : callable
+        Makes the material, with a function that reads its measured models.
+    """
+    paths = []
+
+    def read(format: str, path: str) -> Brdf:
+        paths.append(path)
+        return Lambert(kd=0.5)
+
+    describe(read)
+    return tuple(paths)
+
+
 ENVIRONMENT_MEMORY = ENVIRONMENT_TEXELS * RGB
 """Bytes of such an environment."""
 
@@ -83,23 +105,42 @@ class Baked:
 
 
 @dataclass(frozen=True)
+class Sources:
+    """What settings take from elsewhere.
+
+    Attributes
+    ----------
+    files : tuple of str
+        Files that they name, but for files of Blender.
+    material : str or None
+        The material that Blender makes or holds, as `host.materials.load_material` names it.
+    """
+
+    files: tuple[str, ...] = ()
+    material: str | None = None
+
+
+@dataclass(frozen=True)
 class Method:
     """A way to make map sets.
 
     Attributes
     ----------
     bake : callable
-        A `BakeJob`, whose output can be written, to `Steps` that end with a `Baked`. Raises what `read_light`
-        does, and warns of what `core.environment.usable_radiance` does.
+        A `BakeJob`, whose output can be written, and its `Recipe`, to `Steps` that end with a `Baked`. Raises
+        what `read_light` does, and warns of what `core.environment.usable_radiance` does.
     cost : callable
         Settings to what they cost in an environment as large as those of Blender.
     material : callable
         Settings to the material's name in words; empty where a map set holds light alone.
+    sources : callable
+        Settings to their `Sources`. Raises RangeError where the settings describe no material.
     """
 
-    bake: Callable[[BakeJob[Any]], Steps[Baked]]
+    bake: Callable[[BakeJob[Any], Recipe], Steps[Baked]]
     cost: Callable[[Any], Cost]
     material: Callable[[Any], str] = lambda settings: ""
+    sources: Callable[[Any], Sources] = lambda settings: Sources()
 
 
 def read_light(job: BakeJob[Any]) -> Steps[Environment]:
@@ -142,17 +183,20 @@ def afforded_by(job: BakeJob[Any], besides: float) -> Callable[[float, int], Non
     return afford
 
 
-def written(job: BakeJob[Any], map_set: Any, half: bool = False) -> Steps[Path]:
+def written(job: BakeJob[Any], recipe: Recipe, map_set: Any, half: bool = False) -> Steps[Path]:
     """Write a job's map set.
 
     Parameters
     ----------
     job : BakeJob
+    recipe : Recipe
+        Of the job; the description states it.
     map_set : MapSet or MapsInTurn
     half : bool
         Store 16-bit floats.
     """
     output = Path(job.output)
     yield Progress(0, 1, f"writing {output.name}")
-    write_map_set(output, map_set, job.force, half)
+    stated = replace(map_set, header={**map_set.header, "recipe": recipe})
+    write_map_set(output, stated, job.force, half)
     return output

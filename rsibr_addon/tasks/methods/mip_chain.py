@@ -16,7 +16,7 @@ from ...core.options import to_plain
 from ...core.progress import Progress, Steps
 from ...core.resample import resample
 from ...files.kinds.mip_chain import to_map_set
-from ...files.map_set_header import Origin
+from ...files.map_set_header import Origin, Recipe
 from ...files.memory import check_memory
 from ...job import BakeJob
 from ...settings.mip_chain import MipChainSettings
@@ -37,7 +37,7 @@ def cost(settings: MipChainSettings) -> Cost:
     return cost_in_blender(filtering, memory, STORED * maps)
 
 
-def bake(job: BakeJob[MipChainSettings]) -> Steps[Baked]:
+def bake(job: BakeJob[MipChainSettings], recipe: Recipe) -> Steps[Baked]:
     """Filter an environment: see `Method`.
 
     Raises
@@ -62,7 +62,7 @@ def bake(job: BakeJob[MipChainSettings]) -> Steps[Baked]:
         chain, largest = yield from _with_lobes(light, settings)
         bound = {"relative_to_peak": largest}
     map_set = to_map_set(chain, Origin(light, stated, software_of(job), {"filter": settings.filter}, bound))
-    path = yield from written(job, map_set)
+    path = yield from written(job, recipe, map_set)
     return Baked(
         path,
         f"{settings.filter} mips from {settings.size}x{settings.size}",

@@ -1,6 +1,5 @@
 """Radiance views of a material, rendered by Cycles into a map set."""
 
-import json
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -9,7 +8,7 @@ import numpy as np
 
 from ...core.conventions import Array
 from ...core.environment import Environment
-from ...core.errors import InputFileError, MapSetError, SceneError
+from ...core.errors import InputFileError, SceneError
 from ...core.geometry.camera import Camera
 from ...core.geometry.geodesic import geodesic_sphere
 from ...core.maps.sphere_map import fill_rim
@@ -18,11 +17,10 @@ from ...core.progress import Progress, Steps
 from ...core.warned import warn
 from ...files.atomic import written_aside
 from ...files.exr import Part, read_attributes, read_parts, write_parts
-from ...files.map_set import check_map_set_target, read_map_set_header, write_map_set
 from ...files.map_set_data import ENVIRONMENT, MapsInTurn
-from ...files.map_set_header import Origin, make_header
+from ...files.map_set_header import Origin, Recipe, make_header
 from ...files.memory import check_memory
-from ...files.work_folder import clear_work_folder, work_folder, work_folder_beside
+from ...files.work_folder import kept_parts, work_folder_beside
 from ...host.cameras import add_camera
 from ...host.cycles import BYTES_BESIDES, RenderedView, RenderSettings, bytes_needed, render_view
 from ...host.furnace import directional_albedo
@@ -33,10 +31,19 @@ from ...host.spheres import add_sphere
 from ...host.version import software
 from ...host.worlds import LIGHT_OF_TEXEL, light_with
 from ...job import BakeJob
-from ...settings.light import Light
 from ...settings.radiance_views import RadianceViewsSettings
-from ..light.environments import load_environment
-from .method import ENVIRONMENT_MEMORY, RGB, STORED, Baked, Cost, Method, cost_in_blender
+from .method import (
+    ENVIRONMENT_MEMORY,
+    RGB,
+    STORED,
+    Baked,
+    Cost,
+    Method,
+    Sources,
+    cost_in_blender,
+    read_light,
+    written,
+)
 
 ALBEDO = "albedo"
 """Name and role of the part that holds the material's directional albedo."""
@@ -50,6 +57,11 @@ def material(settings: RadianceViewsSettings) -> str:
     return settings.material.removeprefix(":")
 
 
+def sources(settings: RadianceViewsSettings) -> Sources:
+    """See `Method`."""
+    return Sources(material=settings.material)
+
+
 def cost(settings: RadianceViewsSettings) -> Cost:
     """See `Method`; measured on a sphere in Blender's `forest`."""
     texels = settings.views * settings.size**2
@@ -59,7 +71,7 @@ def cost(settings: RadianceViewsSettings) -> Cost:
     return cost_in_blender(albedo + rendering, 2 * maps + 8 * ENVIRONMENT_MEMORY, STORED * maps)
 
 
-def bake(job: BakeJob[RadianceViewsSettings]) -> Steps[Baked]:
+def bake(job: BakeJob[RadianceViewsSettings], recipe: Recipe) -> Steps[Baked]:
     """Render the views of a material. Between two steps, the open file holds nothing that this adds.
 
     Raises
@@ -86,28 +98,18 @@ def bake(job: BakeJob[RadianceViewsSettings]) -> Steps[Baked]:
         RenderSettings(asked.size, asked.samples, asked.denoise, asked.seed + view)
         for view in range(asked.views)
     ]
-    output = Path(job.output)
-    figures = {"views": asked.views, "size": asked.size}
-    done = Baked(output, f"{asked.views} views of {asked.size}x{asked.size}", figures)
-    # A capture killed at its very end has written its output, and its views are still there
-    named = not job.force and output.is_file() and work_folder_beside(output).is_dir()
-    check_map_set_target(output, job.force or named)
-    yield Progress(0, asked.views, "reading the environment")
-    light = load_environment(job.light.environment, job.light.clamp, job.light.bare_world)
-    captured = _Captured(asked, light)
-    if named and captured.is_in(output):
-        clear_work_folder(work_folder_beside(output))
-        return done
-    check_map_set_target(output, job.force)
-    captured.check_memory(output)
-    with work_folder(work_folder_beside(output), captured.identity(job.light)) as folder:
+    captured = _Captured(asked, (yield from read_light(job)))
+    captured.check_memory(job.output)
+    folder = work_folder_beside(Path(job.output))
+    with kept_parts(folder, {**recipe}):
         paths = [folder / f"view{view:03d}.exr" for view in range(asked.views)]
         for view, path in enumerate(paths):
             yield Progress(view, asked.views, f"rendering view {view + 1} of {asked.views}")
             if not _is_finished(path):
                 _write_view(path, captured.render(view, settings[view]))
-        write_map_set(output, _map_set(captured, paths), job.force)
-    return done
+        path = yield from written(job, recipe, _map_set(captured, paths))
+    figures = {"views": asked.views, "size": asked.size}
+    return Baked(path, f"{asked.views} views of {asked.size}x{asked.size}", figures)
 
 
 class _Captured:
@@ -126,32 +128,12 @@ class _Captured:
             )
         self.view_dirs = geodesic_sphere(settings.views).vertices
 
-    def identity(self, light: Light) -> dict[str, Any]:
-        """All that views depend on, as JSON values."""
-        return {
-            "settings": to_plain(self.settings),
-            "light": to_plain(light),
-            "environment": self.environment.sha256,
-            "material": self.fingerprint,
-            "software": software(),
-        }
-
-    def check_memory(self, output: Path) -> None:
+    def check_memory(self, output: str) -> None:
         height, width = self.environment.radiance.shape[:2]
         light, size = LIGHT_OF_TEXEL * height * width, self.settings.size
         check_memory(light, self.environment.name, (width, height), BYTES_BESIDES)
         view = bytes_needed(size**2, self.settings.denoise)
-        check_memory(view, str(output), (size, size), BYTES_BESIDES + light)
-
-    def is_in(self, path: Path) -> bool:
-        """Whether a map set is a capture with this identity."""
-        try:
-            found = read_map_set_header(path)
-        except MapSetError:
-            return False
-        wanted = json.loads(json.dumps(_header(self, [], 0.0)))
-        fields = ("layout", "environment", "material", "settings", "software")
-        return all(found.get(field) == wanted[field] for field in fields)
+        check_memory(view, output, (size, size), BYTES_BESIDES + light)
 
     def render(self, view: int, settings: RenderSettings) -> RenderedView:
         with temporary_scene() as scene:
@@ -232,4 +214,4 @@ def _header(captured: _Captured, parts: list[dict[str, Any]], noise: float) -> d
     return make_header("sphere_map", (settings.size, settings.size), parts, origin)
 
 
-METHOD = Method(bake, cost, material)
+METHOD = Method(bake, cost, material, sources)

@@ -1,7 +1,5 @@
 """Bakes of what the artist has chosen: the request, its file, and the job in the background."""
 
-import hashlib
-import json
 import re
 from collections.abc import Sequence
 from contextlib import ExitStack
@@ -10,8 +8,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from ...core.errors import MapSetError, SceneError
-from ...core.options import declared_options, to_plain, value_text
-from ...files.digests import digest
+from ...core.options import declared_options, value_text
 from ...files.kinds.registry import STORED
 from ...files.map_set import read_map_set
 from ...files.output_paths import comparison_beside, comparison_page
@@ -30,12 +27,10 @@ from ...host.bake_settings import (
     plain_settings,
     save_copy,
 )
-from ...host.materials import ORIGINAL, fingerprint, node_fingerprint
+from ...host.materials import ORIGINAL, fingerprint
 from ...host.option_properties import FILE, OWN, options_of
 from ...host.shape_dependence import shape_dependence
-from ...host.version import software
-from ...host.world_light import environment_texture, world_light
-from ...host.worlds import world_of
+from ...host.world_light import world_light
 from ...job import BakeJob, CommandJob
 from ...settings.light import Clamp, Light
 from ...settings.method import MethodSettings
@@ -43,6 +38,7 @@ from ..compare.compare import truth_of
 from ..methods.bake import METHODS
 from ..methods.kinds import KINDS
 from ..methods.method import Cost
+from ..methods.recipe import light_hash, make_recipe, recipe_hash
 from ..report.facts import map_set_header
 from .background import Bake, blender_command
 
@@ -67,8 +63,6 @@ class BakeRequest:
         Without an environment, the world of the open file.
     own_material : str or None
         Name of the material, where it is one of the open file.
-    files : tuple of str
-        Paths of the files that hold the material or its fit, if any.
     shown : dict
         All that the scene says, to bake the same again.
     remarks : tuple of str
@@ -78,7 +72,6 @@ class BakeRequest:
     settings: MethodSettings
     light: Light
     own_material: str | None
-    files: tuple[str, ...]
     shown: dict[str, Any]
     remarks: tuple[str, ...] = ()
 
@@ -101,8 +94,9 @@ class BakeRequest:
         return METHODS[self.settings.KIND].cost(self.settings)
 
     def job(self, output: Path) -> BakeJob[Any]:
-        """The job that makes `output`. It replaces a file there: a whole one would have been used."""
-        return BakeJob(self.settings, str(output), self.light, force=True)
+        """The job that makes `output`. It replaces a file that is there now: a whole one would be used."""
+        damaged = output.exists()
+        return BakeJob(self.settings, str(output), self.light, damaged, if_missing=not damaged)
 
 
 @dataclass
@@ -160,17 +154,16 @@ def request_for(chosen: Any, scene: Any, item: Any, kind: str = "") -> BakeReque
     source = getattr(of_kind, "source", None)
     material = own_material(item) if source == OWN else None
     own = material.name if material else None
-    files = [existing(of_kind.path, "measured material", "its file")] if source == FILE else []
+    if source == FILE:
+        existing(of_kind.path, "measured material", "its file")
     settings = options_of(STORED[kind].settings, of_kind, own or "")
-    named = [each for each in declared_options(type(settings)) if each.option.subtype == "FILE_PATH"]
-    files += filter(None, (getattr(settings, each.name) for each in named))
     environment, clamp = chosen_environment(chosen, scene), options_of(Clamp, chosen).clamp
     # A material's emission would follow the world too
     follows = environment is None and own is None and item.rsibr.follow_world
     bare = follows and world_light(scene.world) is not None
     light = Light(environment=environment, clamp=clamp, bare_world=bare)
     shown = plain_settings(chosen) | {"kind": kind, "bare_world": bare}
-    request = BakeRequest(settings, light, own, tuple(files), shown, _remarks(material))
+    request = BakeRequest(settings, light, own, shown, _remarks(material))
     _ = request.cost  # which a text that describes no model has not
     return request
 
@@ -195,16 +188,11 @@ def output_for(request: BakeRequest, scene: Any, item: Any) -> Path:
     OutputFileError
         Its folder cannot be made.
     """
-    content = {
-        "kind": request.settings.KIND,
-        "settings": to_plain(request.settings),
-        "clamp": request.light.clamp,
-        "light": _light(request.light, scene),
-        "material": fingerprint(own_material(item)) if request.own_material else None,
-        "files": [digest(Path(path)) for path in request.files],
-        "software": software(),
-    }
-    letters = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:HASH_LETTERS]
+    sources = METHODS[request.settings.KIND].sources(request.settings)
+    material = fingerprint(own_material(item)) if request.own_material else None
+    light = light_hash(request.light, scene)
+    recipe = make_recipe(request.settings, request.light, light, sources, material)
+    letters = recipe_hash(recipe)[:HASH_LETTERS]
     words = re.sub(r"[^\w.-]+", "-", request.title.lower())[:NAME_LETTERS]
     return baked_folder() / f"{words}-{letters}.rsibr.exr"
 
@@ -380,12 +368,3 @@ def in_background(
 def _remarks(material: Any) -> tuple[str, ...]:
     reasons = "; ".join(shape_dependence(material)) if material else ""
     return (f"{material.name} is baked as it looks on one shape: {reasons}.",) if reasons else ()
-
-
-def _light(light: Light, scene: Any) -> str:
-    if light.bare_world:
-        return f"bare {node_fingerprint(environment_texture(world_of(scene)))}"
-    if light.environment is None:
-        return fingerprint(world_of(scene))
-    file, layer = split_layer(light.environment)
-    return digest(file) + (f":{layer}" if layer else "")

@@ -41,7 +41,7 @@ def load_brdf(spec: str) -> Steps[Brdf]:
         return brdf_from_spec(spec)
     from .measured_materials import measure_material
 
-    return (yield from measure_material(_material(spec)))
+    return (yield from measure_material(material_of(spec)))
 
 
 def told_brdf(spec: str) -> Brdf:
@@ -79,8 +79,8 @@ def check_told_brdf(spec: str) -> None:
         return
     from ...host.materials import names_other_file
 
-    if names_other_file(_material(spec)):
-        _refuse_file(MATERIAL, _material(spec))
+    if names_other_file(material_of(spec)):
+        _refuse_file(MATERIAL, material_of(spec))
 
 
 def is_material(spec: str) -> bool:
@@ -88,12 +88,13 @@ def is_material(spec: str) -> bool:
     return spec.partition(":")[0].strip() == MATERIAL
 
 
+def material_of(spec: str) -> str:
+    """The material in such a text, as `host.materials.load_material` names it."""
+    return spec.partition(":")[2].strip()
+
+
 def _refuse_file(name: str, path: str) -> NoReturn:
     raise InputFileError(
         f"The map set names a model in {path}, a file that is opened only if you name it: do so "
         f"with --brdf {name}:..."
     )
-
-
-def _material(spec: str) -> str:
-    return spec.partition(":")[2].strip()

@@ -37,7 +37,7 @@ def world_request(scene: Any) -> BakeRequest:
     settings = options_of(STORED[kind].settings, getattr(chosen, kind))
     bare = world_light(scene.world) is not None
     light = Light(clamp=options_of(Clamp, chosen).clamp, bare_world=bare)
-    return BakeRequest(settings, light, None, (), {})
+    return BakeRequest(settings, light, None, {})
 
 
 def world_file(scene: Any) -> Path:

@@ -145,7 +145,15 @@ def left_out(scene: bpy.types.Scene, camera: bpy.types.Object) -> list[str]:
         "depth of field": camera.data.dof.use_dof,
         "stereoscopy": scene.render.use_multiview,
     }
-    return [f"RSIBR renders without {name}, which the scene asks for." for name, on in asked.items() if on]
+    told = [f"RSIBR renders without {name}, which the scene asks for." for name, on in asked.items() if on]
+    lamps = [each.name for each in scene.objects if each.type == "LIGHT" and not each.hide_render]
+    if lamps:
+        of_them = f"lamp {lamps[0]}" if len(lamps) == 1 else f"{len(lamps)} lamps"
+        told.append(
+            f"RSIBR renders the light of the world, without that of {of_them}: "
+            "Capture from Scene makes a picture of lamps for the world."
+        )
+    return told
 
 
 def _border(render: bpy.types.RenderSettings, resolution: tuple[int, int]) -> tuple[int, int, int, int]:

@@ -21,8 +21,8 @@ POINTERS = {"rsibr_render": (bpy.types.Scene, RENDER_GROUP)}
 """Name of a property -> its owner, and the group it points to."""
 
 LEFT_OUT = (
-    "RSIBR leaves out shadows, and reflections of objects in each other: the world alone lights them, and "
-    "the map sets that were baked in other light."
+    "RSIBR leaves out lamps, shadows, and reflections of objects in each other: an object is lit by "
+    "the world, or by the light that its map set was baked in."
 )
 
 OTHERS = "BLENDER_EEVEE"

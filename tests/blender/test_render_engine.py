@@ -282,10 +282,11 @@ def test_what_cannot_be_shown_is_said_once(
     plain = render()["Combined"]
     cube.rsibr.map_set = str(tmp_path / "missing.rsibr.exr")
     scene.render.use_motion_blur = scene.camera.data.dof.use_dof = True
+    scene.collection.objects.link(bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "POINT")))
     capfd.readouterr()
     np.testing.assert_array_equal(render()["Combined"], plain)
     told = capfd.readouterr()
-    for words in ("missing.rsibr.exr", "motion blur", "depth of field"):
+    for words in ("missing.rsibr.exr", "motion blur", "depth of field", "lamp Lamp"):
         assert len([line for line in (told.out + told.err).splitlines() if words in line]) == 1, words
 
 

@@ -1,10 +1,49 @@
 """What is compared with the truth, whatever the kind of map set."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, fields, replace
+from typing import Any
 
 from ..core.errors import RangeError
-from ..core.options import option
+from ..core.options import OPTION, Options, option
 from .drawing import SceneOptions
+
+
+def samples_option() -> Any:
+    """How well Cycles renders references."""
+    return option(
+        64,
+        label="Samples",
+        help="Samples of Cycles for a pixel, half of them in each of two renders, which tell the noise",
+        least=4,
+        most=1 << 24,
+    )
+
+
+def cycles_material_option() -> Any:
+    """What Cycles renders where it is to tell the truth."""
+    return option(
+        None,
+        label="Material",
+        help="Compare with this material of Cycles' instead of the model itself",
+        none="the model itself",
+        metavar="PRESET|FILE.blend:NAME",
+    )
+
+
+def option_of_look(look: type[Options], name: str, **changes: Any) -> Any:
+    """An option that a comparison has as a look has it.
+
+    Parameters
+    ----------
+    look : type
+    name : str
+        Of the look's field.
+    **changes
+        Attributes of `core.options.Option` that differ.
+    """
+    like = next(each for each in fields(look) if each.name == name)
+    told = replace(like.metadata[OPTION], **changes)
+    return field(default=like.default, metadata={OPTION: told})
 
 
 @dataclass(frozen=True, kw_only=True)

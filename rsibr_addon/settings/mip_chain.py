@@ -8,7 +8,9 @@ from ..core.errors import RangeError
 from ..core.kinds.mip_chain.chain import LARGEST, MOST_DEGREES, check_roughness, check_size
 from ..core.kinds.mip_chain.ggx import ROUGHNESS_RULES
 from ..core.kinds.mip_chain.phong import box_exponents, check_exponents
+from ..core.kinds.mip_chain.shading import MipLook
 from ..core.options import Choice, option
+from .comparison import ExactComparison, cycles_material_option, option_of_look, samples_option
 from .method import MethodSettings
 
 
@@ -105,3 +107,26 @@ class MipChainSettings(MethodSettings):
         if self.exponents is None:
             return box_exponents(self.size)
         return tuple(exponent or math.inf for exponent in self.exponents)
+
+
+@dataclass(frozen=True, kw_only=True)
+class MipComparison(ExactComparison):
+    """How mip chains are compared with the reflectance that they approximate, or with a material of Cycles'.
+
+    Raises
+    ------
+    RangeError
+        Neither a roughness nor an exponent is given, or both are.
+    """
+
+    f0: tuple[float, float, float] = option_of_look(MipLook, "f0")
+    kd: tuple[float, float, float] = option_of_look(MipLook, "kd")
+    roughness: float | None = option_of_look(MipLook, "roughness", replaces=(), none="that of an exponent")
+    exponent: float | None = option_of_look(MipLook, "exponent", replaces=("roughness",))
+    material: str | None = cycles_material_option()
+    samples: int = samples_option()
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.roughness is None and self.exponent is None:
+            raise RangeError("Mips are compared as a material has them: give a roughness or an exponent.")

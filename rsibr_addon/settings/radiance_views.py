@@ -6,7 +6,7 @@ from typing import ClassVar
 from ..core.brdf.cycles_presets import PRESETS
 from ..core.kinds.radiance_views.shading import Mode, Warping
 from ..core.options import Choice, Materials, option
-from .comparison import ComparisonOptions
+from .comparison import ComparisonOptions, samples_option
 from .method import MethodSettings
 
 
@@ -75,13 +75,7 @@ class RadianceViewsSettings(MethodSettings):
 class ViewsComparison(ComparisonOptions):
     """How radiance views are compared with what Cycles renders."""
 
-    samples: int = option(
-        64,
-        label="Samples",
-        help="Samples of Cycles for a pixel, half of them in each of two renders, which tell the noise",
-        least=4,
-        most=1 << 24,
-    )
+    samples: int = samples_option()
     modes: tuple[Mode, ...] = option(
         tuple(Mode),
         label="Modes",

@@ -8,6 +8,7 @@ from ..core.kinds.reflection_tables.bake import DIFFUSE_ROWS, LARGEST, TableSize
 from ..core.kinds.reflection_tables.material import PRESETS, changed_parts, preset
 from ..core.kinds.reflection_tables.part_options import part_option
 from ..core.options import Choice, Materials, option
+from .comparison import ExactComparison, cycles_material_option, samples_option
 from .method import MethodSettings
 
 _OF_PRESET = "the preset's own, if any"
@@ -82,3 +83,11 @@ class ReflectionTablesSettings(MethodSettings):
     def sizes(self) -> TableSizes:
         """How many rows the tables have."""
         return TableSizes(self.diffuse_rows, self.rows)
+
+
+@dataclass(frozen=True, kw_only=True)
+class TablesComparison(ExactComparison):
+    """How reflection tables are compared with what they stand for, or with a material of Cycles'."""
+
+    material: str | None = cycles_material_option()
+    samples: int = samples_option()

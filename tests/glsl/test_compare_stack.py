@@ -100,7 +100,7 @@ def test_the_command_tells_the_table(path: Path, capfd: pytest.CaptureFixture[st
     ("options", "complaint"),
     [
         (["--warp", "split"], "option --warp is for radiance_views, not for lobe_stack"),
-        (["--samples", "16"], "option --samples is for radiance_views, not for lobe_stack"),
+        (["--samples", "16"], "radiance_views or reflection_tables or mip_chain, not for lobe_stack"),
         (["--perspective", "40"], "are orthographic: leave the perspective out"),
         (["--rings", "3"], "Rings cannot be 3"),
         (["--size", "5000"], "choose 1 to 1024"),

@@ -51,8 +51,8 @@ def table(comparisons: Sequence[Comparison]) -> str:
 TRUTH = Truth(
     way=DiskWay,
     draw=draw,
-    name="a brighter disk",
-    made="drawn brighter",
+    name=lambda settings: "a brighter disk",
+    made=lambda settings: "drawn brighter",
     notes=lambda comparison: "",
     quality=lambda settings: f"{settings.brighter} times",
     table=table,

@@ -10,7 +10,7 @@ from ...core.errors import MapSetError, RangeError, ShapeError
 from ...core.kinds.mip_chain.chain import MipChain
 from ...core.kinds.mip_chain.shading import MipLook
 from ...core.schema import between
-from ...settings.mip_chain import MipChainSettings
+from ...settings.mip_chain import MipChainSettings, MipComparison
 from ..map_set_data import ENVIRONMENT, MapSet
 from ..map_set_header import Origin, StoredKind, make_header, role_in_words
 from ..textures import Texture, Up
@@ -118,6 +118,7 @@ def _textures(path: Path, map_set: MapSet, up: Up) -> list[Texture]:
 STORED = StoredKind(
     settings=MipChainSettings,
     look=MipLook,
+    comparison=MipComparison,
     roles={"prefiltered": _Mip},
     numbers=(HARMONICS,),
     facts=_facts,

@@ -9,7 +9,7 @@ from ...core.errors import MapSetError, RangeError, ShapeError
 from ...core.kinds.reflection_tables.material import PARTS
 from ...core.kinds.reflection_tables.shading import TablesLook
 from ...core.kinds.reflection_tables.tables import ReflectionTables, Role
-from ...settings.reflection_tables import ReflectionTablesSettings
+from ...settings.reflection_tables import ReflectionTablesSettings, TablesComparison
 from ..map_set_data import ENVIRONMENT, MapSet
 from ..map_set_header import Origin, StoredKind, make_header
 
@@ -83,6 +83,7 @@ def from_map_set(path: Path, map_set: MapSet) -> ReflectionTables:
 STORED = StoredKind(
     settings=ReflectionTablesSettings,
     look=TablesLook,
+    comparison=TablesComparison,
     roles={WEIGHTS: _Weights, Role.REFRACTION: _Refraction},
     numbers=(WEIGHTS,),
 )

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ...core.brdf.model import Brdf
+from ...core.brdf.model import BrdfFunction
 from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.geometry.camera import Camera
@@ -24,7 +24,7 @@ LEAST_RINGS = 32
 
 
 def exact_pictures(
-    model: Brdf,
+    model: BrdfFunction,
     environment: Environment,
     cameras: Sequence[Camera],
     mesh: TriangleMesh,
@@ -59,8 +59,14 @@ def error_of(way: Way, drawn: Sequence[Array], references: Sequence[Array]) -> W
     return way_error(way, relative_rmse, unpremultiplied(pictures), unpremultiplied(true), true[..., 3])
 
 
-NAME, MADE = "the model itself", "integrated exactly"
-"""See `Truth`."""
+def name(settings: ExactComparison) -> str:
+    """See `Truth`."""
+    return "the model itself"
+
+
+def made(settings: ExactComparison) -> str:
+    """See `Truth`."""
+    return "integrated exactly"
 
 
 def notes(comparison: Comparison) -> str:

@@ -18,7 +18,7 @@ from ...host.meshes import load_mesh
 from ...settings.kernel_pyramid import PyramidComparison
 from ..reflectance.brdfs import load_brdf
 from .comparison import Comparison, cameras_of
-from .exact import LEAST_RINGS, MADE, NAME, error_of, exact_pictures, notes, picture, quality, table
+from .exact import LEAST_RINGS, error_of, exact_pictures, made, name, notes, picture, quality, table
 from .truth import Drawn, Truth
 
 MOST_RINGS = 256
@@ -102,8 +102,8 @@ def _table(comparisons: Sequence[Comparison]) -> str:
 TRUTH = Truth(
     way=PyramidWay,
     draw=draw,
-    name=NAME,
-    made=MADE,
+    name=name,
+    made=made,
     notes=notes,
     quality=quality,
     table=_table,

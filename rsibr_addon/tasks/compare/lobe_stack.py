@@ -14,7 +14,7 @@ from ...host.meshes import load_mesh
 from ...settings.lobe_stack import StackComparison
 from ..reflectance.brdfs import check_told_brdf, load_brdf
 from .comparison import Comparison, cameras_of
-from .exact import LEAST_RINGS, MADE, NAME, error_of, exact_pictures, notes, picture, quality, table
+from .exact import LEAST_RINGS, error_of, exact_pictures, made, name, notes, picture, quality, table
 from .truth import Drawn, Truth
 
 
@@ -86,8 +86,8 @@ def stack_table(comparisons: Sequence[Comparison]) -> str:
 TRUTH = Truth(
     way=StackWay,
     draw=draw,
-    name=NAME,
-    made=MADE,
+    name=name,
+    made=made,
     notes=notes,
     quality=quality,
     table=stack_table,

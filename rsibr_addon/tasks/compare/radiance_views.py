@@ -6,23 +6,29 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.errors import InputFileError
 from ...core.geometry.camera import Camera
 from ...core.kinds.radiance_views.shading import Mode, ViewsLook, Warping
 from ...core.kinds.radiance_views.views import RadianceViews
-from ...core.metrics import relative_rmse, relative_rmse_beyond_noise, unpremultiplied
 from ...core.progress import Progress, Steps
 from ...device.kinds.radiance_views import GpuRadianceViews
 from ...device.preview import PreviewRenderer
 from ...host.materials import names_other_file
 from ...host.meshes import load_mesh
 from ...settings.radiance_views import ViewsComparison
-from .comparison import Comparison, WayError, cameras_of, way_error
-from .references import Captured, Reference, check_material, render_reference
+from .comparison import Comparison, cameras_of
+from .references import (
+    Captured,
+    Reference,
+    check_material,
+    error_beyond_noise,
+    noise_of,
+    notes,
+    quality,
+    render_reference,
+)
 from .truth import Drawn, Truth
 
 
@@ -83,8 +89,8 @@ def draw(
         settings=settings,
         references=[reference.rgba for reference in references],
         drawn=drawn,
-        errors=tuple(_error(way, pictures, references) for way, pictures in drawn.items()),
-        noise=_noise(references),
+        errors=tuple(error_beyond_noise(way, pictures, references) for way, pictures in drawn.items()),
+        noise=noise_of(references),
     )
 
 
@@ -125,22 +131,6 @@ def _captured(
     return Captured(material, environment, mesh)
 
 
-def _error(way: ViewsWay, pictures: list[Array], references: list[Reference]) -> WayError:
-    ours = np.stack(pictures)
-    first = np.stack([reference.first for reference in references])
-    second = np.stack([reference.second for reference in references])
-    coverage = np.minimum(ours[..., 3], np.minimum(first[..., 3], second[..., 3]))
-    compared = unpremultiplied(ours), unpremultiplied(first), unpremultiplied(second), coverage
-    return way_error(way, relative_rmse_beyond_noise, *compared)
-
-
-def _noise(references: list[Reference]) -> float:
-    rgba = np.stack([reference.rgba for reference in references])
-    radiance = unpremultiplied(rgba)
-    noise = np.stack([reference.noise for reference in references])
-    return relative_rmse(radiance + noise, radiance, rgba[..., 3])
-
-
 def views_table(comparisons: Sequence[Comparison]) -> str:
     """Pooled errors of several comparisons as a table in Markdown.
 
@@ -167,27 +157,13 @@ def views_table(comparisons: Sequence[Comparison]) -> str:
     return "".join(f"| {' | '.join(row)} |\n" for row in rows)
 
 
-def _notes(comparison: Comparison) -> str:
-    noise = f"{100.0 * comparison.reference_noise:.2g}&thinsp;%"
-    rendered = (
-        f"Cycles&rsquo; own noise, which makes <b>{noise}</b> of the reference, is not counted: two renders "
-        "tell it apart."
-    )
-    if comparison.settings.mesh == "sphere":
-        return rendered
-    return (
-        f"{rendered} In Cycles&rsquo; pictures the mesh hides parts of its surroundings from itself; no map "
-        "knows that."
-    )
-
-
 TRUTH = Truth(
     way=ViewsWay,
     draw=draw,
-    name="Cycles",
-    made="rendered by Cycles",
-    notes=_notes,
-    quality=lambda settings: f"two renders of {settings.samples // 2} samples a pixel, not denoised",
+    name=lambda settings: "Cycles",
+    made=lambda settings: "rendered by Cycles",
+    notes=notes,
+    quality=quality,
     table=views_table,
     is_look=lambda way, look: (way.mode, way.warping) == (look.mode, look.warping),
 )

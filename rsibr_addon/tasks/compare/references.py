@@ -1,6 +1,8 @@
-"""References of radiance views: Cycles renders the captured material in its environment."""
+"""References by Cycles, which renders a material in an environment."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -8,7 +10,8 @@ from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.errors import InputFileError
 from ...core.geometry.camera import Camera
-from ...core.metrics import unpremultiplied
+from ...core.metrics import relative_rmse, relative_rmse_beyond_noise, unpremultiplied
+from ...core.progress import Progress, Steps
 from ...host.cameras import add_camera
 from ...host.cycles import RenderedView, RenderSettings, render_view
 from ...host.materials import fingerprint, load_material
@@ -16,6 +19,7 @@ from ...host.meshes import TriangleMesh, add_mesh
 from ...host.scenes import temporary_scene
 from ...host.spheres import add_sphere
 from ...host.worlds import light_with
+from .comparison import Comparison, Way, WayError, way_error
 
 
 @dataclass(frozen=True)
@@ -123,6 +127,62 @@ def render_reference(captured: Captured, camera: Camera, size: int, samples: int
             render_view(scene, RenderSettings(size, samples // 2, seed=each)) for each in (seed, seed + 1)
         )
     return Reference(_rgba(first), _rgba(second))
+
+
+def rendered(captured: Captured, cameras: Sequence[Camera], settings: Any) -> Steps[list[Reference]]:
+    """Render all views: see `render_reference`.
+
+    Parameters
+    ----------
+    captured : Captured
+    cameras : sequence of Camera
+    settings : ComparisonOptions
+        With `samples`.
+    """
+    references = []
+    for number, camera in enumerate(cameras):
+        yield Progress(number + 1, len(cameras) + 2, f"rendering reference {number + 1} of {len(cameras)}")
+        seed = settings.seed + 2 * number
+        references.append(render_reference(captured, camera, settings.size, settings.samples, seed))
+    return references
+
+
+def error_beyond_noise(way: Way, pictures: Sequence[Array], references: Sequence[Reference]) -> WayError:
+    """Error of a way to draw, without Cycles' noise: see `core.metrics.relative_rmse_beyond_noise`."""
+    ours = np.stack(pictures)
+    first = np.stack([reference.first for reference in references])
+    second = np.stack([reference.second for reference in references])
+    coverage = np.minimum(ours[..., 3], np.minimum(first[..., 3], second[..., 3]))
+    compared = unpremultiplied(ours), unpremultiplied(first), unpremultiplied(second), coverage
+    return way_error(way, relative_rmse_beyond_noise, *compared)
+
+
+def noise_of(references: Sequence[Reference]) -> float:
+    """See `Comparison.reference_noise`."""
+    rgba = np.stack([reference.rgba for reference in references])
+    radiance = unpremultiplied(rgba)
+    noise = np.stack([reference.noise for reference in references])
+    return relative_rmse(radiance + noise, radiance, rgba[..., 3])
+
+
+def notes(comparison: Comparison) -> str:
+    """See `truth.Truth`."""
+    noise = f"{100.0 * comparison.reference_noise:.2g}&thinsp;%"
+    told = (
+        f"Cycles&rsquo; own noise, which makes <b>{noise}</b> of the reference, is not counted: two renders "
+        "tell it apart."
+    )
+    if comparison.settings.mesh == "sphere":
+        return told
+    return (
+        f"{told} In Cycles&rsquo; pictures the mesh hides parts of its surroundings from itself; no map "
+        "knows that."
+    )
+
+
+def quality(settings: Any) -> str:
+    """See `truth.Truth`."""
+    return f"two renders of {settings.samples // 2} samples a pixel, not denoised"
 
 
 def _rgba(view: RenderedView) -> Array:

@@ -52,10 +52,10 @@ class Truth:
         A dataclass that is a `Way`.
     draw : callable
         The map set's file, for messages; its content, environment and material; and settings, to `Drawn`.
-    name : str
-        Who tells the truth: "Cycles".
-    made : str
-        How: "rendered by Cycles".
+    name : callable
+        Settings to who tells the truth: "Cycles".
+    made : callable
+        Settings to how: "rendered by Cycles".
     notes : callable
         A comparison to what else there is to know of its references, as HTML.
     quality : callable
@@ -68,8 +68,8 @@ class Truth:
 
     way: type[Way]
     draw: Callable[[Any, Any, Environment, dict[str, Any], Any], Steps[Drawn]]
-    name: str
-    made: str
+    name: Callable[[Any], str]
+    made: Callable[[Any], str]
     notes: Callable[[Comparison], str]
     quality: Callable[[Any], str]
     table: Callable[[Sequence[Comparison]], str]

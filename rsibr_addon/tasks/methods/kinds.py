@@ -30,7 +30,9 @@ from ...files.kinds import (
 from ...files.map_set import read_map_set, read_map_set_header
 from ..compare import kernel_pyramid as kernel_pyramid_truth
 from ..compare import lobe_stack as lobe_stack_truth
+from ..compare import mip_chain as mip_chain_truth
 from ..compare import radiance_views as radiance_views_truth
+from ..compare import reflection_tables as reflection_tables_truth
 from .kind import Kind
 from .live_materials import LiveFits, LiveMaterials
 
@@ -43,8 +45,10 @@ KINDS: dict[str, Kind] = {
     "kernel_pyramid": Kind(kernel_pyramid.from_map_set, _pyramid, kernel_pyramid_truth.TRUTH, own=True),
     "radiance_views": Kind(radiance_views.from_map_set, GpuRadianceViews, radiance_views_truth.TRUTH),
     "lobe_stack": Kind(lobe_stack.from_map_set, GpuLobeStack, lobe_stack_truth.TRUTH),
-    "reflection_tables": Kind(reflection_tables.from_map_set, GpuReflectionTables),
-    "mip_chain": Kind(mip_chain.from_map_set, GpuMipChain),
+    "reflection_tables": Kind(
+        reflection_tables.from_map_set, GpuReflectionTables, reflection_tables_truth.TRUTH
+    ),
+    "mip_chain": Kind(mip_chain.from_map_set, GpuMipChain, mip_chain_truth.TRUTH),
     "kernel_bank": Kind(kernel_bank.from_map_set, LiveMaterials, live=True, menu="RSIBR_MT_live_models"),
     environment.KIND: Kind(environment.from_map_set, GpuEnvironment),
 }

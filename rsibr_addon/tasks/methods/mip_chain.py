@@ -25,6 +25,9 @@ from .method import RGB, STORED, Baked, Cost, Method, cost_in_blender, read_ligh
 TEXTURE_SPACE = {"box": box_halved, "bordered": tent_halved}
 """Name of a filter that knows texels only -> how it halves a cube map."""
 
+ROUNDING = 2.0**-24
+"""Of single precision, half a unit in the last place: the error of mips that are means of texels."""
+
 MIPS_OF_TEXEL = 16
 """Bytes of memory for each texel of the first mip: all mips in single precision."""
 
@@ -51,16 +54,16 @@ def bake(job: BakeJob[MipChainSettings], recipe: Recipe) -> Steps[Baked]:
     needed = bytes_needed(1, texels) + MIPS_OF_TEXEL * texels
     check_memory(needed, job.output, (settings.size, settings.size), BYTES_BESIDES, powers=True)
     light = yield from read_light(job)
-    stated, bound = to_plain(settings), None
+    stated = to_plain(settings)
     for name, owner in (("roughness", "ggx"), ("exponents", "phong")):
         if settings.filter != owner:
             del stated[name]
     if settings.filter in TEXTURE_SPACE:
         yield Progress(1, 2, "filtering")
-        chain = _texture_space(light, settings)
+        chain, largest = _texture_space(light, settings), ROUNDING
     else:
         chain, largest = yield from _with_lobes(light, settings)
-        bound = {"relative_to_peak": largest}
+    bound = {"relative_to_peak": largest}
     map_set = to_map_set(chain, Origin(light, stated, software_of(job), {"filter": settings.filter}, bound))
     path = yield from written(job, recipe, map_set)
     return Baked(
@@ -85,8 +88,8 @@ def _with_lobes(light: Environment, settings: MipChainSettings) -> Steps[tuple[M
         yield Progress(1 + number, count + 2, f"filtering mip {number}")
         mip = next(filtering)
         mips.append(mip.faces.astype(np.float32))
-        # Single precision rounds by half a unit in the last place; black has no error.
-        bound = max(bound, 2.0**-24 + mip.bound / max(float(mip.faces.max()), 1e-300))
+        # Black has no error
+        bound = max(bound, ROUNDING + mip.bound / max(float(mip.faces.max()), 1e-300))
     return MipChain(tuple(mips), _harmonics(light, settings), roughness, spread), bound
 
 

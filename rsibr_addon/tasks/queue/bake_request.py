@@ -289,7 +289,7 @@ def shown_material(item: Any, map_set: Path) -> tuple[str, ...]:
     compared = declared_options(stored.comparison) if stored.comparison else ()
     looks = {each.name for each in declared_options(stored.look)}
     given = [(each.flag, getattr(look, each.name)) for each in compared if each.name in looks]
-    return tuple(text for flag, value in given for text in (flag, value_text(value)))
+    return tuple(text for flag, value in given if value is not None for text in (flag, value_text(value)))
 
 
 def _named_model(item: Any) -> tuple[str, ...]:

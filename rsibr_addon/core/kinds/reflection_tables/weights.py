@@ -55,7 +55,7 @@ def share_above_horizon(cosine: Array, n: float) -> Array:
     return above
 
 
-def table_weights(material: TableMaterial, fade: bool = False) -> Array:
+def table_weights(material: TableMaterial, fade: bool = False, cosines: Array | None = None) -> Array:
     """Weights of a material's tables.
 
     Parameters
@@ -63,10 +63,12 @@ def table_weights(material: TableMaterial, fade: bool = False) -> Array:
     material : TableMaterial
     fade : bool
         Whether lobes lose what of them is beneath the horizon; a BRDF's albedo has lost it anyway.
+    cosines : ndarray, shape (N,), optional
+        Between normal and view, in (0, 1]; by default `weight_cosines`.
 
     Returns
     -------
-    ndarray, shape (len(Role), COLUMNS, 3), float64
+    ndarray, shape (len(Role), N, 3), float64
         As `ReflectionTables.weights`; 0 for tables that the material lacks.
 
     Raises
@@ -81,8 +83,8 @@ def table_weights(material: TableMaterial, fade: bool = False) -> Array:
     the directional albedo of its lobes of that kind. Refracted light gets 1 - F of its own boundary. A coat
     takes its share from all.
     """
-    mu = weight_cosines()
-    shares = {role: np.ones((COLUMNS, 3)) for role in material.roles} | _shares(material, mu)
+    mu = weight_cosines() if cosines is None else cosines
+    shares = {role: np.ones((len(mu), 3)) for role in material.roles} | _shares(material, mu)
     if material.refraction is not None:
         passes = 1.0 - fresnel_conductor(mu, material.refraction.eta, 0.0)
         shares[Role.REFRACTION] = passes[:, None] * np.asarray(material.refraction.tint)
@@ -92,7 +94,7 @@ def table_weights(material: TableMaterial, fade: bool = False) -> Array:
     if material.coat is not None:
         coat = _reflectance(material.coat, mu)
         shares = {role: (1.0 - coat) * share for role, share in shares.items()} | {Role.COAT: coat}
-    weights = np.zeros((len(Role), COLUMNS, 3))
+    weights = np.zeros((len(Role), len(mu), 3))
     for row, role in zip(weights, Role, strict=True):
         if role in material.roles:
             row[:] = shares[role]

@@ -30,7 +30,7 @@ def cycles_material_option() -> Any:
     )
 
 
-def option_of_look(look: type[Options], name: str, **changes: Any) -> Any:
+def option_of_look(look: Any, name: str, **changes: Any) -> Any:
     """An option that a comparison has as a look has it.
 
     Parameters

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 from ..core.errors import RangeError
-from ..core.options import OPTION, Options, option
+from ..core.options import OPTION, option
 from .drawing import SceneOptions
 
 

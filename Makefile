@@ -70,6 +70,7 @@ bench: $(READY)
 	$(PYTHON) .ci/bench_materials.py
 	$(PYTHON) .ci/bench_own_materials.py
 	$(PYTHON) .ci/show_materials.py
+	$(PYTHON) .ci/show_render.py
 	$(PYTHON) .ci/bench_viewport.py
 
 clean:

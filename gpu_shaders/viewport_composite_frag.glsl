@@ -1,5 +1,6 @@
-// Brings the previews of one frame to the display, at the depths that they were drawn at. Colours that are
-// written here are encoded as sRGB on their way to the window, hence the curve is undone.
+// Brings the previews of one frame to the display, at the depths that they were drawn at, where their coverage
+// is from `least` to `most`. Colours that are written here are encoded as sRGB on their way to the window, hence
+// the curve is undone. Where Blender itself brings radiance to the display, radiance is written.
 #include "lib/display_lib.glsl"
 #include "lib/false_colour_lib.glsl"
 #include "lib/transfer_curve_lib.glsl"
@@ -27,18 +28,24 @@ void main()
     colour = vec4(linear_from_srgb(heat(on_scale.x)), 1.0);
     return;
   }
-  if (abs(gl_FragCoord.x - left) < 1.0 || abs(gl_FragCoord.x - right) < 1.0) {
+  if (abs(gl_FragCoord.x - left) < line || abs(gl_FragCoord.x - right) < line) {
     gl_FragDepth = 0.0;
     colour = vec4(1.0);
     return;
   }
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec4 seen = texelFetch(previews, pixel, 0);
-  if (seen.a == 0.0 || gl_FragCoord.x < left || gl_FragCoord.x > right) {
+  bool is_wanted = seen.a > 0.0 && seen.a == clamp(seen.a, least, most);
+  if (!is_wanted || gl_FragCoord.x < left || gl_FragCoord.x > right) {
     discard;
   }
   gl_FragDepth = max(texelFetch(depths, pixel, 0).r - DEPTH_TOLERANCE, 0.0);
-  vec3 shown = displayed(display, scale * uncovered(seen));
+  vec3 radiance = scale * uncovered(seen);
+  if (as_radiance > 0.0) {
+    colour = vec4(radiance, seen.a);
+    return;
+  }
+  vec3 shown = displayed(display, radiance);
   if (full > 0.0) {
     vec4 other = texelFetch(others, pixel, 0);
     vec3 apart = abs(displayed(display, others_scale * uncovered(other)) - shown);

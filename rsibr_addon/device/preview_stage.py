@@ -3,6 +3,9 @@
 Previews are drawn into a picture of radiance and depth first. One pass over the screen then brings them to
 the display and tests each pixel's depth against Blender's. So every kind of map set uses its own programs,
 and only visible pixels are brought to the display.
+
+Blender draws surfaces into one frame buffer and its overlays into another, with the outlines of what is
+selected and the 3D cursor, and lays this over that. What previews cover in full goes into the first one.
 """
 
 from collections.abc import Iterator
@@ -22,6 +25,9 @@ SCALE_PLACE, SCALE_SIZE = (24, 24), (192, 12)
 """The scale of differences: its corner beside the line, and its size, in pixels, as the shader has them."""
 
 _FONT, _LETTERS = 0, 12.0
+
+_BELOW_ONE = float(np.nextafter(np.float32(1.0), np.float32(0.0)))
+"""Coverage that is less than full."""
 
 
 @dataclass(frozen=True)
@@ -66,6 +72,11 @@ def current_sight() -> Sight:
     return Sight.by(np.array(view), np.array(projection))
 
 
+def active_target() -> gpu.types.GPUFrameBuffer:
+    """The frame buffer that is drawn into now."""
+    return gpu.state.active_framebuffer_get()
+
+
 def draw_occluder(mesh: GpuMesh, draw: Draw) -> None:
     """Draw a surface that may hide previews."""
     shader = occluder_shader()
@@ -90,6 +101,23 @@ class Difference:
     radiance: gpu.types.GPUTexture
     scale: float
     full: float
+
+
+@dataclass(frozen=True)
+class Beneath:
+    """Where Blender draws surfaces, beneath its overlays.
+
+    Attributes
+    ----------
+    target : GPUFrameBuffer
+        The one that is active before Blender draws the view.
+    scale : float, optional
+        Factor of the radiance that it holds, which Blender brings to the display. Without, it holds the
+        display's colours, which Blender encodes as sRGB.
+    """
+
+    target: gpu.types.GPUFrameBuffer
+    scale: float | None
 
 
 def draw_scale_numbers(left: float, full: float) -> None:
@@ -136,6 +164,7 @@ class Stage:
         span: tuple[float, float],
         among_others: bool,
         difference: Difference | None = None,
+        beneath: Beneath | None = None,
     ) -> None:
         """Show the stage in the active frame buffer, over what is there where its coverage is below 1.
 
@@ -151,12 +180,40 @@ class Stage:
             Whether the frame buffer holds the depths of other surfaces.
         difference : Difference, optional
             Shows a difference instead, with a scale.
+        beneath : Beneath, optional
+            Takes what is covered in full, if no difference is shown.
         """
         compared = difference or Difference(self.radiance, scale, 0.0)
+        with _depth_test("LESS_EQUAL" if among_others else "ALWAYS", "ALPHA"):
+            if beneath is None or difference is not None:
+                self._composite(display, scale, span, compared, (0.0, 1.0))
+                return
+            viewport = gpu.state.active_framebuffer_get().viewport_get()
+            with beneath.target.bind():
+                beneath.target.viewport_set(*viewport)
+                covered = beneath.scale or scale
+                self._composite(display, covered, span, compared, (1.0, 1.0), beneath.scale is not None)
+            self._composite(display, scale, span, compared, (0.0, _BELOW_ONE))
+
+    def _composite(
+        self,
+        display: gpu.types.GPUTexture,
+        scale: float,
+        span: tuple[float, float],
+        compared: Difference,
+        coverage: tuple[float, float],
+        as_radiance: bool = False,
+    ) -> None:
+        """Draw the stage's pixels whose coverage is in a range; and lines, if it holds more than 1."""
         shader = composite_shader()
         shader.bind()
         x, _, width, _ = gpu.state.active_framebuffer_get().viewport_get()
+        least, most = coverage
         shader.uniform_float("scale", scale)
+        shader.uniform_float("least", least)
+        shader.uniform_float("most", most)
+        shader.uniform_float("line", 1.0 if least < 1.0 else 0.0)
+        shader.uniform_float("as_radiance", float(as_radiance))
         left, right = span
         shader.uniform_float("left", x + left * width if left > 0.0 else -np.inf)
         shader.uniform_float("right", x + right * width if right < 1.0 else np.inf)
@@ -166,8 +223,7 @@ class Stage:
         shader.uniform_float("others_scale", compared.scale)
         shader.uniform_sampler("display", display)
         shader.uniform_sampler("others", compared.radiance)
-        with _depth_test("LESS_EQUAL" if among_others else "ALWAYS", "ALPHA"):
-            self._screen.draw(shader)
+        self._screen.draw(shader)
 
     def depths(self) -> Array:
         """The window's depths of what was drawn last, at the active frame buffer's pixels; 1 for nothing.

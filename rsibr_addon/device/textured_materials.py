@@ -137,7 +137,9 @@ class MaterialBinding:
         ShapeError
             It has more than `MOST_TEXTURES` textures.
         """
-        made, key = self._blocks.setdefault(material, {}), (uv_maps, antialiased)
+        # Blender may load an image anew in another format
+        formats = tuple(texture.format for texture in material.textures.values())
+        made, key = self._blocks.setdefault(material, {}), (uv_maps, antialiased, formats)
         if key not in made:
             textures = textures_of(material.inputs)
             rows = material_rows(material.inputs, textures, uv_maps)

@@ -1,5 +1,7 @@
 """The display of a scene's radiance: its view transform, look, exposure, gamma and curves."""
 
+from dataclasses import dataclass
+
 import bpy
 import numpy as np
 
@@ -7,7 +9,7 @@ from ..core.conventions import Array
 from ..files.photographs import read_photograph
 from ..files.temporary import temporary_folder
 from .scenes import temporary_copy
-from .working_space import working_from_rec709
+from .working_space import working_from_rec709, works_in_rec709
 
 WIDTH = 1024
 """Width of the picture through which colours are sent, in pixels."""
@@ -50,6 +52,57 @@ def baked_exposure(scene: bpy.types.Scene) -> float:
 def scale_before_display(scene: bpy.types.Scene) -> float:
     """The factor of radiance before its lookup in `displayed_colours`."""
     return float(2.0 ** (scene.view_settings.exposure - baked_exposure(scene)))
+
+
+@dataclass(frozen=True)
+class SurfaceDisplay:
+    """What Blender does to a viewport's surfaces before it lays overlays over them.
+
+    Attributes
+    ----------
+    transforms : bool
+        Whether it applies the scene's view transform. Otherwise it only encodes colours as sRGB.
+    scale : float
+        The factor of radiance that its transform lacks.
+    """
+
+    transforms: bool
+    scale: float = 1.0
+
+
+def surface_display(scene: bpy.types.Scene, space: bpy.types.SpaceView3D) -> SurfaceDisplay | None:
+    """How the colours of a viewport's surfaces come to the display.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+    space : bpy.types.SpaceView3D
+
+    Returns
+    -------
+    SurfaceDisplay or None
+        None where radiance or colours of ours would not be shown as the scene's settings show them, or where
+        Blender may leave a surface out: then its background covers them.
+    """
+    shading, view = space.shading, scene.view_settings
+    if not works_in_rec709():
+        return None
+    match shading.type:
+        case "SOLID":
+            is_encoded = scene.display_settings.display_device == "sRGB" and not shading.show_xray
+            return SurfaceDisplay(transforms=False) if is_encoded else None
+        case "MATERIAL":
+            lit = shading.use_scene_lights or shading.use_scene_world
+        case _:
+            lit = shading.use_scene_lights_render or shading.use_scene_world_render
+            if not scene.render.engine.startswith("BLENDER_EEVEE"):
+                return None
+    if lit:
+        return SurfaceDisplay(transforms=True)
+    # Of the scene's settings, Blender uses the view transform and the look alone
+    if view.gamma != 1.0 or view.use_curve_mapping or view.use_white_balance:
+        return None
+    return SurfaceDisplay(transforms=True, scale=scale_before_display(scene))
 
 
 def displayed_colours(scene: bpy.types.Scene, radiance: Array) -> Array:

@@ -30,6 +30,11 @@ def rec709_from_working(radiance: Array) -> Array:
     return _converted(radiance, np.linalg.inv(_working_matrix()))
 
 
+def works_in_rec709() -> bool:
+    """Whether the open file's working space is Rec. 709."""
+    return bool(np.array_equal(_working_matrix(), np.eye(3)))
+
+
 def _working_matrix() -> Array:
     """Columns: the Rec. 709 primaries in the working space."""
     return np.stack([Color(axis).from_rec709_linear_to_scene_linear() for axis in np.eye(3)], axis=1)

@@ -49,7 +49,7 @@ class RSIBR_PG_bake(bpy.types.PropertyGroup):
         description="Where the light that is baked comes from",
         items=[
             ("WORLD", "World", "The scene's world as it is"),
-            ("STUDIO", "Blender's", "One of the environments that come with Blender"),
+            ("STUDIO", "Built-in", "One of the environments that Blender has for Material Preview"),
             ("PICTURE", "Picture", "A latitude-longitude picture, OpenEXR or Radiance HDR"),
         ],
     )

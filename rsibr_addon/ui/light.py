@@ -32,7 +32,7 @@ def draw_light(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
             layout.prop(chosen, "picture", text="")
             if chosen.image is not None:
                 layout.prop(chosen, "layer")
-                # The line above the button tells why it cannot be used
+                # The line below the button tells why it cannot be used
                 with suppress(RsibrError):
                     picture = Path(chosen_environment(chosen, context.scene) or "")
                     for remark in light_remarks(picture):

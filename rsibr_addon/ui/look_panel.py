@@ -5,7 +5,6 @@ import bpy
 from ..core.kinds.principled_material import PrincipledMaterial
 from ..core.options import Declared, declared_options
 from ..files.kinds.registry import look_types
-from ..host.bake_settings import bakes_inputs_by_itself
 from ..host.live_light import is_readable
 from ..host.option_properties import property_name, replaced_options, said_by
 from ..host.world_light import has_environment, holds_world, world_light
@@ -46,7 +45,7 @@ class RSIBR_PT_look(InSidebar, bpy.types.Panel):
         self.layout.prop(context.object.rsibr, "show", text="")
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Show how it is shaded, what went wrong, and what is beside it."""
+        """Show how it is shaded, and what is beside it."""
         item, layout = context.object, self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
@@ -55,18 +54,7 @@ class RSIBR_PT_look(InSidebar, bpy.types.Panel):
             layout.prop(item.rsibr, "follow_world")
             if item.rsibr.follow_world and has_environment(world) and world_light(world) is None:
                 tell(layout, NOT_FOLLOWED, context.region.width)
-        previews = session().previews
-        chosen = context.scene.rsibr_bake.kind
-        # What the list of materials tells is not told twice
-        told = session().material_notes.of_object(item) if chosen and KINDS[chosen].own else ()
-        for message in previews.messages(item):
-            if message not in told:
-                tell(layout, message, context.region.width)
-        if previews.inputs.lacks(item) and (previews.inputs.is_refused(item) or not bakes_inputs_by_itself()):
-            layout.operator("rsibr.bake_inputs")
-        if previews.is_loading(item):
-            layout.label(text="Loading...", icon="TIME")
-        kind = previews.kind(item)
+        kind = session().previews.kind(item)
         if kind is None:
             return
         if KINDS[kind].menu:

@@ -2,29 +2,20 @@
 
 import bpy
 
-from ..session.running import session
-from .sentences import tell
-
-SLOTS_SHOWN = 6
-"""Materials that are listed; more would push the button out of sight."""
+MOST_ROWS = 4
+"""Slots that are listed without scrolling."""
 
 
-def draw_materials(layout: bpy.types.UILayout, item: bpy.types.Object, width: int) -> None:
-    """List an object's materials with their pictures, and tell what of them is not shown.
+def draw_materials(layout: bpy.types.UILayout, item: bpy.types.Object) -> None:
+    """Show the material of an object's active slot, and choose the slot if there are several.
 
     Parameters
     ----------
     layout : bpy.types.UILayout
     item : bpy.types.Object
-    width : int
-        Width of the region in pixels.
     """
-    materials = list(dict.fromkeys(slot.material for slot in item.material_slots if slot.material))
-    if not materials:
-        layout.template_ID(item, "active_material", new="material.new")
-    for material in materials[:SLOTS_SHOWN]:
-        layout.label(text=material.name, icon_value=bpy.types.UILayout.icon(material))
-    if len(materials) > SLOTS_SHOWN:
-        layout.label(text=f"and {len(materials) - SLOTS_SHOWN} more", icon="BLANK1")
-    for note in session().material_notes.of_object(item):
-        tell(layout, note, width, icon="INFO")
+    if len(item.material_slots) > 1:
+        rows = min(len(item.material_slots), MOST_ROWS)
+        slots = ("material_slots", item, "active_material_index")
+        layout.template_list("MATERIAL_UL_matslots", "", item, *slots, rows=rows)
+    layout.template_ID(item, "active_material", new="material.new")

@@ -4,6 +4,7 @@ import bpy
 
 from ..core.errors import RsibrError
 from ..files.kinds.registry import STORED
+from ..host.bake_settings import bakes_inputs_by_itself
 from ..host.map_sets import written_path
 from ..session.running import session
 from ..tasks.methods.kinds import KINDS
@@ -27,7 +28,7 @@ class RSIBR_PT_preview(InSidebar, bpy.types.Panel):
     bl_label = "Preview"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Show light, materials, quality and buttons; what is out of date, and what is being baked."""
+        """Show light, materials, quality and buttons; below them what is told, so that they stay in place."""
         layout, width, chosen = self.layout, context.region.width, context.scene.rsibr_bake
         draw_light(layout, context)
         if not chosen.kind:
@@ -35,17 +36,19 @@ class RSIBR_PT_preview(InSidebar, bpy.types.Panel):
             return
         if context.object is not None:
             if KINDS[chosen.kind].own:
-                draw_materials(layout.column(align=True), context.object, width)
+                draw_materials(layout, context.object)
             else:
                 layout.label(text=_shaded_as(context), icon="MATERIAL")
         draw_quality(layout, chosen)
-        _draw_request(layout, context)
         row = layout.row(align=True)
         row.scale_y = 1.5
         row.operator("rsibr.bake", text="Preview", icon="SHADING_RENDERED")
         row.operator("rsibr.preview_scene", text="Preview Scene", icon="SCENE_DATA")
-        if context.object is not None and context.object.rsibr.map_set:
-            _draw_state(layout, context.object, width)
+        _draw_request(layout, context)
+        if context.object is not None:
+            if context.object.rsibr.map_set:
+                _draw_state(layout, context.object, width)
+            _draw_messages(layout, context)
         draw_bakes(layout, session().bakes.bakes, width)
 
 
@@ -68,6 +71,8 @@ def _draw_request(layout: bpy.types.UILayout, context: bpy.types.Context) -> Non
         return
     for remark in request.remarks:
         tell(layout, remark, width, icon="INFO")
+    if session().freshness.serves(request, context.scene, context.object):
+        return
     cost = request.cost
     takes = f"{amount(cost.memory)} of memory, {amount(cost.disk)} on disk"
     tell(layout, capital(f"{duration(cost.seconds)}, {takes}"), width, icon="TIME")
@@ -100,6 +105,22 @@ def _draw_freshness(layout: bpy.types.UILayout, item: bpy.types.Object, width: i
         row = layout.row()
         row.label(text=f"{others} other objects out of date" if others > 1 else "Another object out of date")
         row.operator("rsibr.rebake")
+
+
+def _draw_messages(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    """Show what a preview of the active object leaves out or will leave out, and what went wrong."""
+    item, running, chosen = context.object, session(), context.scene.rsibr_bake.kind
+    notes = running.material_notes.of_object(item) if KINDS[chosen].own else []
+    for note in notes:
+        tell(layout, note, context.region.width, icon="INFO")
+    for message in running.previews.messages(item):
+        if message not in notes:
+            tell(layout, message, context.region.width)
+    inputs = running.previews.inputs
+    if inputs.lacks(item) and (inputs.is_refused(item) or not bakes_inputs_by_itself()):
+        layout.operator("rsibr.bake_inputs")
+    if running.previews.is_loading(item):
+        layout.label(text="Loading...", icon="TIME")
 
 
 def _draw_stale(layout: bpy.types.UILayout, stale: Stale, width: int) -> None:

@@ -39,7 +39,8 @@ def start(undo: ExitStack) -> None:
     if bpy.app.background:
         return
     undo.callback(release_programs)
-    for function, when in ((_draw, "POST_VIEW"), (_render_surroundings, "POST_PIXEL")):
+    moments = ((_before_surfaces, "PRE_VIEW"), (_draw, "POST_VIEW"), (_render_surroundings, "POST_PIXEL"))
+    for function, when in moments:
         handle = bpy.types.SpaceView3D.draw_handler_add(function, (), "WINDOW", when)
         undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handle, "WINDOW")
     undo.callback(_stop_timers)
@@ -59,6 +60,11 @@ def _guarded(
         return None
 
     return run
+
+
+@_guarded
+def _before_surfaces(running: Session) -> None:
+    running.previews.before_surfaces()
 
 
 @_guarded

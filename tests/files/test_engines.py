@@ -106,11 +106,12 @@ def test_what_an_engine_cannot_take_is_told(name: str, tmp_path: Path) -> None:
     (ending, *_) = engine.endings
     with pytest.raises(OutputFileError, match=rf"does not end in \{ending}.*, as {engine.label} wants"):
         drain(export_for_engine(source, tmp_path / "sky.gif", name))
-    there = tmp_path / f"there{ending}"
-    there.touch()
-    with pytest.raises(OutputFileError, match=r"there\..* exists"):
-        next(export_for_engine(source, there, name))
-    there.unlink()
+    output = tmp_path / f"there{ending}"
+    for there in engine.files_of(output):
+        there.touch()
+        with pytest.raises(OutputFileError, match=rf"{there.name} exists"):
+            next(export_for_engine(source, output, name))  # before anything is filtered
+        there.unlink()
     if isinstance(engine, CubeEngine):
         small = engine.settings(size=engine.least // 2)
         with pytest.raises(RangeError, match=rf"{engine.label} takes cubes from {engine.least} texels on"):

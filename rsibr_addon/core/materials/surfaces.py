@@ -10,7 +10,7 @@ from ..errors import ShapeError
 from .principled import Input, PrincipledInputs, Shading, Texture
 from .sampling import evaluate
 
-COLORS = ("base_color", "specular_tint", "coat_tint")
+TINTS = ("base_color", "specular_tint", "coat_tint")
 SHARES = ("roughness", "diffuse_roughness", "coat_roughness")
 """Values that are kept within 0 and 1, as Cycles does."""
 VALUES = ("metallic", "ior", "alpha", "specular_level", "coat_weight", "coat_ior")
@@ -45,7 +45,7 @@ def surface_at(inputs: PrincipledInputs, texels: Mapping[Texture, Array], uv: Ma
         return found
 
     return Surface(
-        **{name: color(getattr(inputs, name)) for name in COLORS},
+        **{name: color(getattr(inputs, name)) for name in TINTS},
         **{name: number(getattr(inputs, name)) for name in VALUES},
         **{name: np.clip(number(getattr(inputs, name)), 0.0, 1.0) for name in SHARES},
         emission=color(inputs.emission_color) * color(inputs.emission_strength),

@@ -80,6 +80,11 @@ class BakeRequest:
         """Whether the world or the material comes from the open file."""
         return self.light.environment is None or self.own_material is not None
 
+    def makes_the_same(self, other: "BakeRequest") -> bool:
+        """Whether another request of the same object, scene and moment makes the same map set."""
+        made, others = ((each.settings, each.light, each.own_material, each.files) for each in (self, other))
+        return made == others
+
     @property
     def title(self) -> str:
         """What is baked, in words."""

@@ -56,6 +56,23 @@ class Freshness:
         """Why an object's map set is out of date; None where it is not, or that is not known."""
         return self.stale.get(item.session_uid)
 
+    def serves(self, request: BakeRequest, scene: Any, item: Any) -> bool:
+        """Whether an object is up to date, and was baked with what a request asks for.
+
+        Parameters
+        ----------
+        request : BakeRequest
+            The request of `scene` and `item`.
+        scene : bpy.types.Scene
+        item : bpy.types.Object
+        """
+        if self.stale.get(item.session_uid, Stale("")) is not None:
+            return False
+        try:
+            return request_for(item.rsibr_baked, scene, item).makes_the_same(request)
+        except RsibrError:
+            return False
+
     def has_changed(self, scene: Any, items: list[Any]) -> bool:
         """Whether a scene has another world, or one of these objects another map set, than when looked at."""
         return self._worlds.get(scene.session_uid) != _number(scene.world) or any(

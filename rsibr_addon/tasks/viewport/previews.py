@@ -5,8 +5,17 @@ from concurrent.futures import Executor
 from itertools import product
 from typing import Any
 
-from ...device.preview_stage import Difference, Sight, Stage, current_sight, draw_scale_numbers
+from ...device.preview_stage import (
+    Beneath,
+    Difference,
+    Sight,
+    Stage,
+    active_target,
+    current_sight,
+    draw_scale_numbers,
+)
 from ...host.bake_settings import bakes_inputs_by_itself
+from ...host.display import surface_display
 from ...host.live_light import is_readable, shows_surroundings
 from ...host.visible_surfaces import Layer, Side, Surface, View, map_set_of, objects_numbered
 from ...host.world_light import AS_IT_IS
@@ -58,6 +67,7 @@ class Previews:
         self.worlds = Worlds()
         self._layers = LayerContents(self._shows_own, self.inputs, self.worlds)
         self._displays = Displays()
+        self._surfaces: Any = None
         self._blender_pictures = BlenderPictures()
         self.reload()
 
@@ -137,8 +147,12 @@ class Previews:
         """Whether there may be any such object, though it was deleted since."""
         return bool(self._numbers_with_baked_inputs())
 
+    def before_surfaces(self) -> None:
+        """Note where Blender is going to draw a view's surfaces, for the `draw` of that view."""
+        self._surfaces = active_target()
+
     def draw(self, view: View) -> bool:
-        """Draw the previews of a view into the active frame buffer.
+        """Draw the previews of a view into the active frame buffer, or beneath Blender's overlays.
 
         Parameters
         ----------
@@ -169,8 +183,8 @@ class Previews:
             difference = self._difference(view, side, strength * scale, scale)
             if side.from_blender and difference is None:  # Blender's own shading stays in sight
                 continue
-            span = side.left, side.right
-            self._stage.show(display, strength * scale, span, view.has_depth, difference)
+            span, beneath = (side.left, side.right), self._beneath(view, strength)
+            self._stage.show(display, strength * scale, span, view.has_depth, difference, beneath)
         return True
 
     def frame(self, view: View, sight: Sight, wanted: Collection[bool] = (False,)) -> Frame:
@@ -310,6 +324,13 @@ class Previews:
             return True
         map_set = self._map_sets.shown(surface.item)
         return map_set is not None and wants_own(surface.item, map_set.kind)
+
+    def _beneath(self, view: View, strength: float) -> Beneath | None:
+        """Where previews lie beneath overlays; None where they have to lie over them."""
+        blenders = surface_display(view.scene, view.space)
+        if blenders is None or self._surfaces is None:
+            return None
+        return Beneath(self._surfaces, strength * blenders.scale if blenders.transforms else None)
 
     def _difference(self, view: View, side: Side, scale: float, of_blender: float) -> Difference | None:
         """What a side is compared with, if it shows a difference."""

@@ -14,16 +14,17 @@ LAST = 8
 def write(light: EngineLight, output: Path, force: bool) -> list[Path]:
     """Write NAME.ktx2 and NAME-diffuse.ktx2: see `CubeEngine.writers`."""
     assert light.diffuse is not None
-    diffuse = output.with_stem(f"{output.stem}-diffuse")
-    for path, mips in ((output, light.mips), (diffuse, (light.diffuse,))):
+    files = ENGINE.files_of(output)
+    for path, mips in zip(files, (light.mips, (light.diffuse,)), strict=True):
         texture = Texture(as_halves(mips, light.name), is_cube=True)
         write_ktx2(path, texture, {"KTXwriter": light.software}, force, Texels.HALF)
-    return [output, diffuse]
+    return files
 
 
 ENGINE = CubeEngine(
     label="Bevy",
     use="give EnvironmentMapLight NAME.ktx2 as specular_map, NAME-diffuse.ktx2 as diffuse_map",
+    beside="-diffuse",
     axes=MIRRORED_Z @ Y_UP,
     roughness=lambda size: linear_roughness(mips_down_to(size, LAST)),
     least=2 * LAST,

@@ -66,10 +66,18 @@ class Preset:
         The engine's own name.
     use : str
         What to do with the file there, as a phrase in one line.
+    beside : str
+        What the name of a second file has more than the first one's; empty where there is none.
     """
 
     label: str
     use: str
+    beside: str = ""
+
+    def files_of(self, output: Path) -> list[Path]:
+        """The files that an export to `output` writes."""
+        second = output.with_stem(output.stem + self.beside)
+        return list(dict.fromkeys((output, second)))
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -66,7 +66,8 @@ def export_for_engine(
         raise OutputFileError(
             f"{output} does not end in {known}, as {engine.label} wants: give a name that does."
         )
-    check_target(output, force)
+    for path in engine.files_of(output):
+        check_target(path, force)
     yield Progress(0, 1, f"reading {source.name}")
     held = _read(source, engine)
     light = environment.from_map_set(source, held)

@@ -19,15 +19,16 @@ def write(light: EngineLight, output: Path, force: bool) -> list[Path]:
     terms = "".join(
         " ".join(f"{value:.6g}" for value in row) + "\n" for row in diffuse_terms(light.harmonics)
     )
-    sky = output.with_stem(f"{output.stem}-skybox")
-    write_ktx1(output, mips, {"sh": terms}, force)
+    light_file, sky = files = ENGINE.files_of(output)
+    write_ktx1(light_file, mips, {"sh": terms}, force)
     write_ktx1(sky, mips[:1], {}, force)
-    return [output, sky]
+    return files
 
 
 ENGINE = CubeEngine(
     label="Filament",
     use="load NAME.ktx and NAME-skybox.ktx with ktxreader::Ktx1Reader, or KTX1Loader on Android",
+    beside="-skybox",
     axes=Y_UP,
     roughness=lambda size: quadratic_roughness(mips_down_to(size, LAST)),
     least=2 * LAST,

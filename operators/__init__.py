@@ -2,6 +2,7 @@
 
 from . import bake_kinds, export
 from .accept import RSIBR_OT_accept
+from .add_materials import RSIBR_OT_add_materials
 from .apply_quality import RSIBR_OT_apply_quality
 from .assemble_faces import RSIBR_OT_assemble_faces
 from .assign import RSIBR_OT_assign
@@ -35,6 +36,7 @@ CLASSES: tuple[type, ...] = (
     RSIBR_OT_convert_light,
     RSIBR_OT_lift_painting,
     *bake_kinds.CLASSES,
+    RSIBR_OT_add_materials,
     RSIBR_OT_fit_lobes,
     RSIBR_OT_apply_quality,
     RSIBR_OT_bake,

@@ -42,7 +42,7 @@ def look() -> None:
             continue
         if bake.output.suffix == ".html":
             bpy.ops.wm.url_open(url=bake.output.resolve().as_uri())
-        else:
+        elif bake.settings:
             assign(bake.items, bake.output, bake.settings)
             session().previews.reload()  # it may have replaced a file that is shown
             if not bake.by_itself:

@@ -16,7 +16,7 @@ Settings = TypeVar("Settings", bound=MethodSettings)
 FORMAT, ARGUMENTS_FORMAT = 2, 1
 """Formats of a job's JSON: a bake's settings, and the arguments of any command."""
 
-COMMANDS = ("capture", "bake", "tables", "mips", "bank", "illuminate", "inputs", "compare")
+COMMANDS = ("capture", "bake", "tables", "mips", "bank", "illuminate", "inputs", "assets", "compare")
 """Commands that a job of arguments may give."""
 
 

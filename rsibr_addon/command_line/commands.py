@@ -21,6 +21,7 @@ COMMANDS = {
     "convert": "Lay a map of light out in another representation.",
     "illuminate": "Make an illumination map: the light of an environment, as a latitude-longitude map.",
     "inputs": "Bake what only Cycles can evaluate of an object's materials into textures for previews.",
+    "assets": "Write the materials that come with RSIBR as assets for Blender, with pictures.",
     "fit": "Fit radially symmetric lobes to a reflectance model.",
     "report": "Show all that a map set holds in one HTML file.",
     "export": "Write a map set's maps for other programs.",

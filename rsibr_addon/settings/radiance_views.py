@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ..core.brdf.cycles_presets import PRESETS
+from ..core.brdf.cycles_presets import PRESETS, preset_title
 from ..core.kinds.radiance_views.shading import Mode, Warping
 from ..core.options import Choice, Materials, option
 from .comparison import ComparisonOptions, samples_option
@@ -24,10 +24,7 @@ class RadianceViewsSettings(MethodSettings):
         metavar="MATERIAL",
         materials=Materials(
             own=":{}",
-            presets={
-                name: Choice(name.replace("-", " ").title(), preset.summary)
-                for name, preset in PRESETS.items()
-            },
+            presets={name: Choice(preset_title(name), preset.summary) for name, preset in PRESETS.items()},
             preset="copper",
         ),
     )

@@ -18,4 +18,6 @@ def draw_materials(layout: bpy.types.UILayout, item: bpy.types.Object) -> None:
         rows = min(len(item.material_slots), MOST_ROWS)
         slots = ("material_slots", item, "active_material_index")
         layout.template_list("MATERIAL_UL_matslots", "", item, *slots, rows=rows)
-    layout.template_ID(item, "active_material", new="material.new")
+    row = layout.row(align=True)
+    row.template_ID(item, "active_material", new="material.new")
+    row.operator("rsibr.add_materials", text="", icon="ASSET_MANAGER")

@@ -92,3 +92,8 @@ PRESETS: dict[str, Preset] = {
         },
     ),
 }
+
+
+def preset_title(name: str) -> str:
+    """The name of one of `PRESETS` for people."""
+    return name.replace("-", " ").title()

@@ -1,8 +1,18 @@
 """The artist's scene is left as it was: all properties of all data-blocks, before and after every button."""
 
+import re
 from collections.abc import Callable
+from pathlib import Path
 
+import numpy as np
+from rsibr.rsibr_addon.files.png import png_of
+from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.tests.gui.test_panel import PRELUDE
+
+PANELS = Path(__file__).parents[2] / "rsibr_addon" / "ui"
+
+IN_A_FILE_MENU = {"export_for_engine"}
+"""Buttons of modules of the panels that are no panel's."""
 
 CONTENTS = """
 APART = {"window_managers", "screens", "workspaces", "all_ids"}
@@ -21,7 +31,8 @@ def contents():
         if prop.type != "COLLECTION" or prop.identifier in APART:
             continue
         for block in getattr(bpy.data, prop.identifier):
-            if isinstance(block, bpy.types.ID) and not block.name.endswith(".rsibr.exr"):
+            # Without pictures of light, which are asked for
+            if isinstance(block, bpy.types.ID) and not block.name.endswith((".rsibr.exr", "light.exr")):
                 walk(block, f"{prop.identifier}[{block.name}]", found, set())
     return found
 
@@ -93,13 +104,18 @@ def particles(cube):
 """
 
 BUTTONS = """
+import webbrowser
+opened = []
+webbrowser.open = opened.append
+
 def scenario(told):
     scene, cube = rich_scene()
     chosen = scene.rsibr_bake
     yield from drawn()
     before, living = contents(), particles(cube)
     told["properties"] = len(before)
-    changed = told["changed"] = {}
+    changed, pressed = {}, set()
+    told["changed"] = changed
 
     def after(name, idle=lambda: not session().bakes.busy):
         yield from done(idle)
@@ -113,9 +129,19 @@ def scenario(told):
 
     def press_all(buttons):
         for name, arguments in buttons:
+            pressed.add(name)
             with bpy.context.temp_override(window=window(), area=view(), region=region(view())):
                 getattr(bpy.ops.rsibr, name)(**arguments)
             yield from after(f"{name} {arguments}")
+
+    def drag_the_line(ending):
+        pressed.add("drag_split")
+        with bpy.context.temp_override(window=window(), area=view(), region=region(view())):
+            bpy.ops.rsibr.drag_split("INVOKE_DEFAULT")
+        window().event_simulate(type="MOUSEMOVE", value="NOTHING", x=region(view()).x + 200, y=300)
+        yield
+        window().event_simulate(type=ending, value="PRESS", x=region(view()).x + 200, y=300)
+        yield from after(f"line {ending}", lambda: not window().modal_operators)
 
     yield from press_all([("apply_quality", {"quality": "DRAFT"}), ("bake", {}), ("preview_scene", {})])
     told["shaded"] = bool(cube.rsibr.map_set)
@@ -131,8 +157,32 @@ def scenario(told):
             ("open_report", {"open_browser": False}),
             ("cancel_bake", {"number": 0}),
             ("assign", {"filepath": path}),
+            ("bake_inputs", {}),
         ]
     )
+    yield from drag_the_line("LEFTMOUSE")
+    told["line"] = round(bpy.context.window_manager.rsibr_view.line * region(view()).width)
+    yield from drag_the_line("ESC")
+    # One material by sliders can be compared
+    cube.rsibr.kernel_pyramid.own = False
+    yield from press_all([("compare", {}), ("open_comparison", {})])
+    told["opened"] = len(opened)
+    libraries = bpy.context.preferences.filepaths.asset_libraries
+    known = len(libraries)
+    pressed.add("add_materials")
+    bpy.ops.rsibr.add_materials()
+    yield from press_all([("cancel_bake", {"number": 0})])
+    told["libraries"] = [os.path.isdir(each.path) for each in libraries][known:]
+    yield from press_all(
+        [
+            ("capture_environment", {"filepath": "/job/light.exr", "size": 16, "samples": 1, "use": True}),
+            ("merge_brackets", BRACKET),
+            ("unwrap_ball", BALL),
+            ("assemble_faces", {"filepath": "/job/cube-px.png", "size": 16, "use": True}),
+            ("lift_painting", {"filepath": "/job/painting.png", "use": True}),
+        ]
+    )
+    told["lights"] = sorted(each.name for each in bpy.data.images if each.name.endswith("light.exr"))
     # A bake of the world and of the object's own material: both go with a copy of the file
     chosen.kind, chosen.light = "radiance_views", "WORLD"
     views = chosen.radiance_views
@@ -146,10 +196,45 @@ def scenario(told):
         yield from after(beyond)
     cube.rsibr.live.on = True
     yield from after("live light")
+    told["pressed"] = sorted(pressed)
+
+BALL = {"filepath": "/job/ball.exr", "circle": (32, 32, 20), "size": 16, "use": True}
+BRACKET = {"filepath": "/job/a.exr", "directory": "/job", "times": "0.1 0.5", "align": False}
+BRACKET["files"] = [{"name": "a.exr"}, {"name": "b.exr"}]
 """
 
 
-def test_no_button_changes_anything_but_ours(told: Callable[[str], dict]) -> None:
+def write_pictures(job: Path) -> None:
+    """Of which light is made: a bracket, a ball, six faces and a painting."""
+    ramp = np.linspace(0.05, 0.9, 64 * 64 * 3).reshape(64, 64, 3)
+    painted = np.concatenate([255.0 * ramp, np.full((64, 64, 1), 255.0)], axis=-1).astype(np.uint8)
+    for name, time in (("a", 0.1), ("b", 0.5), ("ball", 1.0)):
+        write_radiance(job / f"{name}.exr", (ramp * time).astype(np.float32))
+    for face in ("px", "nx", "py", "ny", "pz", "nz"):
+        (job / f"cube-{face}.png").write_bytes(png_of(painted))
+    (job / "painting.png").write_bytes(png_of(painted[:32]))
+
+
+def test_no_button_changes_anything_but_ours(told: Callable[[str], dict], job: Path) -> None:
+    write_pictures(job)
     answer = told(PRELUDE + CONTENTS + SCENE + BUTTONS)
     assert answer.pop("properties") > 5000
-    assert answer == {"changed": {}, "particles": True, "shaded": True, "bakes": [["done", ""]]}
+    sources = "".join(path.read_text() for path in PANELS.glob("*.py"))
+    buttons = set(re.findall(r'operator\(\s*"rsibr\.(\w+)"', sources)) - IN_A_FILE_MENU
+    assert set(answer.pop("pressed")) == buttons
+    assert answer == {
+        "changed": {},
+        "particles": True,
+        "shaded": True,
+        "line": 200,
+        "opened": 2,
+        "libraries": [True],
+        "lights": [
+            "a-light.exr",
+            "ball-light.exr",
+            "cube-light.exr",
+            "light.exr",
+            "painting-light.exr",
+        ],
+        "bakes": [["done", ""]],
+    }

@@ -164,5 +164,6 @@ def test_without_blender_s_depths_surfaces_still_hide(told: Told) -> None:
     answer = told(DEPTHLESS)
     assert answer["hidden"] > 1000 < answer["cut"]
     assert answer["cut"] + answer["hidden"] == answer["whole"]
-    assert answer["same inside"] <= 1.0
+    # Over Blender's picture Mesa encodes, beneath overlays Blender does: Mesa's 3, see in_window.like, and 1
+    assert answer["same inside"] <= 4.0
     assert answer["free"] == 0

@@ -14,19 +14,18 @@ def scenario(told):
     surface = like(pixels(), (255, 0, 0))
     overlay.show_cursor = overlay.show_outline_selected = overlay.show_object_origins = True
     yield from drawn()
-    with_overlays = pixels()
-    marks = surface & ~like(with_overlays, (255, 0, 0))
+    marks = surface & ~like(pixels(), (255, 0, 0))
     # Dashes of the cursor, and pixels that the outline takes of the surface
     told["marks"] = int(marks.sum())
     cube.rsibr.map_set = "/job/flat.rsibr.exr"
     yield from drawn()
-    shown = pixels()
-    told["shaded"] = int((like(shown, (188, 0, 188)) != (surface & ~marks)).sum())
-    told["marks that changed"] = int((np.abs(shown - with_overlays)[marks].max(axis=-1) > 128).sum())
+    told["otherwise"] = int((like(pixels(), (188, 0, 188)) != (surface & ~marks)).sum())
     # A line between two looks is a mark of ours, and lies over all
     bpy.context.window_manager.rsibr_view.split = True
     yield from drawn()
-    told["line"] = int(np.all(pixels() == 255, axis=(0, 2)).sum())
+    white = np.all(pixels() == 255, axis=-1)
+    told["line"] = np.flatnonzero(white.mean(axis=0) > 0.9).tolist()
+    told["middle"] = white.shape[1] // 2
 """
 
 
@@ -39,6 +38,6 @@ def test_marks_of_blender_lie_over_previews(told: Callable[[str], dict]) -> None
     answer = told(PRELUDE + OVERLAYS)
     marks = answer.pop("marks")
     assert marks > 300
-    # Marks blend with what is beneath them: some of their edges are as purple as what they mark
-    assert answer.pop("shaded") <= 0.05 * marks
-    assert answer == {"marks that changed": 0, "line": 2}
+    # Marks blend with what is beneath them: some of their edges may be as purple as what they mark
+    assert answer.pop("otherwise") <= 0.05 * marks
+    assert answer["line"] == [answer["middle"] - 1, answer["middle"]]

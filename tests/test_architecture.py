@@ -129,7 +129,7 @@ which take mip chains alone."""
 
 EXCEPTIONS = {
     "operators/bake_kinds": "has the operators' names of version 0.1",
-    "tasks/assets": "draws materials' pictures from a kernel pyramid",
+    "tasks/reflectance/material_picture": "shades materials as previews do, from a kernel pyramid",
     "tasks/viewport/map_sets": "draws light that is rendered live as a mip chain",
 }
 

@@ -15,8 +15,8 @@ def add_icon(icons: bpy.utils.previews.ImagePreviewCollection, name: str, pixels
         Keeps the picture until it is removed or cleared.
     name : str
         New in the collection.
-    pixels : ndarray, shape (height, width, 3)
-        sRGB in [0, 1], row 0 at the bottom.
+    pixels : ndarray, shape (height, width, 3 or 4)
+        sRGB in [0, 1], and coverage; row 0 at the bottom.
 
     Returns
     -------
@@ -26,7 +26,8 @@ def add_icon(icons: bpy.utils.previews.ImagePreviewCollection, name: str, pixels
     height, width = pixels.shape[:2]
     icon = icons.new(name)
     icon.image_size = width, height
-    opaque = np.concatenate([pixels, np.ones((height, width, 1))], axis=-1)
-    icon.image_pixels_float.foreach_set(opaque.astype(np.float32).ravel())
+    rgba: Array = np.ones((height, width, 4), dtype=np.float32)
+    rgba[..., : pixels.shape[2]] = pixels
+    icon.image_pixels_float.foreach_set(rgba.ravel())
     number: int = icon.icon_id
     return number

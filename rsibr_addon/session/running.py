@@ -13,6 +13,7 @@ from ..tasks.render.renders import Renders
 from ..tasks.viewport.previews import Previews
 from .map_pictures import MapPictures
 from .material_notes import MaterialNotes
+from .material_pictures import MaterialPictures
 
 READERS = 2
 """Map sets that are read at once, so that one on a slow disk does not keep all others waiting."""
@@ -39,6 +40,7 @@ class Session:
     map_pictures : MapPictures
         In panels.
     material_notes : MaterialNotes
+    material_pictures : MaterialPictures
         In panels.
     freshness : Freshness
         Of what objects are shaded from.
@@ -59,6 +61,8 @@ class Session:
             undo.callback(self.renders.release)
             self.map_pictures = MapPictures(has_windows)
             undo.callback(self.map_pictures.close)
+            self.material_pictures = MaterialPictures(has_windows)
+            undo.callback(self.material_pictures.close)
             self._undo = undo.pop_all()
 
     def close(self) -> None:

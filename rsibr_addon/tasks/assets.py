@@ -8,35 +8,21 @@ import numpy as np
 from ..core.brdf.cycles_presets import PRESETS, preset_title
 from ..core.brdf.principled import Surface
 from ..core.conventions import Array
-from ..core.geometry.directions import normalize
-from ..core.kinds.kernel_pyramid.bake import bake_pyramid
-from ..core.kinds.kernel_pyramid.pyramid import Pyramid
-from ..core.kinds.kernel_pyramid.shading import principled_radiance
 from ..core.materials.surfaces import surface_at
-from ..core.pictures.sphere import sphere_pixels
 from ..core.progress import Progress, Steps
 from ..files.atomic import check_target, written_aside
-from ..files.kinds.kernel_pyramid import shipped_families
 from ..host.assets import Asset, write_library
 from ..host.display import displayed_colours
 from ..host.presets import build_preset
 from ..host.principled import principled
 from ..host.scenes import temporary_scene
-from .light.environments import load_environment
-
-ENVIRONMENT = "interior"
-"""The light of the pictures: windows make highlights that tell how rough a material is."""
-
-STRENGTH = 0.4
-"""Of that light: white then comes out white, and no brighter."""
+from .reflectance.material_picture import lit_pyramid, principled_sphere
 
 SIZE, SAMPLES = 128, 2
 """Width of the pictures in pixels, and samples along each axis of a pixel."""
 
 MAPS = 1024
 """Width of the sharpest maps in texels, as chrome needs."""
-
-VIEW_DIR = (0.3, -1.0, 0.35)
 
 
 def write_assets(output: Path, force: bool = False) -> Steps[list[str]]:
@@ -64,12 +50,11 @@ def write_assets(output: Path, force: bool = False) -> Steps[list[str]]:
     check_target(output, force, (".blend",))
     with temporary_scene():
         surfaces = {name: _surface(build_preset(name)) for name in PRESETS}
-    light = load_environment(ENVIRONMENT)
-    pyramid = (yield from bake_pyramid(light.radiance, MAPS)).pyramid
+    pyramid = yield from lit_pyramid(MAPS)
     pictures = {}
     for number, (name, surface) in enumerate(surfaces.items()):
         yield Progress(number, len(PRESETS), f"drawing {name}")
-        pictures[name] = _picture(pyramid, surface)
+        pictures[name] = principled_sphere(pyramid, surface, SIZE * SAMPLES)
     with temporary_scene() as scene, written_aside(output, force) as aside:
         assets = [
             Asset(build_preset(name), preset_title(name), preset.summary, _displayed(scene, pictures[name]))
@@ -81,14 +66,6 @@ def write_assets(output: Path, force: bool = False) -> Steps[list[str]]:
 
 def _surface(material: Any) -> Surface:
     return surface_at(principled(material), {}, {"": np.zeros((1, 2))})
-
-
-def _picture(pyramid: Pyramid, surface: Surface) -> Array:
-    """Samples of a sphere's radiance, and their coverage; shape (n, n, 4)."""
-    seen = sphere_pixels(SIZE * SAMPLES, VIEW_DIR)
-    view_dir = np.broadcast_to(normalize(VIEW_DIR), seen.normal.shape)
-    radiance = principled_radiance(pyramid, shipped_families(), surface, seen.normal, view_dir)
-    return seen.picture(STRENGTH * radiance)
 
 
 def _displayed(scene: Any, picture: Array) -> Array:

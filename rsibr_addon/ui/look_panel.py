@@ -1,12 +1,15 @@
 """How the active object is shaded."""
 
+from contextlib import suppress
+
 import bpy
 
+from ..core.errors import RsibrError
 from ..core.kinds.principled_material import PrincipledMaterial
-from ..core.options import Declared, declared_options
+from ..core.options import Declared, Options, declared_options
 from ..files.kinds.registry import look_types
 from ..host.live_light import is_readable
-from ..host.option_properties import property_name, replaced_options, said_by
+from ..host.option_properties import options_of, property_name, replaced_options, said_by
 from ..host.world_light import has_environment, holds_world, world_light
 from ..session.running import session
 from ..tasks.methods.kinds import KINDS
@@ -26,6 +29,9 @@ NOT_READABLE = (
 
 SLIDERS = {each.name for each in declared_options(PrincipledMaterial)} - {"roughness"}
 """Options of a material by sliders that say nothing of a model by its text."""
+
+PICTURE_SCALE = 4.0
+"""Height of a material's picture; a button is 1 high."""
 
 EQUAL_LOOKS = "Both looks are the same, and so nothing differs: change the other look below."
 
@@ -97,6 +103,7 @@ def _show_look(layout: bpy.types.UILayout, item: bpy.types.Object, kind: str, ot
         layout.prop(group, "own")
         unused = {"own", "roughness", *SLIDERS} if group.own else {"own"}
         options = [each for each in options if each.name not in unused]
+    _show_material(layout, look_types()[kind], group)
     if getattr(group, "brdf", ""):  # a model by its text, instead of sliders
         for each in options:
             if each.name not in SLIDERS:
@@ -119,6 +126,15 @@ def _show_look(layout: bpy.types.UILayout, item: bpy.types.Object, kind: str, ot
         header.label(text="More")
         for each in more if opened else ():
             show(opened, each)
+
+
+def _show_material(layout: bpy.types.UILayout, look: type[Options], group: bpy.types.PropertyGroup) -> None:
+    """Show the picture of a material by sliders, or by a model's text."""
+    if not issubclass(look, PrincipledMaterial) or getattr(group, "own", False):
+        return
+    with suppress(RsibrError):  # of a text that is none, which is told below the buttons
+        picture = session().material_pictures.icon(options_of(look, group).spec)
+        layout.template_icon(picture, scale=PICTURE_SCALE)
 
 
 def _show_option(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, declared: Declared) -> None:

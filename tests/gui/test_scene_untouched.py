@@ -180,6 +180,7 @@ def scenario(told):
             ("unwrap_ball", BALL),
             ("assemble_faces", {"filepath": "/job/cube-px.png", "size": 16, "use": True}),
             ("lift_painting", {"filepath": "/job/painting.png", "use": True}),
+            ("convert_light", CONVERSION),
         ]
     )
     told["lights"] = sorted(each.name for each in bpy.data.images if each.name.endswith("light.exr"))
@@ -200,6 +201,8 @@ def scenario(told):
 
 BALL = {"filepath": "/job/ball.exr", "circle": (32, 32, 20), "size": 16, "use": True}
 BRACKET = {"filepath": "/job/a.exr", "directory": "/job", "times": "0.1 0.5", "align": False}
+CONVERSION = {"filepath": "/job/ball.exr", "source_layout": "mirror_ball", "use": True}
+CONVERSION["output"] = "converted-light.exr"
 BRACKET["files"] = [{"name": "a.exr"}, {"name": "b.exr"}]
 """
 
@@ -232,6 +235,7 @@ def test_no_button_changes_anything_but_ours(told: Callable[[str], dict], job: P
         "lights": [
             "a-light.exr",
             "ball-light.exr",
+            "converted-light.exr",
             "cube-light.exr",
             "light.exr",
             "painting-light.exr",

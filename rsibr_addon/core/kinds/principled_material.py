@@ -71,6 +71,11 @@ class PrincipledMaterial(Options):
     )
 
     @property
+    def spec(self) -> str:
+        """Text of the model that is shown."""
+        return self.text
+
+    @property
     def surface(self) -> Surface:
         """The material as arrays."""
         return Surface(**{name: np.array(getattr(self, name)) for name in _INPUTS})

@@ -201,7 +201,7 @@ def scenario(told):
 
 BALL = {"filepath": "/job/ball.exr", "circle": (32, 32, 20), "size": 16, "use": True}
 BRACKET = {"filepath": "/job/a.exr", "directory": "/job", "times": "0.1 0.5", "align": False}
-CONVERSION = {"filepath": "/job/ball.exr", "source_layout": "mirror_ball", "use": True}
+CONVERSION = {"filepath": "/job/ball.exr", "source_layout": "angular_map", "use": True}
 CONVERSION["output"] = "converted-light.exr"
 BRACKET["files"] = [{"name": "a.exr"}, {"name": "b.exr"}]
 """

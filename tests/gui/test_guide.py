@@ -15,7 +15,10 @@ def event(kind, value, x, y, **more):
     window().event_simulate(type=kind, value=value, x=x, y=y, **more)
     yield
 
+clicks = []
+
 def click(x, y):
+    clicks.append((x, y))
     yield from event("MOUSEMOVE", "NOTHING", x, y)
     yield from event("LEFTMOUSE", "PRESS", x, y)
     yield from event("LEFTMOUSE", "RELEASE", x, y)
@@ -133,13 +136,14 @@ def scenario(told):
     told["objects"] = sorted(each.name for each in bpy.data.objects if each.type == "MESH")
     yield from open_tab()
     picture("guide-tab")
+    clicks[:-1] = []  # all but the last one looked for the tab
     yield from push("bpy.ops.material.new(")
     yield from push("rsibr_bake.light")  # the middle one of three
     yield from choose("rsibr_bake.studio", "sunset")
-    yield from push("quality='DRAFT'", share=0.2)
     picture("guide-settings", SIDEBAR)
     yield from push("bpy.ops.rsibr.bake(", share=0.3)
     (bake,) = session().bakes.bakes
+    told["clicks"] = len(clicks) + 2  # to open the list, and to choose in it, instead of the wheel
     yield from drawn()
     picture("guide-baking", SIDEBAR)
     yield from done()
@@ -160,6 +164,7 @@ def scenario(told):
 def test_the_first_preview(told: Callable[[str], dict], job: Path) -> None:
     assert told(PRELUDE + HANDS + WAY) == {
         "objects": ["Suzanne"],
+        "clicks": 6,
         "state": "done",
         "message": "",
         "shaded": True,

@@ -82,7 +82,7 @@ class BakeRequest:
 
     def makes_the_same(self, other: "BakeRequest") -> bool:
         """Whether another request of the same object, scene and moment makes the same map set."""
-        made, others = ((each.settings, each.light, each.own_material, each.files) for each in (self, other))
+        made, others = ((each.settings, each.light, each.own_material) for each in (self, other))
         return made == others
 
     @property

@@ -13,7 +13,7 @@ from rsibr.rsibr_addon.core.kinds.reflection_tables.shading import TablesLook
 from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import Role
 from rsibr.rsibr_addon.files.kinds.registry import look_types
 from rsibr.rsibr_addon.host import visible_surfaces
-from rsibr.rsibr_addon.host.option_properties import options_of
+from rsibr.rsibr_addon.host.option_properties import options_of, replaced_options
 from rsibr.rsibr_addon.host.visible_surfaces import is_wanted, map_set_of, surfaces
 from rsibr.rsibr_addon.host.world_light import WorldLight, follows_world, world_light
 from rsibr.rsibr_addon.settings.lobe_stack import LobeStackSettings
@@ -46,6 +46,16 @@ def test_settings_reach_the_look_and_are_told_apart() -> None:
     assert options_of(MipLook, cube.rsibr.mip_chain).roughness is None
     cube.rsibr.mip_chain.use_roughness = True
     assert options_of(MipLook, cube.rsibr.mip_chain).roughness == pytest.approx(0.3)
+    # What is replaced keeps its value, and counts for nothing meanwhile
+    chain = cube.rsibr.mip_chain
+    chain.bias = 2.5
+    assert replaced_options(MipLook, chain) == {"mip"}
+    assert options_of(MipLook, chain) == MipLook(roughness=0.3, kd=(0.25, 0.5, 1.0))
+    chain.use_exponent, chain.exponent = True, 40.0
+    assert replaced_options(MipLook, chain) == {"mip", "roughness"}
+    assert options_of(MipLook, chain) == MipLook(exponent=40.0, kd=(0.25, 0.5, 1.0))
+    chain.use_roughness = chain.use_exponent = False
+    assert options_of(MipLook, chain).mip == 2.5
     cube.rsibr.reflection_tables.shown = {"retro"}
     assert options_of(TablesLook, cube.rsibr.reflection_tables).shown == (Role.RETRO,)
 

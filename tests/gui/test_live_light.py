@@ -77,7 +77,7 @@ def scenario(told):
         yield
     told["idle"] = [len(updates), len(draws)]
     told["faults"] = [previews.faults.message(cube), previews.faults.trouble, previews.kind(cube)]
-    cube.rsibr.mip_chain.mip, cube.rsibr.mip_chain.use_roughness = 2.0, True
+    cube.rsibr.mip_chain.bias, cube.rsibr.mip_chain.use_roughness = 2.0, True
     yield from drawn()
     told["roughness"] = [others((124, 188, 124), among), previews.faults.message(cube)]
     cube.rsibr.live.on = False

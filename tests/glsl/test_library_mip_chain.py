@@ -8,6 +8,7 @@ from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_from_harmonic
 from rsibr.rsibr_addon.core.filtering.radial_lobes import cosine_lobe
 from rsibr.rsibr_addon.core.filtering.zonal import zonal_coefficients
 from rsibr.rsibr_addon.core.geometry.directions import normalize
+from rsibr.rsibr_addon.core.geometry.near_room import Room, near_direction
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
 from rsibr.rsibr_addon.core.kinds.mip_chain.shading import Borders, glossy_mean, glossy_radiance
 from rsibr.rsibr_addon.core.kinds.mip_chain.texture_space import filtered_mips, tent_halved
@@ -40,6 +41,12 @@ def atlas() -> Samplers:
 
 def cosines() -> np.ndarray:
     return single(np.linspace(0.0, 1.0, COUNT)[:, None])
+
+
+def in_a_room() -> list[np.ndarray]:
+    """Points in a room, none of them close to a wall, and directions."""
+    inside = np.random.default_rng(30).uniform(-0.5, 0.5, (COUNT, 3)) * (2.0, 1.5, 1.0)
+    return [single(inside + (0.25, 0.0, -0.25)), unit_vectors(31)]
 
 
 def of_degree(degree: int) -> np.ndarray:
@@ -122,6 +129,20 @@ TWINS = {
         lambda degree: zonal_coefficients(cosine_lobe(), 20)[degree.astype(int)],
         8 * ULP * np.pi,
     ),
+    **{
+        f"near_direction {room}": Twin(
+            "near_room_lib.glsl",
+            "vec3 half_size = vec3(2.0, 1.5, 1.0), middle = vec3(0.25, 0.0, -0.25);"
+            f"result_0.xyz = near_direction(in_0.xyz, in_1.xyz, {number}.0, half_size, middle);",
+            in_a_room,
+            lambda position, direction, room=room: near_direction(
+                position, direction, room, (2.0, 1.5, 1.0), (0.25, 0.0, -0.25)
+            ),
+            # A quotient of a distance up to 6 by what the wall is away from the map's point, at least 0.5
+            12 * 12 * ULP,
+        )
+        for number, room in enumerate(Room)
+    },
     "cube_place": Twin(
         "cube_map_lib.glsl",
         "result_0.xyz = cube_place(in_0.xyz);",

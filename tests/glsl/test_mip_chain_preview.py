@@ -1,10 +1,14 @@
 """Pictures drawn from mip chains against core/kinds/mip_chain/shading.py at every sample."""
 
+from dataclasses import replace
+
 import gpu
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import RangeError
 from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.geometry.directions import reflect
+from rsibr.rsibr_addon.core.geometry.near_room import Room
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
 from rsibr.rsibr_addon.core.kinds.mip_chain.shading import Borders, MipLook, mip_chain_radiance
 from rsibr.rsibr_addon.core.kinds.mip_chain.texture_space import box_halved, filtered_mips, tent_halved
@@ -65,6 +69,55 @@ def test_clamped_borders_and_roughness(smooth, look: MipLook) -> None:
     # Where faces meet, a sample may fall on either side: one of 16, of a difference below 1.
     assert np.abs(picture[..., :3] - expected)[inside].max() < 2.0 / 16.0
     assert np.quantile(np.abs(picture[..., :3] - expected)[inside], 0.8) < 2e-3 * expected.max()
+
+
+WIDTHS, AROUND, CAPTURED_AT = (5.0, 4.4, 4.0), (0.4, 0.2, -0.3), (0.5, -0.4, 0.3)
+"""A room, its middle, and where its light was captured; the sphere is at the origin."""
+
+
+def wall_light(points: np.ndarray) -> np.ndarray:
+    """Radiance of a point of the walls, which changes slowly along them."""
+    return 0.5 + 0.4 * np.sin(1.5 * points + (0.0, 1.0, 2.0))
+
+
+def met(position: np.ndarray, direction: np.ndarray, room: Room) -> np.ndarray:
+    """Where rays from inside meet the room, by walking on until they are out, and halving the last step."""
+    inside, outside = np.zeros(direction.shape[:-1]), np.full(direction.shape[:-1], 10.0)
+    for _ in range(40):
+        middle = 0.5 * (inside + outside)
+        place = np.abs(position + middle[..., None] * direction - AROUND) / np.multiply(0.5, WIDTHS)
+        is_in = (place.max(axis=-1) if room is Room.BOX else np.linalg.norm(place, axis=-1)) < 1.0
+        inside, outside = np.where(is_in, middle, inside), np.where(is_in, outside, middle)
+    return position + inside[..., None] * direction
+
+
+@pytest.mark.parametrize("room", [Room.BOX, Room.SPHERE])
+def test_a_mirror_in_a_room_shows_the_walls_where_they_are(room: Room) -> None:
+    ensure_context()
+    at = np.array(CAPTURED_AT)
+    seen = met(at, representation("cube_map").texel_directions(128), room)
+    chain = MipChain((np.float32(wall_light(seen)),), np.zeros((9, 3)))
+    renderer = PreviewRenderer(GpuMipChain(chain))
+    camera = Camera((0.8, -0.9, 0.4))
+    look = MipLook(
+        f0=(1.0, 1.0, 1.0), room=room, room_size=WIDTHS, room_middle=AROUND, captured_at=CAPTURED_AT
+    )
+
+    def of_reference(normal: np.ndarray, view_dir: np.ndarray, footprint: np.ndarray) -> np.ndarray:
+        return mip_chain_radiance(chain, normal, view_dir, look, footprint, position=normal)
+
+    def of_walls(normal: np.ndarray, view_dir: np.ndarray, footprint: np.ndarray) -> np.ndarray:
+        return wall_light(met(normal, reflect(view_dir, normal), room))
+
+    expected, inside = reference_pixels(camera, of_reference)
+    truth, _ = reference_pixels(camera, of_walls)
+    found = renderer.draw(*SPHERE, camera, SIZE, look)[..., :3]
+    distant = renderer.draw(*SPHERE, camera, SIZE, replace(look, room=Room.DISTANT))[..., :3]
+    # As in distant surroundings; light changes up to three times as fast by direction
+    assert np.abs(found - expected)[inside].max() < 6e-3 * expected.max()
+    error, before = (np.sqrt(np.mean((picture - truth)[inside] ** 2)) for picture in (found, distant))
+    assert before > 0.05
+    assert error < 0.05 * before
 
 
 def test_a_chain_that_does_not_say_how_blurred_it_is() -> None:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from ...core.conventions import Array
+from ...core.geometry.near_room import Room
 from ...core.kinds.mip_chain.mip_lobes import MipLobes
 from ...core.kinds.mip_chain.shading import Borders, MipLook
 from ..shaders import MeshProgram
@@ -10,7 +11,8 @@ from ..shaders import MeshProgram
 mip_chain_shader = MeshProgram(
     "mip_chain",
     "MipLook look",
-    "vec4 f0; vec4 kd; float level; float last_level; float clamped; float antialiased;",
+    "vec4 f0; vec4 kd; float level; float last_level; float clamped; float antialiased;"
+    "vec4 room; vec4 middle; vec4 captured_at;",
     {"atlas": "FLOAT_2D", "harmonics": "FLOAT_2D"},
 )
 """Draws a mesh from a mip chain."""
@@ -26,4 +28,5 @@ def look_fields(look: MipLook, lobes: MipLobes) -> tuple[Array, ...]:
     """
     clamped = look.borders is Borders.CLAMPED
     numbers = np.array([look.level(lobes), lobes.count - 1.0, float(clamped), float(look.antialiased)])
-    return np.array(look.f0), np.array(look.kd), numbers
+    room = np.array([*look.half_size, float(list(Room).index(look.room))])
+    return np.array(look.f0), np.array(look.kd), numbers, room, look.middle, np.array(look.captured_at)

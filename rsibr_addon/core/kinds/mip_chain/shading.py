@@ -14,6 +14,7 @@ from ...brdf.fresnel import fresnel_schlick
 from ...conventions import Array, ArrayLike
 from ...filtering.irradiance import irradiance_from_harmonics
 from ...geometry.directions import dot, reflect
+from ...geometry.near_room import Room, near_direction
 from ...geometry.sides import seen_surface
 from ...maps import cube_map
 from ...maps.representation import representation
@@ -100,6 +101,54 @@ class MipLook(Options):
         },
     )
     antialiased: bool = antialiased_option("glossy light")
+    room: Room = option(
+        Room.DISTANT,
+        label="Room",
+        help="What the surroundings are for reflections",
+        choices={
+            Room.DISTANT: Choice("Distant", "far away, the same from everywhere"),
+            Room.BOX: Choice("Box", "a box along the axes, so that reflections shift as one moves"),
+            Room.SPHERE: Choice("Sphere", "an ellipsoid, likewise"),
+        },
+        advanced=True,
+    )
+    room_size: tuple[float, float, float] = option(
+        (6.0, 6.0, 3.0),
+        label="Room Size",
+        help="Widths of the room along the axes",
+        least=1e-3,
+        most=1e6,
+        advanced=True,
+        metavar="X,Y,Z",
+    )
+    room_middle: tuple[float, float, float] = option(
+        (0.0, 0.0, 0.0),
+        label="Room Middle",
+        help="Middle of the room, in world coordinates",
+        least=-1e6,
+        most=1e6,
+        advanced=True,
+        metavar="X,Y,Z",
+    )
+    captured_at: tuple[float, float, float] = option(
+        (0.0, 0.0, 0.0),
+        label="Captured At",
+        help="Where the map was captured, in world coordinates",
+        least=-1e6,
+        most=1e6,
+        advanced=True,
+        metavar="X,Y,Z",
+    )
+
+    @property
+    def half_size(self) -> Array:
+        """Half of the room's widths."""
+        return 0.5 * np.array(self.room_size)
+
+    @property
+    def middle(self) -> Array:
+        """The room's middle, relative to where the map was captured."""
+        return np.array(self.room_middle) - self.captured_at
 
     def level(self, lobes: MipLobes) -> float:
         """The level of detail to look glossy light up at.
@@ -133,10 +182,16 @@ def mip_chain_radiance(
     look: MipLook,
     mirror_footprint: ArrayLike | None = None,
     facet: ArrayLike | None = None,
+    position: ArrayLike | None = None,
 ) -> Array:
     """Radiance of surface points, not negative: [Kautz2004] Eq. 8.
 
-    Parameters and result are those of every kind's shading: see `core.kinds`.
+    Parameters and result are those of every kind's shading, see `core.kinds`, and
+
+    Parameters
+    ----------
+    position : array_like, shape (..., 3), optional
+        The points, in world coordinates; a look with a room needs them.
 
     Raises
     ------
@@ -154,6 +209,10 @@ def mip_chain_radiance(
     diffuse = diffuse_radiance(chain, seen.normal, look.kd)
     mirror_dir = reflect(view_dir, seen.mirror_normal)
     corners = footprint_or_point(mirror_footprint if look.antialiased else None, mirror_dir)
+    if position is not None:
+        start, room = np.asarray(position) - look.captured_at, (look.room, look.half_size, look.middle)
+        mirror_dir = near_direction(start, mirror_dir, *room)
+        corners = near_direction(start[..., None, :], corners, *room)
     glossy = glossy_mean(chain, mirror_dir, corners, look.level(chain.lobes), look.borders)
     shaded: Array = (1.0 - fresnel) * diffuse + fresnel * glossy
     return shaded

@@ -18,7 +18,13 @@ from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.drawing import GpuMesh
 from rsibr.rsibr_addon.device.kinds.kernel_pyramid import GpuPyramid
 from rsibr.rsibr_addon.device.kinds.radiance_views import GpuRadianceViews
-from rsibr.rsibr_addon.device.preview_stage import Difference, Stage, current_sight, draw_occluder
+from rsibr.rsibr_addon.device.preview_stage import (
+    Beneath,
+    Difference,
+    Stage,
+    current_sight,
+    draw_occluder,
+)
 from rsibr.tests.glsl.test_library_principled import families, pyramid
 from rsibr.tests.synthetic_views import smooth_views, visible_points
 
@@ -142,6 +148,39 @@ def test_what_is_covered_in_part_shows_what_is_behind() -> None:
     inside = expected(STRAIGHT, 1.0)[1]
     whole, veiled = (picture[inside, :3] for picture in pictures)
     np.testing.assert_allclose(veiled, 0.5 * whole + 0.5 * np.array([0.2, 0.4, 0.8]), atol=1e-3)
+
+
+@pytest.mark.parametrize("scale", [None, 2.0], ids=["colours", "radiance"])
+@pytest.mark.parametrize("alpha", [1.0, 0.5])
+def test_what_covers_all_lies_beneath_overlays(scale: float | None, alpha: float) -> None:
+    """In the frame buffer of surfaces, as its colours are or as radiance; the rest lies over."""
+    with screen() as over, screen() as surfaces:
+        stage, sight, subject = Stage(), current_sight(), GpuPyramid(pyramid(), families())
+        with stage.drawing():
+            emitting = Surface(emission=(0.3, 0.5, 0.4), alpha=alpha)
+            subject.draw(GpuMesh(*sphere()), sight.on(np.eye(4), STRAIGHT), emitting)
+        drawn = np.array(stage.radiance.read()).reshape(SIZE, SIZE, 4)
+        display, span = buffers.table_texture(table()), (0.0, 0.5)
+        with over.bind():
+            stage.show(display, 1.0, span, True, None, Beneath(surfaces, scale))
+            above = buffers.pixels(over, SIZE)
+        beneath = buffers.pixels(surfaces, SIZE)
+        with over.bind():
+            over.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
+            stage.show(display, 1.0, span, True)
+            whole = buffers.pixels(over, SIZE)
+    column = np.arange(SIZE)[None, :]
+    left = column < SIZE // 2 - 1
+    covered = (drawn[..., 3] == 1.0) & left
+    veiled = (drawn[..., 3] > 0.0) & (drawn[..., 3] < 1.0) & left
+    assert np.any(covered) == (alpha == 1.0)
+    np.testing.assert_array_equal(above[veiled], whole[veiled])
+    assert not above[covered].any()
+    # The line of the split is a mark of ours, over all
+    np.testing.assert_array_equal(above[:, SIZE // 2 - 1 : SIZE // 2 + 1], 1.0)
+    wanted = whole[covered] if scale is None else np.append(scale, [scale, scale, 1.0]) * drawn[covered]
+    np.testing.assert_allclose(beneath[covered], wanted, rtol=1e-6)
+    assert not beneath[(drawn[..., 3] < 1.0) | (column >= SIZE // 2)].any()
 
 
 def test_the_state_is_as_before() -> None:

@@ -90,6 +90,29 @@ def test_light_of_a_world_is_out_of_date_when_the_world_changes(kind: str, by_it
     assert staleness(cube()) is None
 
 
+def test_an_object_is_served_while_it_is_up_to_date_with_what_is_chosen() -> None:
+    scene, chosen, freshness = bpy.context.scene, bpy.context.scene.rsibr_bake, Freshness()
+
+    def served() -> bool:
+        freshness.look([scene])
+        return freshness.serves(request_for(chosen, scene, cube()), scene, cube())
+
+    assert not served()
+    baked("kernel_pyramid", "STUDIO", cube())
+    assert served()
+    size = chosen.kernel_pyramid.size
+    chosen.kernel_pyramid.size = "512" if size != "512" else "256"
+    assert not served()
+    chosen.kernel_pyramid.size = size
+    assert served()
+    chosen.light = "WORLD"
+    assert not served()
+    baked("kernel_pyramid", "WORLD", cube())
+    assert served()
+    scene.world.node_tree.nodes["Background"].inputs["Strength"].default_value = 7.0
+    assert not served()
+
+
 def test_materials_are_no_part_of_light() -> None:
     baked("kernel_pyramid", "WORLD", cube())
     cube().active_material.node_tree.nodes["Principled BSDF"].inputs["Metallic"].default_value = 1.0

@@ -111,19 +111,13 @@ def camera_view(
     Raises
     ------
     SceneError
-        There is no camera, or it is panoramic.
+        See `checked_camera`.
     """
     scene = depsgraph.scene
-    if camera is None or camera.type != "CAMERA":
-        raise SceneError(f"Scene {scene.name} has no camera: add one, or choose it in the Scene properties.")
-    if camera.data.type not in CAMERAS:
-        raise SceneError(
-            f"Camera {camera.name} is panoramic, and RSIBR renders perspective and orthographic cameras: "
-            f"change its type, or render with Cycles."
-        )
+    seen_by = checked_camera(scene, camera)
     render = scene.render
     width, height = resolution
-    whole = camera.calc_matrix_camera(
+    whole = seen_by.calc_matrix_camera(
         depsgraph, x=width, y=height, scale_x=render.pixel_aspect_x, scale_y=render.pixel_aspect_y
     )
     left, bottom, right, top = _border(render, resolution)
@@ -136,6 +130,24 @@ def camera_view(
     layer = scene.session_uid, depsgraph.view_layer.name
     shape, no_viewport = (right - left, top - bottom), cast(bpy.types.SpaceView3D, None)
     return CameraView(scene, layer, depsgraph, no_viewport, unscaled, part @ np.array(whole), shape)
+
+
+def checked_camera(scene: bpy.types.Scene, camera: bpy.types.Object | None) -> bpy.types.Object:
+    """The camera of a scene, if pictures can be rendered with it.
+
+    Raises
+    ------
+    SceneError
+        There is none, or it is panoramic.
+    """
+    if camera is None or camera.type != "CAMERA":
+        raise SceneError(f"Scene {scene.name} has no camera: add one, or choose it in the Scene properties.")
+    if camera.data.type not in CAMERAS:
+        raise SceneError(
+            f"Camera {camera.name} is panoramic, and RSIBR renders perspective and orthographic cameras: "
+            f"change its type, or render with Cycles."
+        )
+    return camera
 
 
 def left_out(scene: bpy.types.Scene, camera: bpy.types.Object) -> list[str]:

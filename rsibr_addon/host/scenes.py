@@ -108,6 +108,13 @@ def _resting_handlers() -> Iterator[None]:
             functions[:] = rested
 
 
+def evaluated(scene: bpy.types.Scene) -> bpy.types.Depsgraph:
+    """What a scene's modifiers, drivers and keys make of it, as viewports show it."""
+    with worked_in(scene):
+        depsgraph: bpy.types.Depsgraph = bpy.context.evaluated_depsgraph_get()
+        return depsgraph
+
+
 @contextlib.contextmanager
 def worked_in(scene: bpy.types.Scene) -> Iterator[None]:
     """Within, a scene is the one that the artist works in."""

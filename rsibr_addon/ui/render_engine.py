@@ -15,12 +15,14 @@ from ..device.context import ensure_context
 from ..host.handlers import add_handlers
 from ..host.option_properties import options_of
 from ..host.render_views import camera_view, left_out
+from ..host.scenes import evaluated
 from ..host.visible_surfaces import RENDER_ENGINE, current_view
 from ..session.running import session
 from ..settings.render import RenderOptions
 from ..tasks.queue.background import State
 from ..tasks.queue.bake_request import ObjectBake, is_baked
-from ..tasks.queue.world_bakes import bake_world, world_bake_of, world_file
+from ..tasks.queue.world_bakes import world_bake_of, world_file
+from ..tasks.render.missing_bakes import bake_for_render
 from ..tasks.render.picture import CHANNELS, COMBINED, DEPTH, EMISSION, NORMAL, Picture
 
 WAIT_SECONDS = 0.1
@@ -56,6 +58,8 @@ class RSIBR_RE_previews(bpy.types.RenderEngine):
         """Write down what a background Blender needs for the world, while nobody can change it."""
         self._bake: ObjectBake | None = None
         self._has_failed, scene = False, depsgraph.scene
+        if not bpy.app.background:
+            session().renders.show_as(session().previews)
         with self._telling():
             if scene.world and not bpy.app.background and not is_baked(world_file(scene)):
                 self._bake = world_bake_of(scene)
@@ -155,11 +159,11 @@ def start(undo: ExitStack) -> None:
 
 @persistent
 def _prepare(scene: bpy.types.Scene, *_: object) -> None:
-    """Bake the world where no window waits for it: no render can begin within another."""
-    if scene.render.engine != RENDER_ENGINE or scene.world is None or not bpy.app.background:
+    """Bake what a render lacks where no window waits for it: no render can begin within another."""
+    if scene.render.engine != RENDER_ENGINE or not bpy.app.background:
         return
     try:
-        drain(bake_world(scene))
+        session().renders.wish(drain(bake_for_render(scene, evaluated(scene))))
     except (RsibrError, OSError) as error:
         session().renders.trouble = str(error)
 

@@ -1,6 +1,5 @@
 """`rsibr render`: frames of a file as pictures, one JSON result, and what is refused."""
 
-import re
 from pathlib import Path
 
 import bpy
@@ -36,7 +35,7 @@ def test_frames_are_files_beside_the_blender_file(blend: Path, capfd: pytest.Cap
     result = json_result(capfd, "render", str(blend), "--frames", "47-48", "-o", "//frames/a_###.exr")
     paths = [blend.parent / "frames" / f"a_{number}.exr" for number in ("047", "048")]
     assert result["pictures"] == list(map(str, paths))
-    assert result["warnings"] == ["RSIBR renders without motion blur, which the scene asks for."]
+    assert "RSIBR renders without motion blur, which the scene asks for." in result["warnings"]
     first, last = map(read_exr, paths)
     assert first.shape == last.shape == (18, 32, 3)
     assert (first != last).any()
@@ -67,7 +66,7 @@ def test_a_file_without_a_camera_is_told(blend: Path, capfd: pytest.CaptureFixtu
     bpy.ops.wm.save_mainfile()
     capfd.readouterr()
     result = json_result(capfd, "render", str(blend), "-o", "one.png")
-    assert re.fullmatch(r"Blender cannot render: .*camera.*\.", result["error"], re.IGNORECASE)
+    assert result["error"].startswith("Scene Scene has no camera")
     assert not Path("one.png").exists()
 
 

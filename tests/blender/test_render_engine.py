@@ -304,3 +304,21 @@ def test_a_world_that_cannot_be_baked_is_told(scene: bpy.types.Scene, render: Re
     tree.links.new(texture.outputs["Color"], tree.nodes["Background"].inputs["Color"])
     with pytest.raises(RuntimeError, match="painted"):
         render()
+
+
+@pytest.mark.slow
+def test_what_no_image_says_is_baked_before(scene: bpy.types.Scene, render: Render) -> None:
+    scene.world = None
+    tree = bpy.data.materials["Material"].node_tree
+    checker, inputs = tree.nodes.new("ShaderNodeTexChecker"), tree.nodes["Principled BSDF"].inputs
+    checker.inputs["Color1"].default_value, checker.inputs["Color2"].default_value = (
+        (1, 0, 0, 1),
+        (0, 1, 0, 1),
+    )
+    checker.inputs["Scale"].default_value = 4.0
+    tree.links.new(checker.outputs["Color"], inputs["Emission Color"])
+    inputs["Emission Strength"].default_value = 0.5
+    passes = render()
+    seen = passes["Emission"][passes["Depth"][..., 0] < NOTHING]
+    for colour in ((0.5, 0.0, 0.0), (0.0, 0.5, 0.0)):
+        assert np.isclose(seen, colour, atol=0.02).all(axis=-1).sum() > 50

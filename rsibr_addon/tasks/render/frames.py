@@ -9,10 +9,11 @@ from ...core.warned import recorded_warnings, warn
 from ...files.atomic import check_target, written_aside
 from ...host.bake_settings import enable_extension
 from ...host.blend_files import open_blend
+from ...host.render_views import checked_camera
 from ...host.rendering import render_frame
-from ...host.scenes import find_scene
+from ...host.scenes import evaluated, find_scene
 from ...settings.render import FramesOptions
-from ..queue.world_bakes import bake_world
+from .missing_bakes import bake_for_render
 
 FORMATS = {".exr": "OPEN_EXR", ".png": "PNG"}
 """Ending -> Blender's name of a format."""
@@ -60,6 +61,7 @@ def render_frames(
     enable_extension()
     open_blend(blend)
     scene = find_scene(None)
+    checked_camera(scene, scene.camera)
     numbers = settings.numbers or range(scene.frame_current, scene.frame_current + 1)
     paths = [_path(output, blend, number) for number in numbers]
     if len(set(paths)) < len(paths):
@@ -69,8 +71,7 @@ def render_frames(
     for path in paths:
         path.parent.mkdir(parents=True, exist_ok=True)
         check_target(path, force, tuple(FORMATS))
-    if scene.world is not None:
-        yield from bake_world(scene)
+    yield from bake_for_render(scene, evaluated(scene))
     for done, (number, path) in enumerate(zip(numbers, paths, strict=True)):
         yield Progress(done, len(paths), f"rendering frame {number}")
         with written_aside(path, force) as aside, recorded_warnings() as warnings:

@@ -1,6 +1,7 @@
 """What renders keep from frame to frame: previews of their own, as they have a thread of their own."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
+from pathlib import Path
 from typing import Any
 
 from ...core.errors import RenderError
@@ -33,6 +34,15 @@ class Renders:
         self._previews = Previews(LiveFits(), AtOnce())
         self._darkness: GpuMapSet | None = None
         self._told: set[str] = set()
+
+    def wish(self, inputs: Iterable[tuple[Any, Path]]) -> None:
+        """Have objects show files of baked inputs."""
+        for item, path in inputs:
+            self._previews.inputs.wish(item, path)
+
+    def show_as(self, viewports: Previews) -> None:
+        """Have objects show the baked inputs that viewports show."""
+        self._previews.inputs.show_as(viewports.inputs)
 
     def picture(self, view: CameraView, passes: Collection[str]) -> Picture:
         """Make everything ready to draw a frame.

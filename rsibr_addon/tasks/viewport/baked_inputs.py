@@ -156,6 +156,10 @@ class InputBakes:
         self._coming[path] = self.reader.submit(read_shown_inputs, path)
         return True
 
+    def show_as(self, other: "InputBakes") -> None:
+        """Have all objects show what they show elsewhere."""
+        self._wishes, self._shown = dict(other._wishes), dict(other._shown)
+
     def ask(self, item: Any) -> None:
         """Say that what an object wishes was asked of a background Blender."""
         self._wishes[item.session_uid].is_coming = True

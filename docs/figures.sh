@@ -53,8 +53,53 @@ kautz2004() {
     sheet kautz2004-6 4 0 "${grid[@]}"
 }
 
+# Miller & Hoffman 1984; docs/reflection-tables.md shows and explains them
+miller1984() {
+    bake() { # NAME OPTIONS
+        rsibr bake reflection-tables --environment interior "${@:2}" -o "$1.rsibr.exr"
+    }
+    draw() { # NAME.exr MAP-SET OPTIONS
+        rsibr preview "$2.rsibr.exr" --size 128 --fill 0.9 "${@:3}" -o "$1.exr"
+    }
+    monkey=(--mesh monkey --view 0.4,-1,0.25 --perspective 30 --background light)
+    # Section 6: a mirror, which is the illumination map itself; Phong of falling exponents; Lambert
+    bake mirror --specular mirror:
+    bake lambert --diffuse lambert:kd=0.8
+    balls=(mirror)
+    for n in 200 50 10; do
+        bake phong$n --specular phong:n=$n,ks=1
+        balls+=("phong$n")
+    done
+    balls+=(lambert)
+    for ball in "${balls[@]}"; do
+        draw "ball-$ball" "$ball" --background light
+        draw "monkey-$ball" "$ball" "${monkey[@]}"
+    done
+    drawn=("${balls[@]/#/ball-}" "${balls[@]/#/monkey-}")
+    sheet miller1984-6 5 0 "${drawn[@]/%/.exr}"
+    # Section 6.2's varnish and section 7's weights, by one set of tables
+    bake varnished --material varnished-wood
+    draw wood varnished "${monkey[@]}" --coat none
+    draw varnish varnished "${monkey[@]}"
+    draw thick varnished "${monkey[@]}" --coat constant:k=0.5
+    draw curve varnished "${monkey[@]}" --coat none --weights curve:wd=0:0/1:1,ws=0:3/0.4:0.5/1:0
+    sheet miller1984-7 4 0 {wood,varnish,thick,curve}.exr
+    # Section 9: light sent back, and light let through
+    bake cats-eye --material cats-eye
+    bake glass --material glass
+    draw eye cats-eye "${monkey[@]}"
+    draw glass glass "${monkey[@]}"
+    draw refracted glass "${monkey[@]}" --tables refraction
+    sheet miller1984-9 3 -1 {eye,glass,refracted}.exr
+    # What light from beneath the horizon does, and a fade
+    bake glossy --specular phong:n=5,ks=1
+    draw paper glossy --background light
+    draw faded glossy --background light --fade
+    sheet miller1984-horizon 2 0 {paper,faded}.exr
+}
+
 sections=("$@")
-[ $# -gt 0 ] || sections=(kautz2004)
+[ $# -gt 0 ] || sections=(kautz2004 miller1984)
 for section in "${sections[@]}"; do
     "$section"
 done

@@ -53,6 +53,7 @@ def scenario(told):
     mapping = parts.weights_curves.nodes["wd"].mapping
     mapping.curves[0].points[1].location = (1.0, 0.0)
     mapping.update()
+    sidebar()[1].tag_redraw()  # as the widget does where one drags a point
     yield from look()
     yield from done(lambda: parts.weights == "curve:wd=0:1/1:0,ws=0:1/1:1")
     yield from look()

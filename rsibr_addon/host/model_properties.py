@@ -26,6 +26,9 @@ NONE = "none"
 _STARTS = {"kd": 0.5, "ks": 0.5, "n": 50.0, "eta": 1.5, "k": 0.5, "tint": 1.0, "radiance": 0.0}
 """What a key has first where the text does not say it."""
 
+_START_BRDF = "lambert:kd=1"
+"""The model within a model, likewise."""
+
 _SOFT = {"n": (1.0, 1000.0), "eta": (1.0, 3.0), "radiance": (0.0, 10.0)}
 """Ends of sliders of wide ranges."""
 
@@ -220,6 +223,8 @@ def _none_measured(kind: str, path: str) -> NoReturn:
 def _written(owner: Any, values: dict[str, Any]) -> str:
     if _has_fresnel(owner) and values.get("metal", NONE) != NONE:
         return f"{owner.model}:metal={values['metal']}"
+    if "brdf" in owner.__annotations__:
+        return f"{owner.model}:brdf=({_START_BRDF})"
     texts = {key: _text_of(values.get(key, _STARTS.get(key, 1.0))) for key in _keys(owner)}
     if not hasattr(owner, "model"):
         return NONE if set(texts.values()) == {"0"} else next(iter(texts.values()))

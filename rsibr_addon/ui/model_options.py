@@ -6,7 +6,7 @@ from typing import Any
 import bpy
 
 from ..core.options import Declared
-from ..host.model_properties import curves_of, shown_keys, take_curves, text_of_curves
+from ..host.model_properties import NONE, curves_of, shown_keys, take_curves, text_of_curves
 from .sentences import capital
 
 
@@ -32,10 +32,10 @@ def draw_model(layout: bpy.types.UILayout, group: Any, declared: Declared) -> No
     column = layout.column()
     for key in keys:
         column.prop(group, key)
-    if getattr(group, f"{name}_model", "") == "albedo":
-        column.prop(group, name, text="BRDF")
     if curves := curves_of(declared, group):
         _draw_curves(column, group, declared, curves)
+    elif not keys and getattr(group, f"{name}_model", NONE) != NONE:
+        column.prop(group, name, text="Text")
 
 
 def _draw_reset(row: bpy.types.UILayout, group: Any, name: str) -> None:

@@ -45,7 +45,8 @@ class RSIBR_RE_previews(bpy.types.RenderEngine):
     bl_label = "RSIBR"
     bl_use_preview = False
     bl_use_postprocess = True
-    bl_use_gpu_context = True
+    # A background Blender without a driver would crash while it makes one; `ensure_context` looks first
+    bl_use_gpu_context = not bpy.app.background
     bl_use_eevee_viewport = True
 
     def update_render_passes(self, scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> None:

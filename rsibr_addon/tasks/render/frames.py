@@ -6,6 +6,7 @@ from pathlib import Path
 from ...core.errors import OutputFileError
 from ...core.progress import Progress, Steps
 from ...core.warned import recorded_warnings, warn
+from ...device.context import ensure_context
 from ...files.atomic import check_target, written_aside
 from ...host.bake_settings import enable_extension
 from ...host.blend_files import open_blend
@@ -62,6 +63,7 @@ def render_frames(
     open_blend(blend)
     scene = find_scene(None)
     checked_camera(scene, scene.camera)
+    ensure_context()
     numbers = settings.numbers or range(scene.frame_current, scene.frame_current + 1)
     paths = [_path(output, blend, number) for number in numbers]
     if len(set(paths)) < len(paths):

@@ -9,6 +9,7 @@ from ..rsibr_addon.session.running import session
 from ..rsibr_addon.tasks.queue.background import State
 from ..rsibr_addon.tasks.queue.bake_request import ObjectBake, is_baked
 from ..rsibr_addon.tasks.queue.input_bakes import InputBake
+from ..rsibr_addon.tasks.queue.world_bakes import WorldBake
 
 SECONDS = 0.2
 """Between two looks."""
@@ -40,7 +41,10 @@ def look() -> None:
             continue
         if bake.state is not State.DONE:
             continue
-        if bake.output.suffix == ".html":
+        if isinstance(bake, WorldBake):
+            session().previews.reload()
+            redraw_viewports()
+        elif bake.output.suffix == ".html":
             bpy.ops.wm.url_open(url=bake.output.resolve().as_uri())
         elif bake.settings:
             assign(bake.items, bake.output, bake.settings)

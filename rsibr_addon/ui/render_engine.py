@@ -20,8 +20,8 @@ from ..host.visible_surfaces import RENDER_ENGINE, current_view
 from ..session.running import session
 from ..settings.render import RenderOptions
 from ..tasks.queue.background import State
-from ..tasks.queue.bake_request import ObjectBake, is_baked
-from ..tasks.queue.world_bakes import world_bake_of, world_file
+from ..tasks.queue.bake_request import is_baked
+from ..tasks.queue.world_bakes import WorldBake, world_bake_of, world_file
 from ..tasks.render.missing_bakes import bake_for_render
 from ..tasks.render.picture import CHANNELS, COMBINED, DEPTH, EMISSION, NORMAL, Picture
 
@@ -57,7 +57,7 @@ class RSIBR_RE_previews(bpy.types.RenderEngine):
 
     def update(self, data: bpy.types.BlendData, depsgraph: bpy.types.Depsgraph) -> None:
         """Write down what a background Blender needs for the world, while nobody can change it."""
-        self._bake: ObjectBake | None = None
+        self._bake: WorldBake | None = None
         self._has_failed, scene = False, depsgraph.scene
         if not bpy.app.background:
             session().renders.show_as(session().previews)
@@ -100,7 +100,7 @@ class RSIBR_RE_previews(bpy.types.RenderEngine):
         else:
             self.report({"WARNING"}, sentence)
 
-    def _wait_for(self, bake: ObjectBake) -> bool:
+    def _wait_for(self, bake: WorldBake) -> bool:
         """Have the world baked; False where that is cancelled, or fails."""
         bake.start()
         try:

@@ -1,5 +1,6 @@
 """Bakes of a scene's world, in whose light all materials are shaded."""
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,11 @@ from ...settings.light import Clamp, Light
 from ..methods.bake import bake
 from ..methods.kinds import own_materials_kind
 from .bake_request import BakeRequest, ObjectBake, in_background, is_baked, output_for
+
+
+@dataclass
+class WorldBake(ObjectBake):
+    """A bake of a scene's world."""
 
 
 def world_request(scene: Any) -> BakeRequest:
@@ -68,7 +74,7 @@ def bake_world(scene: Any) -> Steps[Path]:
     return output
 
 
-def world_bake_of(scene: Any) -> ObjectBake:
+def world_bake_of(scene: Any) -> WorldBake:
     """Make everything ready that a background Blender needs to bake a scene's world.
 
     Raises
@@ -77,4 +83,4 @@ def world_bake_of(scene: Any) -> ObjectBake:
         See `world_file` and `bake_request.in_background`.
     """
     request, output = world_request(scene), world_file(scene)
-    return in_background(request.title, request.job(output), scene, [], output, True, ObjectBake)
+    return in_background(request.title, request.job(output), scene, [], output, True, WorldBake)

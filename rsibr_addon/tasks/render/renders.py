@@ -61,7 +61,8 @@ class Renders:
         previews = self._previews
         previews.data_replaced()  # a render evaluates its own copies, others for each frame
         if not previews.worlds.of(view.scene):
-            raise RenderError(self.trouble or previews.worlds.message or "The world has not been baked.")
+            unbaked = f"The world of {view.scene.name} has not been baked: render again."
+            raise RenderError(self.trouble or previews.worlds.message or unbaked)
         frame = self._frame(view)
         while previews.is_busy:
             frame = self._frame(view)

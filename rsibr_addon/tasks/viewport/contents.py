@@ -51,15 +51,15 @@ class Contents:
         Surfaces with a preview.
     others : list of Drawable or None
         Surfaces without a preview, if they were asked for.
-    shades_all : bool
-        Whether all surfaces have one, the world's where they have none of their own.
+    world : str
+        What surfaces without a map set of their own are shaded from; empty where they are left to Blender.
     changed : bool
         Whether the scene has changed since.
     """
 
     previews: list[Drawable]
     others: list[Drawable] | None
-    shades_all: bool = False
+    world: str = ""
     changed: bool = False
 
     def serves(self, with_others: bool) -> bool:
@@ -73,8 +73,8 @@ class Contents:
         )
 
     def has_faulty(self, faults: Faults) -> bool:
-        """Whether the file of an object, which may be shaded from the world's instead, cannot be had."""
-        return self.shades_all and any(
+        """Whether the file of an object, which can be shaded from the world's instead, cannot be had."""
+        return bool(self.world) and any(
             faults.stands(each.surface.item) for each in self.previews if not each.surface.in_world
         )
 
@@ -114,7 +114,8 @@ class LayerContents:
 
     def collect(self, view: View, with_others: bool, faults: Faults) -> Contents:
         """Find what a view layer shows, upload the meshes that are new, and let go of what nobody shows."""
-        contents = Contents([], [] if with_others else None, view.shades_all)
+        world = self._worlds.of(view.scene) if view.shades_all else ""
+        contents = Contents([], [] if with_others else None, world)
         if view.shades_all or is_wanted():
             self._fill(contents, view, faults)
         else:
@@ -132,11 +133,10 @@ class LayerContents:
         return [each for contents in shown for each in contents.previews]
 
     def _fill(self, contents: Contents, view: View, faults: Faults) -> None:
-        world = self._worlds.of(view.scene) if view.shades_all else ""
         for surface, evaluated in surfaces(view.depsgraph):
             lit = bool(surface.path) and not is_live_name(surface.path) and not faults.stands(surface.item)
-            if world and not lit:
-                surface = replace(surface, path=world, in_world=True)
+            if contents.world and not lit:
+                surface = replace(surface, path=contents.world, in_world=True)
             if not surface.path:
                 faults.forget(surface.item)
             found = contents.previews if surface.path else contents.others

@@ -14,6 +14,7 @@ from .parser import Parser
 
 COMMANDS = {
     "bake": "Make a map set: filter, capture or tabulate an environment.",
+    "batch": "Bake many map sets on all cores: materials in environments, with one page of all.",
     "preview": "Draw a mesh shaded from a map set, once or as a turntable.",
     "render": "Render frames of a Blender file as viewports show them, by the engine RSIBR.",
     "compare": "Measure how far previews are from what Cycles renders, or from a BRDF's exact reflection.",

@@ -1,0 +1,87 @@
+"""A process of a batch: it does job after job, which come on its standard input, one a line.
+
+It says on its standard output what it does, as JSON lines. It ends when its input does: with whoever
+started it, even if that was killed.
+"""
+
+import base64
+import json
+import os
+import queue
+import sys
+import threading
+import time
+from contextlib import closing
+from pathlib import Path
+from typing import Any, NoReturn
+
+from ..core.errors import RsibrError
+from ..core.schema import loads
+from ..core.warned import recorded_warnings
+from ..files.staging import remove_own
+from ..job import BakeJob, read_job
+from .main import may_pass, sentence_of
+from .streams import Outlet, others_hushed
+
+PICTURE = 96
+"""Largest width and height of a bake's picture, in pixels."""
+
+
+def serve() -> NoReturn:
+    """Do jobs until the input ends."""
+    from ..files.environments import environment_kept
+
+    told = Outlet(os.dup(1))
+    jobs: queue.SimpleQueue[str] = queue.SimpleQueue()
+
+    def hear() -> None:
+        for line in sys.stdin:
+            jobs.put(line)
+        remove_own()
+        os._exit(1)
+
+    threading.Thread(target=hear, daemon=True).start()
+    with others_hushed(None, os.devnull), environment_kept():
+        while True:
+            asked = loads(jobs.get())
+            told.write(json.dumps({"result": _result(asked, told)}) + "\n")
+
+
+def _result(asked: dict[str, Any], told: Outlet) -> dict[str, Any]:
+    """What has become of a job, with its times and, if that is wanted, its picture."""
+    started, processor = time.monotonic(), time.process_time()
+    with recorded_warnings() as warnings:
+        try:
+            job = read_job(json.dumps(asked["job"]), "The job")
+            assert isinstance(job, BakeJob)
+            result = _baked(job, told)
+            times = {"seconds": time.monotonic() - started, "processor": time.process_time() - processor}
+            if asked["picture"] or not result["found"]:
+                result["picture"] = _picture(Path(job.output))
+        except (RsibrError, OSError, MemoryError, ModuleNotFoundError) as error:
+            return {"ok": False, "error": sentence_of(error, "rsibr batch"), "try_again": may_pass(error)}
+    return result | times | {"warnings": list(dict.fromkeys(warnings))}
+
+
+def _baked(job: BakeJob[Any], told: Outlet) -> dict[str, Any]:
+    from ..tasks.methods.bake import bake
+
+    with closing(bake(job)) as steps:
+        try:
+            while True:
+                told.write(json.dumps({"progress": vars(next(steps))}) + "\n")
+        except StopIteration as end:
+            return {"ok": True, "told": end.value.told, "found": "found" in end.value.figures}
+
+
+def _picture(path: Path) -> str:
+    """A picture of a map set's first map, as PNG in base 64."""
+    import numpy as np
+
+    from ..core.pictures.thumbnail import thumbnail
+    from ..files.png import png_of
+    from ..tasks.report.pictures import map_set_pictures
+
+    small = thumbnail(map_set_pictures(path)[0].pixels[:, :, :3], PICTURE)[::-1]
+    pixels = np.rint(255.0 * np.concatenate([small, np.ones((*small.shape[:2], 1))], axis=-1))
+    return base64.b64encode(png_of(pixels.astype(np.uint8))).decode("ascii")

@@ -1,0 +1,1 @@
+"""Many bakes at once: materials in environments, by methods."""

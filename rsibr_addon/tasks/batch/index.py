@@ -1,0 +1,77 @@
+"""The page of a batch: all its bakes, with pictures, times and errors, in one file without scripts."""
+
+from collections.abc import Mapping, Sequence
+from html import escape
+from itertools import groupby
+from os.path import relpath
+from pathlib import Path
+from string import Template
+from typing import Any
+from urllib.parse import quote
+
+from ...files.atomic import written_aside
+from ...files.map_set_facts import in_words
+from .description import BatchBake
+from .notes import Note
+
+TEMPLATE = Path(__file__).with_suffix(".html")
+
+
+def write_index(
+    page: Path,
+    title: str,
+    bakes: Sequence[BatchBake],
+    notes: Sequence[Note | None],
+    failures: Mapping[str, Mapping[str, Any]],
+) -> None:
+    """Write the page.
+
+    Parameters
+    ----------
+    page : Path
+        Replaced if it exists.
+    title : str
+    bakes : sequence of BatchBake
+        Those in the same environment behind each other.
+    notes : sequence of Note or None
+        Of each bake.
+    failures : mapping of str to mapping
+        Output -> its "error".
+
+    Raises
+    ------
+    OutputFileError
+    """
+    known = [note for note in notes if note]
+    seconds, processor = (sum(note[name] for note in known) for name in ("seconds", "processor"))
+    failed = [bake for bake in bakes if bake.job.output in failures]
+    shown = zip(bakes, notes, strict=True)
+    text = Template(TEMPLATE.read_text(encoding="utf-8")).substitute(
+        title=escape(in_words(title)),
+        summary=f"{len(bakes)} bakes, {len(failed)} failed; {seconds:.1f} s of work, {processor:.1f} s of "
+        f"processors",
+        failures="\n".join(
+            f"<li><b>{escape(bake.title)}</b>: {escape(failures[bake.job.output]['error'])}</li>"
+            for bake in failed
+        ),
+        environments="\n".join(
+            f'<h2>{escape(environment)}</h2><div class="bakes">'
+            + "\n".join(_figure(page, bake, note, failures) for bake, note in group)
+            + "</div>"
+            for environment, group in groupby(shown, key=lambda each: each[0].environment)
+        ),
+    )
+    with written_aside(page, force=True) as aside:
+        aside.write_text(text, encoding="utf-8", errors="replace")  # of names that are no UTF-8
+
+
+def _figure(page: Path, bake: BatchBake, note: Note | None, failures: Mapping[str, Mapping[str, Any]]) -> str:
+    name, method = bake.material or bake.job.settings.LABEL, bake.job.settings.LABEL
+    link = quote(relpath(bake.job.output, page.parent))
+    told, picture, warnings = ["failed" if bake.job.output in failures else "not known"], "", []
+    if note:
+        told = [note["told"], f"{note['seconds']:.2f} s" if note["seconds"] else "made before"]
+        picture = f'<img alt="" src="data:image/png;base64,{note["picture"]}">'
+        warnings = [f'<span class="warning">{escape(warning)}</span>' for warning in note["warnings"]]
+    lines = [f'<a href="{link}">{escape(name)}</a>', escape(method), *map(escape, told), *warnings]
+    return f"<figure>{picture or '<div></div>'}<figcaption>{'<br>'.join(lines)}</figcaption></figure>"

@@ -1,0 +1,161 @@
+"""A batch from its file to all its map sets and a page that shows them."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ...core.errors import OutputFileError, RsibrError
+from ...core.progress import Progress, Steps
+from ...core.threads import thread_count
+from ...files.memory import memory_left
+from ..methods.bake import METHODS
+from ..methods.method import Cost
+from .description import BatchBake
+from .index import write_index
+from .notes import Note, batch_folder, read_note, stamp_of, write_note
+from .workers import Worker, started_workers
+
+ENDED = "Its process ended before it was done, as when memory is short: bake it alone to see why."
+
+
+@dataclass
+class BatchResult:
+    """What has become of a batch.
+
+    Attributes
+    ----------
+    page : Path
+    made, found : int
+        Bakes that were done, and that were there already.
+    failures : dict of str to dict
+        Output -> "error" and "try_again", as `rsibr bake --json` has them.
+    """
+
+    page: Path
+    made: int = 0
+    found: int = 0
+    failures: dict[str, dict[str, Any]] = field(default_factory=dict)
+
+    @property
+    def ended(self) -> int:
+        """Bakes of which it is known."""
+        return self.made + self.found + len(self.failures)
+
+
+def cost_of(bake: BatchBake) -> Cost | None:
+    """What a bake will take; None where its settings describe no material."""
+    try:
+        return METHODS[bake.job.settings.KIND].cost(bake.job.settings)
+    except RsibrError:
+        return None
+
+
+def run_batch(path: Path, bakes: Sequence[BatchBake], command: Sequence[str]) -> Steps[BatchResult]:
+    """Do the bakes that are not done, on all cores, and write the page.
+
+    Parameters
+    ----------
+    path : Path
+        The batch's file; the page goes into the folder NAME-batch beside it.
+    bakes : sequence of BatchBake
+        From `read_batch`.
+    command : sequence of str
+        Starts a worker: see `command_line.worker`.
+
+    Raises
+    ------
+    OutputFileError
+        A folder cannot be made, or the page not be written.
+
+    Notes
+    -----
+    A bake that fails stops no other. Each worker goes on with the environment that it has read, and takes
+    another one that nobody works on, while there are such.
+    """
+    folder = batch_folder(path)
+    _make_folders([folder, *(Path(bake.job.output).parent for bake in bakes)])
+    result, waiting = BatchResult(folder / "index.html"), list(bakes)
+    count = _worker_count(bakes)
+    with started_workers(command, max(1, thread_count() // count)) as workers:
+        team = [workers.start() for _ in range(count)]
+        for worker in team:
+            _give_next(worker, team, waiting, folder)
+        while any(worker.bake for worker in team):
+            for worker, said in workers.heard():
+                bake = worker.bake
+                if bake is None:
+                    continue
+                if said is None:
+                    result.failures[bake.job.output] = {"error": ENDED, "try_again": True}
+                    team.remove(worker)
+                    if waiting:
+                        team.append(worker := workers.start())
+                elif "result" in said:
+                    _take(bake, said["result"], folder, result)
+                else:
+                    yield Progress(result.ended, len(bakes), f"{bake.title}: {said['progress']['what']}")
+                    continue
+                _give_next(worker, team, waiting, folder)
+            yield Progress(result.ended, len(bakes), _told(team))
+    yield Progress(len(bakes), len(bakes), "writing the page")
+    write_index(result.page, path.stem, bakes, [read_note(folder, bake) for bake in bakes], result.failures)
+    return result
+
+
+def _make_folders(folders: list[Path]) -> None:
+    for folder in dict.fromkeys(folders):
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise OutputFileError(
+                f"{folder} cannot be made ({error.strerror}): give other outputs, or check what is there."
+            ) from error
+
+
+def _worker_count(bakes: Sequence[BatchBake]) -> int:
+    """As many as there are processors, and as memory is enough for the largest bakes."""
+    memory = max((cost.memory for cost in map(cost_of, bakes) if cost), default=0.0)
+    fitting = memory_left() / memory if memory else math.inf
+    return int(max(1, min(thread_count(), len(bakes), fitting)))
+
+
+def _give_next(worker: Worker, team: list[Worker], waiting: list[BatchBake], folder: Path) -> None:
+    """Let a worker go on in the environment that it knows, or else in one that nobody works on, or in any."""
+    worker.bake = None
+    if not waiting:
+        return
+    others = {other.environment for other in team if other.bake}
+
+    def rank(bake: BatchBake) -> tuple[bool, bool]:
+        environment = bake.job.light.environment
+        return environment != worker.environment, environment in others
+
+    bake = min(waiting, key=rank)
+    waiting.remove(bake)
+    worker.give(bake, picture=read_note(folder, bake) is None)
+
+
+def _take(bake: BatchBake, said: dict[str, Any], folder: Path, result: BatchResult) -> None:
+    """Note what has become of a bake."""
+    if not said["ok"]:
+        result.failures[bake.job.output] = {name: said[name] for name in ("error", "try_again")}
+        return
+    result.found += said["found"]
+    result.made += not said["found"]
+    if "picture" not in said:
+        return
+    note = Note(
+        stamp=stamp_of(bake),
+        told=said["told"],
+        seconds=0.0 if said["found"] else said["seconds"],
+        processor=0.0 if said["found"] else said["processor"],
+        warnings=said["warnings"],
+        picture=said["picture"],
+    )
+    write_note(folder, bake, note)
+
+
+def _told(team: list[Worker]) -> str:
+    return ", ".join(worker.bake.title for worker in team if worker.bake)

@@ -1,0 +1,256 @@
+"""Batches: what they stand for, and that each bake is done once, whatever happens to others."""
+
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.command_line.main import run
+from rsibr.rsibr_addon.core.errors import InputFileError
+from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.files.environments import environment_kept
+from rsibr.rsibr_addon.files.map_set import read_map_set
+from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
+from rsibr.rsibr_addon.tasks.batch.description import read_batch
+from rsibr.rsibr_addon.tasks.light.environments import load_environment
+from rsibr.rsibr_addon.tasks.methods.bake import bake
+
+ENVIRONMENTS = ("dawn", "noon", "dusk")
+MATERIALS = ("chrome", "matte", "satin")
+PATIENCE_SECONDS = 120
+"""For a process that should have ended long before."""
+
+
+@pytest.fixture(autouse=True)
+def _light(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("RSIBR_THREADS", "2")
+    (tmp_path / "light").mkdir()
+    for number, name in enumerate(ENVIRONMENTS):
+        pixels = np.random.default_rng(number).random((16, 32, 3))
+        write_radiance(tmp_path / "light" / f"{name}.exr", pixels)
+
+
+def write_batch(**changed: Any) -> Path:
+    batch = {
+        "environments": ["light/*.exr"],
+        "materials": [*MATERIALS],
+        "methods": [{"kind": "reflection-tables", "diffuse_rows": 4, "rows": 4}],
+        "output": "maps/{environment}-{material}.rsibr.exr",
+    }
+    path = Path("metals.json")
+    path.write_text(json.dumps(batch | changed))
+    return path
+
+
+def outputs(path: Path) -> list[str]:
+    return [Path(each.job.output).name for each in read_batch(path)]
+
+
+def done(capfd: pytest.CaptureFixture[str], code: int = 0) -> dict[str, Any]:
+    capfd.readouterr()
+    assert run(["batch", "metals.json", "--json", "--progress", "none"]) == code
+    result: dict[str, Any] = json.loads(capfd.readouterr().out.splitlines()[-1])
+    return result
+
+
+def maps() -> dict[str, tuple[bytes, int]]:
+    return {path.name: (path.read_bytes(), path.stat().st_ino) for path in Path("maps").glob("*.exr")}
+
+
+def test_it_stands_for_all_materials_in_all_environments() -> None:
+    found = outputs(write_batch())
+    wanted = {f"{light}-{material}.rsibr.exr" for light in ENVIRONMENTS for material in MATERIALS}
+    assert (set(found), len(found)) == (wanted, 9)
+    # One environment after the other
+    assert [name.partition("-")[0] for name in found] == sorted(3 * ENVIRONMENTS)
+
+
+def test_methods_of_light_alone_take_no_material_and_sizes_multiply() -> None:
+    path = write_batch(methods=["mip-chain"], sizes=[4, 8], output="{environment}-{size}.exr")
+    assert sorted(outputs(path)) == sorted(f"{light}-{size}.exr" for light in ENVIRONMENTS for size in (4, 8))
+
+
+def test_materials_are_what_each_method_takes() -> None:
+    Path("gold.binary").touch()
+    materials = ["copper", "Chrome", "*.binary", "car.blend:Red/dark", "ggx:alpha=0.2,f0=0.5"]
+    path = write_batch(materials=materials, methods=["lobe-stack"], environments=["light/dawn.exr"])
+    bakes = read_batch(path)
+    assert [each.job.settings.brdf for each in bakes] == [
+        "blend:copper",
+        "ggx:alpha=0.04,metal=chromium",
+        "merl:path=gold.binary",
+        "blend:car.blend:Red/dark",
+        "ggx:alpha=0.2,f0=0.5",
+    ]
+    assert [Path(each.job.output).name for each in bakes] == [
+        f"dawn-{name}.rsibr.exr" for name in ("copper", "Chrome", "gold", "Red-dark", "ggx-alpha-0.2-f0-0.5")
+    ]
+    path = write_batch(materials=materials[3:4], methods=["radiance-views"])
+    assert read_batch(path)[0].job.settings.material == "car.blend:Red/dark"
+
+
+def test_a_table_has_a_bake_or_a_pattern_a_row() -> None:
+    path = Path("rows.csv")
+    path.write_text(
+        "environment,material,method,rows,exact,output\n"
+        "light/*.exr,matte,reflection-tables,8,,\n"
+        "light/dawn.exr,chrome,reflection-tables,,true,{material}.exr\n"
+    )
+    bakes = read_batch(path)
+    assert sorted(Path(each.job.output).name for each in bakes) == [
+        "chrome.exr",
+        *(f"{light}-matte.rsibr.exr" for light in sorted(ENVIRONMENTS)),
+    ]
+    settings = {Path(each.job.output).stem: each.job.settings for each in bakes}
+    assert (settings["chrome"].rows, settings["chrome"].exact) == (None, True)
+    assert settings["noon-matte.rsibr"].rows == 8
+
+
+@pytest.mark.parametrize(
+    ("changed", "sentence"),
+    [
+        ({"environments": ["none/*.exr"]}, r"Nothing is called none/\*\.exr"),
+        ({"methods": ["baking"]}, "there is no method baking: choose one of"),
+        ({"output": "{light}.exr"}, "output names {light}, which is none of environment, material"),
+        (
+            {"output": "{material}.exr"},
+            r"metals\.json makes .*chrome\.exr of chrome in dawn and of chrome in",
+        ),
+        ({"methods": [{"kind": "mip-chain", "size": 3}]}, "mip_chain is impossible"),
+        ({"colour": 1}, "colour is unknown"),
+    ],
+)
+def test_what_is_wrong_with_a_batch_is_a_sentence(changed: dict[str, Any], sentence: str) -> None:
+    with pytest.raises(InputFileError, match=sentence):
+        read_batch(write_batch(**changed))
+
+
+def test_a_dry_run_lists_and_bakes_nothing(capfd: pytest.CaptureFixture[str]) -> None:
+    write_batch()
+    assert run(["batch", "metals.json", "--dry-run"]) == 0
+    lines = capfd.readouterr().out.splitlines()
+    assert len(lines) == 10
+    assert lines[-1].startswith("9 bakes in 3 environments: at most ")
+    assert not Path("maps").exists()
+
+
+class Page(HTMLParser):
+    """What of a page is checked."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.links: list[str] = []
+        self.pictures: list[str] = []
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        values = {name: value or "" for name, value in attrs}
+        if tag == "a":
+            self.links.append(values["href"])
+        if tag == "img":
+            self.pictures.append(values["src"])
+
+
+def test_broken_bakes_are_named_and_stop_no_other(capfd: pytest.CaptureFixture[str]) -> None:
+    write_batch(materials=[*MATERIALS, "wood"])
+    failed = done(capfd, code=1)
+    names = [f"maps/{light}-wood.rsibr.exr" for light in sorted(ENVIRONMENTS)]
+    assert all(name in failed["error"] for name in names)
+    assert failed["error"].startswith("3 of 12 bakes failed (")
+    assert (failed["ok"], failed["try_again"]) == (False, False)
+    assert [warning.partition(": There is no preset wood")[0] for warning in failed["warnings"]] == names
+    assert len(maps()) == 9
+    text = Path("metals-batch/index.html").read_text()
+    page = Page(text)
+    assert len(page.links) == 12
+    assert sum((Path("metals-batch") / link).is_file() for link in page.links) == 9
+    assert len(page.pictures) == 9
+    assert all(picture.startswith("data:image/png;base64,iVBOR") for picture in page.pictures)
+    assert text.count("There is no preset wood") == 3
+    assert "http" not in text
+
+
+def test_a_batch_given_again_keeps_all_and_its_page(capfd: pytest.CaptureFixture[str]) -> None:
+    path = write_batch()
+    first = done(capfd)
+    assert (first["made"], first["found"]) == (9, 0)
+    before, page = maps(), Path("metals-batch/index.html").read_text()
+    second = done(capfd)
+    assert (second["made"], second["found"]) == (0, 9)
+    assert maps() == before
+    assert Path("metals-batch/index.html").read_text() == page
+    # What a batch makes is what its bakes make alone
+    for each in read_batch(path):
+        data = before[Path(each.job.output).name][0]
+        Path(each.job.output).unlink()
+        drain(bake(each.job))
+        assert Path(each.job.output).read_bytes() == data
+
+
+def test_an_environment_is_read_once_for_bakes_that_follow(monkeypatch: pytest.MonkeyPatch) -> None:
+    dark = np.ones((4, 8, 3), np.float32)
+    dark[0, 0] = -1.0
+    write_radiance(Path("dark.exr"), dark)
+    with environment_kept():
+        with pytest.warns(match="negative"):
+            first = load_environment("dark.exr")
+        with pytest.warns(match="negative"):
+            assert load_environment("dark.exr") is first
+        write_radiance(Path("dark.exr"), np.zeros((8, 16, 3)), force=True)
+        assert load_environment("dark.exr").radiance.shape == (8, 16, 3)
+    assert load_environment("light/dawn.exr") is not load_environment("light/dawn.exr")
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="has no SIGKILL")
+def test_a_killed_batch_goes_on_and_does_nothing_twice(capfd: pytest.CaptureFixture[str]) -> None:
+    moments = int(os.environ.get("RSIBR_MOMENTS", 3))
+    path, chance = write_batch(), random.Random(1)
+    command = [Path(sys.executable).with_name("rsibr"), "batch", str(path), "--progress", "none"]
+    finished: dict[str, tuple[bytes, int]] = {}
+    for _ in range(moments):
+        with subprocess.Popen(command, start_new_session=True) as batch:
+            time.sleep(chance.uniform(0.5, 3.0))
+            batch.send_signal(signal.SIGKILL)
+        there = maps()
+        assert finished.items() <= there.items()
+        finished = there
+    result = done(capfd)
+    assert result["made"] + result["found"] == 9
+    assert finished.items() <= maps().items()
+    assert len(maps()) == 9
+    for name in maps():
+        read_map_set(Path("maps") / name)
+    assert {each.name for each in Path("maps").iterdir()} == maps().keys()
+
+
+def test_a_worker_that_dies_costs_its_bake_alone(
+    capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    code = (
+        "import os; from pathlib import Path\n"
+        "from rsibr.rsibr_addon.command_line import worker\n"
+        "did = worker._baked\n"
+        "def baked(job, told):\n"
+        "    if 'noon-matte' in job.output: os.abort()\n"
+        "    return did(job, told)\n"
+        "worker._baked = baked\n"
+        "worker.serve()"
+    )
+    monkeypatch.setattr(
+        "rsibr.rsibr_addon.command_line.batch._worker_command", lambda: [sys.executable, "-c", code]
+    )
+    write_batch()
+    failed = done(capfd, code=75)
+    assert failed["error"].startswith("1 of 9 bakes failed (maps/noon-matte.rsibr.exr)")
+    assert failed["try_again"]
+    assert len(maps()) == 8

@@ -13,7 +13,7 @@ from rsibr.rsibr_addon.core.brdf.ggx import Ggx
 from rsibr.rsibr_addon.core.conventions import Array
 from rsibr.rsibr_addon.core.lobes.accuracy import FitErrors, fit_errors
 from rsibr.rsibr_addon.core.lobes.family import Family
-from rsibr.rsibr_addon.core.lobes.family_fit import fit_ggx, fit_leaning
+from rsibr.rsibr_addon.core.lobes.family_fit import fit_gaussian, fit_ggx, fit_leaning
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.families import SHIPPED, shipped_family, write_family
 
@@ -61,6 +61,7 @@ def main() -> None:
     parser.add_argument("--fit", action="store_true", help="fit anew, a minute of processor time")
     if parser.parse_args().fit:
         write_family(SHIPPED / "ggx.npz", drain(fit_ggx()))
+        write_family(SHIPPED / "gaussian.npz", drain(fit_gaussian()))
         write_family(SHIPPED / "leaning.npz", drain(fit_leaning()))
     write_table("materials.md", "family", errors(shipped_family("ggx")))
 

@@ -29,13 +29,15 @@ class RSIBR_OT_fit_lobes(Stepwise, bpy.types.Operator):
         """See `Stepwise`."""
         item = context.active_object
         material = item and item.active_material
-        if not getattr(self, "brdf", None) and not material:
+        captures = getattr(self, "captures", "")
+        if not getattr(self, "brdf", None) and not captures and not material:
             raise SceneError("There is no material to fit: select an object that has one, or name a model.")
-        settings = options_of(FitSettings, self, material.name if material else "")
+        settings = options_of(FitSettings, self, material.name if material and not captures else "")
         output = Path(bpy.path.abspath(self.filepath))
         return fit_lobes(settings, output, self.force)
 
     def finish(self, result: Any) -> None:
         """See `Stepwise`."""
         figures = result.report()
-        self.report({"INFO"}, f"Fitted {figures['lobes']} lobes, E {figures['E']:.3g}")
+        error = f", E {figures['E']:.3g}" if "E" in figures else ""
+        self.report({"INFO"}, f"Fitted {figures['lobes']} lobes{error}")

@@ -9,6 +9,7 @@ from . import options
 from .console import Console
 
 EXPLAINED = {
+    "left_out": "error of captured views that were predicted from the others, noise included",
     "E": "error: root mean square of fit - model over that of the model, over all elevations",
     "E_grazing": "the same over elevations near grazing, n.v below 0.1",
     "albedo_error": "greatest relative error of the reflected energy",
@@ -32,7 +33,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     Returns
     -------
     dict
-        "fit", the path of the file, and its figures: see `tasks.reflectance.fit_lobes.FitResult`.
+        "fit", the path of the file, and its figures: see `tasks.reflectance.fit_lobes.FitResult` and
+        `tasks.reflectance.fit_captures.CapturedResult`.
 
     Raises
     ------
@@ -47,9 +49,13 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     plain = ", ".join(f"{name} {_text(value)}" for name, value in figures.items() if name not in EXPLAINED)
     console.say(f"{arguments.output}: {plain}")
     for name, explanation in EXPLAINED.items():
+        if name not in figures:
+            continue
         console.say(f"  {name:<14} {_text(figures[name]):<9} {explanation}")
     return {"fit": str(arguments.output), **figures}
 
 
-def _text(value: float | None) -> str:
+def _text(value: float | list[float] | None) -> str:
+    if isinstance(value, list):
+        return " and ".join(map(_text, value)) or "none"
     return "none" if value is None else f"{value:.3g}"

@@ -23,7 +23,8 @@ def shipped_family(name: str) -> Family:
     ----------
     name : str
         "ggx": reflection from GGX microfacets times each of `fresnel_powers.POWERS`; "leaning": what leaning
-        facets add to diffuse reflection, `oren_nayar.tilt`.
+        facets add to diffuse reflection, `oren_nayar.tilt`; "gaussian": Ward's and Beckmann's lobes, see
+        `core.lobes.family_fit.fit_gaussian`.
 
     Raises
     ------

@@ -2,7 +2,7 @@
 
 import json
 from pathlib import Path
-from typing import Annotated, Any, TypedDict
+from typing import Annotated, Any, NotRequired, TypedDict
 
 from ..core.errors import InputFileError, RangeError, SchemaError, ShapeError
 from ..core.lobes.bank import KernelBank
@@ -25,6 +25,7 @@ class _File(TypedDict):
     scale: list[list[Colour]]
     offsets: list[list[list[list[float]]]]
     taps: list[list[list[float]]]
+    left_out: NotRequired[float]
 
 
 def write_fit(path: str | Path, fit: Fit, report: dict[str, Any], force: bool = False) -> None:
@@ -53,6 +54,7 @@ def write_fit(path: str | Path, fit: Fit, report: dict[str, Any], force: bool = 
         "report": report,
         "concentrations": list(fit.bank.concentrations),
         **{name: getattr(fit, name).tolist() for name in _ARRAYS},
+        **({} if fit.left_out is None else {"left_out": fit.left_out}),
     }
     with written_aside(path, force) as aside:
         aside.write_text(json.dumps(text, indent=None, separators=(",", ":")) + "\n", encoding="utf-8")
@@ -86,6 +88,7 @@ def read_fit(path: str | Path) -> Fit:
             )
         told: dict[str, Any] = {**decode(_File, plain)}
         arrays = {name: array(told[name], axes, name) for name, axes in _ARRAYS.items()}
-        return Fit(told["brdf"], told["method"], bank=KernelBank(tuple(told["concentrations"])), **arrays)
+        bank = KernelBank(tuple(told["concentrations"]))
+        return Fit(told["brdf"], told["method"], bank=bank, left_out=told.get("left_out"), **arrays)
     except (SchemaError, RangeError, ShapeError) as error:
         raise InputFileError(f"{path} is damaged ({error}): fit again, or restore the file.") from error

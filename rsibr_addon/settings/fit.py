@@ -1,10 +1,10 @@
 """How lobes are fitted to a reflectance model: [Kautz2000], and beyond."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ..core.brdf.gallery import GALLERY
 from ..core.errors import RangeError
-from ..core.options import Choice, Materials, Options, option
+from ..core.options import Choice, Materials, Options, declared_options, option
 
 MODEL_HELP = (
     "Reflectance model, as ggx:alpha=0.3,metal=copper, ward:alpha=0.04,ks=0.8 or merl:path=FILE; "
@@ -95,8 +95,48 @@ class Fitting(Options):
             raise RangeError(f"Where to seek lobes is for the method greedy, not {self.method}.")
 
 
+FITTING = tuple(each.name for each in declared_options(Fitting))
+"""Options of fits to a model alone."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class FitSettings(Fitting):
-    """Settings of a fit: the model, and how it is fitted."""
+    """Settings of a fit: the model and how it is fitted, or captured views."""
 
-    brdf: str = option(label="Model", help=MODEL_HELP, metavar="SPEC", materials=MODELS)
+    brdf: str | None = option(
+        None,
+        label="Model",
+        help=MODEL_HELP,
+        none="what was captured",
+        metavar="SPEC",
+        materials=replace(MODELS, instead="captures", spared=FITTING),
+    )
+    captures: str | None = option(
+        None,
+        label="Captures",
+        help="Radiance views to fit lobes to, in the light that their file holds",
+        none="fit the model",
+        none_as="",
+        subtype="FILE_PATH",
+        metavar="NAME.rsibr.exr",
+    )
+    captured_views: int | None = option(
+        None,
+        label="Captured Views",
+        help="Fit to the first of the captured views only",
+        least=1,
+        most=162,
+        none="all of them",
+        none_as=0,
+        metavar="N",
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if (self.brdf is None) is (self.captures is None):
+            raise RangeError("Lobes are fitted to a reflectance model or to captures: give one of them.")
+        if self.captures is None and self.captured_views is not None:
+            raise RangeError("A model has no captured views: give --captures, or leave their number out.")
+        given = [name for name in FITTING if getattr(self, name) != getattr(Fitting, name)]
+        if self.captures is not None and given:
+            raise RangeError(f"A fit to captures finds its own {', '.join(given)}: leave the options out.")

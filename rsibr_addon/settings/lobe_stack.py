@@ -7,7 +7,7 @@ from ..core.errors import RangeError
 from ..core.kinds.lobe_stack.stack import LARGEST
 from ..core.options import Choice, declared_options, option
 from .comparison import ExactComparison
-from .fit import MODEL_HELP, MODELS, Fitting
+from .fit import FITTING, MODEL_HELP, MODELS, Fitting
 from .method import MethodSettings
 
 
@@ -24,10 +24,6 @@ def layout_option() -> Any:
         advanced=True,
         stored="layout_of_maps",
     )
-
-
-FITTING = tuple(each.name for each in declared_options(Fitting))
-"""Options that a fit which was made before has no use for."""
 
 
 @dataclass(frozen=True, kw_only=True)

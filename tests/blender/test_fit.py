@@ -9,8 +9,11 @@ import pytest
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError
 from rsibr.rsibr_addon.files.fits import read_fit
+from rsibr.rsibr_addon.files.map_set import read_map_set_header
+from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.settings.fit import FitSettings
 from rsibr.rsibr_addon.tasks.reflectance.fit_lobes import fit_lobes
+from rsibr.tests.mirror_capture import environment, write_mirror_capture
 
 COMMAND = ["fit", "--brdf", "phong:n=40,ks=0.5", "--slices", "3", "--lobes", "2"]
 
@@ -36,6 +39,55 @@ def test_the_command_writes_a_fit_and_tells_its_figures(
         (line,) = (line for line in lines if line.split()[0] == name)
         assert f" {told[name]:.3g} " in line
         assert len(line.split()) > 4
+
+
+@pytest.mark.slow
+def test_captures_make_a_fit_and_that_a_stack_in_other_light(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    captures, path, stack = (tmp_path / name for name in ("mirror.rsibr.exr", "FIT.json", "stack.rsibr.exr"))
+    write_mirror_capture(captures, size=32)
+    command = ["fit", "--captures", str(captures), "-o", str(path), "--json"]
+    assert run(command) == 0
+    told = json.loads(capfd.readouterr().out.splitlines()[-1])
+    # Texels of a sphere map are far coarser than a mirror's lobe, but this light has nothing finer
+    assert 0.0 < told["left_out"] < 0.05
+    fit = read_fit(path)
+    assert (fit.brdf, fit.method, fit.left_out) == ("blend:mirror", "captured", told["left_out"])
+    write_radiance(tmp_path / "other.exr", environment().radiance[:, ::-1])
+    light = ["--environment", str(tmp_path / "other.exr")]
+    assert run(["bake", "lobe-stack", *light, "--fit", str(path), "--size", "16", "-o", str(stack)]) == 0
+    assert read_map_set_header(stack)["error_bound"]["left_out"] == told["left_out"]
+    capfd.readouterr()
+    assert run(["info", str(stack)]) == 0
+    assert f"Error, left out {told['left_out']:.2g} " in " ".join(capfd.readouterr().out.split())
+    # One view alone states no error
+    assert run([*command, "--captured-views", "1", "--force"]) == 0
+    assert json.loads(capfd.readouterr().out.splitlines()[-1])["left_out"] is None
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        ([], "Lobes are fitted to a reflectance model or to captures: give one of them."),
+        (["--captures", "a.rsibr.exr", "--brdf", "lambert:kd=1"], "give one of them"),
+        (["--captures", "a.rsibr.exr", "--lobes", "2"], "finds its own lobes: leave the options out"),
+        (["--brdf", "lambert:kd=1", "--captured-views", "3"], "A model has no captured views"),
+        (["--captures", "a.rsibr.exr", "--plot", "p"], "no model to plot beside a fit to captures"),
+        (["--captures", "a.rsibr.exr"], "a.rsibr.exr"),
+    ],
+)
+def test_model_or_captures(
+    words: list[str],
+    sentence: str,
+    tmp_path: Path,
+    capfd: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert run(["fit", *words, "-o", "FIT.json"]) == 1
+    assert sentence in capfd.readouterr().err
+    assert not (tmp_path / "FIT.json").exists()
 
 
 def test_plots_are_written_whole_or_not_at_all(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:

@@ -1,6 +1,7 @@
 """Fit files: the same values back, and what a damaged file says."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -34,6 +35,14 @@ def test_a_fit_comes_back_to_the_last_bit(tmp_path: Path) -> None:
     for name in ("mu", "weights", "scale", "offsets", "taps"):
         np.testing.assert_array_equal(getattr(back, name), getattr(fit, name))
     assert json.loads(path.read_text())["report"] == {"E": 0.1}
+
+
+def test_the_error_of_a_fit_to_captures_comes_back(tmp_path: Path) -> None:
+    path = tmp_path / "FIT.json"
+    write_fit(path, replace(some_fit(), left_out=0.0125), {})
+    assert read_fit(path).left_out == 0.0125
+    write_fit(path, some_fit(), {}, force=True)
+    assert read_fit(path).left_out is None
 
 
 def test_a_fit_is_not_replaced_unless_told(tmp_path: Path) -> None:

@@ -188,6 +188,25 @@ def bake_stack(
     return BakedStack(filtered, fit, cost(size))
 
 
+def filter_environment(radiance: Array, bank: KernelBank, layout: str, size: int) -> FilteredBank:
+    """Filter an environment with the kernels of a bank.
+
+    Parameters
+    ----------
+    bank : KernelBank
+    radiance, layout, size
+        See `bake_bank`.
+
+    Raises
+    ------
+    RangeError
+        There is no such layout, the size is out of range, or a kernel is narrower than the environment
+        resolves.
+    """
+    series = _expanded(bank)
+    return _filtered(analyse_environment(radiance, analysis_degree(series)), bank, series, layout, size)
+
+
 def _bytes(kernels: int, layout: str, size: int) -> float:
     """Memory for a filtered bank, also in single precision as it is written."""
     texels = int(np.prod(stack_representation(layout, size).shape(size)))

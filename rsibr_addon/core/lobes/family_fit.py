@@ -9,10 +9,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..brdf.fresnel_powers import dielectric, schlick
+from ..brdf.cook_torrance import CookTorrance
+from ..brdf.fresnel import Schlick
+from ..brdf.fresnel_powers import POWERS, dielectric, powers_of, schlick
 from ..brdf.model import BrdfFunction, Geometry
 from ..brdf.oren_nayar import tilt
 from ..brdf.principled import ggx_by_powers
+from ..brdf.ward import Ward
 from ..conventions import Array
 from ..progress import Progress, Steps
 from .bank import KernelBank
@@ -29,6 +32,9 @@ ELEVATIONS, LOBES, LEANING_LOBES = 16, 4, 2
 
 GUIDES = np.stack([schlick(1.0), dielectric(1.5)], axis=1)
 """A white metal and glass, as coefficients of `POWERS`, shape (C, 2)."""
+
+GAUSSIAN_GUIDES = np.array([[1.0, 0.0], [0.0, 0.04], [0.0, 0.96]])
+"""Ward's model, and a dielectric's of Beckmann's facets."""
 
 SMOOTHNESS = 0.1
 """Price of tilts' squared distance from the line between their neighbours'."""
@@ -54,6 +60,13 @@ def fit_leaning(elevations: int = ELEVATIONS, lobes: int = LEANING_LOBES) -> Ste
 def fit_ggx(widths: Array = WIDTHS, elevations: int = ELEVATIONS, lobes: int = LOBES) -> Steps[Family]:
     """The family of GGX reflection of all widths and all Fresnel terms that are sums of `POWERS`."""
     return (yield from fit_family(_ggx, GUIDES, widths, elevation_slices(elevations), lobes))
+
+
+def fit_gaussian(elevations: int = ELEVATIONS, lobes: int = LOBES) -> Steps[Family]:
+    """The family of lobes that end sooner than GGX's: Ward's, and Beckmann's times 1 and (1 - cos)^5."""
+    return (
+        yield from fit_family(_gaussian, GAUSSIAN_GUIDES, WIDTHS[4::2], elevation_slices(elevations), lobes)
+    )
 
 
 def fit_family(
@@ -111,6 +124,18 @@ def fit_family(
 def _ggx(alpha: float) -> BrdfFunction:
     """GGX times each of `POWERS`."""
     return _above(lambda pair: ggx_by_powers(pair, alpha))
+
+
+def _gaussian(alpha: float) -> BrdfFunction:
+    """Ward's model, and Beckmann's facets of two Fresnel terms."""
+    ward, beckmann = Ward(alpha=alpha, ks=1.0), CookTorrance(alpha=alpha, fresnel=Schlick(f0=1.0))
+
+    def functions(pair: Geometry) -> Array:
+        facets = beckmann.above_horizon(pair)[:, :1]
+        rise = powers_of(pair.h_dot_l)[:, [POWERS.index(5)]]
+        return np.concatenate([ward.glossy(pair)[:, :1], facets, facets * rise], axis=1)
+
+    return _above(functions)
 
 
 def _above(model: Callable[[Geometry], Array]) -> BrdfFunction:

@@ -32,7 +32,7 @@ class Fit:
     brdf : str
         The text of the model.
     method : str
-        Method of the fit: "joint", "greedy", "single" or "single-2d".
+        Method of the fit: "joint", "greedy", "single", "single-2d" or "captured".
     mu : ndarray, shape (S,)
         Cosines of the view elevations, ascending, in (0, 1].
     bank : KernelBank
@@ -47,6 +47,9 @@ class Fit:
         Offsets of the axes from the mirror direction: see `lobe_axes`.
     taps : ndarray, shape (L, S, T)
         Weights of the taps; the first is 1 where there is only one.
+    left_out : float or None
+        Of a fit to captured views: relative root-mean-square error of views that were predicted from the
+        others, their noise included. None of other fits, and where there are too few views.
 
     Raises
     ------
@@ -64,6 +67,7 @@ class Fit:
     scale: Array
     offsets: Array
     taps: Array
+    left_out: float | None = None
 
     def __post_init__(self) -> None:
         slices, lobes, taps = len(self.mu), len(self.weights), self.taps.shape[-1]

@@ -80,10 +80,11 @@ def in_turn(baked: BakedStack, origin: Origin) -> MapsInTurn:
     """
     fit, filtered = baked.fit, baked.filtered
     size = filtered.size, filtered.size * filtered.maps.shape[1]
+    left_out = {} if fit.left_out is None else {"left_out": fit.left_out}
     made = replace(
         origin,
         material={"brdf": fit.brdf, "method": fit.method, PROFILES: profiles(fit)},
-        error_bound={"filter": baked.bound.tolist(), "interpolation": baked.interpolation},
+        error_bound={"filter": baked.bound.tolist(), "interpolation": baked.interpolation} | left_out,
     )
     header = make_header(filtered.layout, size, _parts(fit, fit.weights.shape[1]), made)
     shapes = {part["name"]: size[::-1] for part in header["parts"]}

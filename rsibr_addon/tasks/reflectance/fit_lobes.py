@@ -7,7 +7,7 @@ from typing import Any
 
 from ...core.brdf.model import Brdf
 from ...core.brdf.spec import spec_from_brdf
-from ...core.errors import OutputFileError
+from ...core.errors import OutputFileError, RangeError
 from ...core.lobes.accuracy import FitErrors, fit_errors
 from ...core.lobes.bank import SHARPEST
 from ...core.lobes.fit import Fit
@@ -22,6 +22,7 @@ from ...files.fits import write_fit
 from ...files.outputs import together
 from ...settings.fit import FitSettings, Fitting
 from .brdfs import load_brdf
+from .fit_captures import CapturedResult, fit_to_captures
 from .fit_plots import check_plots, write_plots
 
 
@@ -58,8 +59,8 @@ class FitResult:
 
 def fit_lobes(
     settings: FitSettings, output: Path, force: bool = False, plots: Path | None = None
-) -> Steps[FitResult]:
-    """Fit a model and write the fit.
+) -> Steps[FitResult | CapturedResult]:
+    """Fit a model, or captured views, and write the fit.
 
     Parameters
     ----------
@@ -74,14 +75,20 @@ def fit_lobes(
     Raises
     ------
     RangeError
-        The text describes no model, or the model is black at an elevation.
+        The text describes no model, or the model is black at an elevation; captures are to be plotted.
     InputFileError, OutputFileError, SceneError, RenderError
+        Or see `fit_to_captures`.
 
     Warns
     -----
     RsibrWarning
         The error asked for takes more lobes; or see `load_brdf`.
     """
+    if settings.brdf is None:
+        if plots is not None:
+            raise RangeError("There is no model to plot beside a fit to captures: plot a fit to a model.")
+        captures = Path(settings.captures or "")
+        return (yield from fit_to_captures(captures, output, settings.captured_views, force))
     check_target(output, force, (".json",))
     if plots is not None:
         check_plots(plots, force)

@@ -1,0 +1,156 @@
+"""Measure lobes that are fitted to captured views, for docs/captured-lobes.md.
+
+Captures are exact: 42 views of a sphere, of 128 texels, each the mean over its area. Lobes are fitted to the
+first 12, or to one, and predict the 30 others; so do the three warps of [Cabral1999].
+"""
+
+import argparse
+import time
+from pathlib import Path
+
+import numpy as np
+from docs_table import write_table
+from rsibr.rsibr_addon.core.brdf.albedo import directional_albedo
+from rsibr.rsibr_addon.core.brdf.model import Brdf
+from rsibr.rsibr_addon.core.brdf.spec import brdf_from_spec
+from rsibr.rsibr_addon.core.conventions import Array, texel_centres
+from rsibr.rsibr_addon.core.environment import Environment
+from rsibr.rsibr_addon.core.geometry.geodesic import geodesic_sphere
+from rsibr.rsibr_addon.core.geometry.lit_sphere import lit_spheres
+from rsibr.rsibr_addon.core.kinds.kernel_bank.filtered_bank import FilteredBank
+from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Warping, views_fragment
+from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
+from rsibr.rsibr_addon.core.lobes.captured_texels import captured_texels, seen_functions
+from rsibr.rsibr_addon.core.lobes.captures import fit_captures
+from rsibr.rsibr_addon.core.lobes.fit import Fit
+from rsibr.rsibr_addon.core.maps import sphere_map
+from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.tasks.light.environments import load_environment
+from rsibr.rsibr_addon.tasks.reflectance.fit_captures import filtered_light, shipped_families
+
+CAR = (
+    "principled:base_color=0.03/0.12/0.45,metallic=0.5,roughness=0.5,"
+    "coat_weight=1,coat_roughness=0.114,coat_ior=1.5"
+)
+MATERIALS = {
+    "copper, alpha .3": (None, "ggx:alpha=0.3,metal=copper"),
+    "coat, alpha .1, over Lambert": ("lambert:kd=0.5/0.05/0.03", "ggx:alpha=0.1,f0=0.04"),
+    "Ward, alpha .1": (None, "ward:alpha=0.1,ks=0.8"),
+    "car paint": (None, CAR),
+}
+"""Name -> models of the diffuse and of the glossy part."""
+
+VIEWS, CAPTURED, SIZE, FINER, RINGS = 42, 12, 128, 8, 128
+ALBEDO_ROWS = 64
+TEXELS, STRIDE = 20000, 5
+ENVIRONMENTS = ("forest", "city")
+
+
+def model(spec: str) -> Brdf:
+    """A model that is in no file."""
+    return brdf_from_spec(spec, lambda name, path: (_ for _ in ()).throw(ValueError(path)))
+
+
+def exact_views(environment: Environment, spec: str | None, kept: Path) -> Array:
+    """What all views capture of a model, shape (42, size, size, 3); kept in a file."""
+    if spec is None:
+        return np.zeros((VIEWS, SIZE, SIZE, 3), np.float32)
+    if kept.exists():
+        return np.load(kept)
+    spheres = drain(
+        lit_spheres(model(spec), environment.radiance, list(geodesic_sphere(VIEWS).vertices), RINGS)
+    )
+    points = texel_centres(SIZE * FINER, SIZE * FINER)
+    on_sphere = np.linalg.norm(2.0 * points - 1.0, axis=-1) < 1.0
+    normal = sphere_map.normal_from_uv(points)
+
+    def means(values: Array) -> Array:
+        return values.reshape(SIZE, FINER, SIZE, FINER, *values.shape[2:]).mean(axis=(1, 3))
+
+    maps = []
+    for sphere in spheres:
+        rows = [sphere.at(row @ sphere.frame.T) for row in np.split(normal, SIZE)]
+        seen = means(np.concatenate(rows) * on_sphere[..., None])
+        maps.append(sphere_map.fill_rim(seen, means(on_sphere)))
+    np.save(kept, np.stack(maps))
+    return np.stack(maps)
+
+
+def captured(environment: Environment, name: str, folder: Path) -> RadianceViews:
+    """All views, with the albedo of both parts."""
+    mu = (np.arange(ALBEDO_ROWS) + 0.5) / ALBEDO_ROWS
+    maps, albedo = [], []
+    for part, spec in zip(("diffuse", "glossy"), MATERIALS[name], strict=True):
+        kept = folder / f"{Path(environment.name).stem}-{name.partition(' ')[0].rstrip(',')}-{part}.npy"
+        maps.append(exact_views(environment, spec, kept))
+        albedo.append(directional_albedo(model(spec), mu) if spec else np.zeros((ALBEDO_ROWS, 3)))
+    return RadianceViews(*maps, np.stack(albedo).astype(np.float32))
+
+
+def predicted(fit: Fit, light: FilteredBank, views: RadianceViews, texels: int) -> tuple[Array, Array]:
+    """Radiance of texels that were not captured, by the lobes and as it is, shapes (N, 3)."""
+    seen = captured_texels(views, VIEWS, texels)
+    channels = [
+        seen_functions(
+            seen, light, fit.mu, fit.offsets[:, :, 0, 0].T, np.moveaxis(fit.weights, 0, 1)[..., [channel]]
+        )[:, 0, channel]
+        for channel in range(3)
+    ]
+    new = seen.view >= CAPTURED
+    return np.stack(channels, axis=-1)[new], (seen.diffuse + seen.glossy)[new]
+
+
+def blended(views: RadianceViews, warping: Warping) -> tuple[Array, Array]:
+    """The same by the blend of the captured views."""
+    uv = texel_centres(SIZE, SIZE)
+    inside = np.linalg.norm(2.0 * uv - 1.0, axis=-1) < 1.0
+    inside &= np.arange(inside.size).reshape(inside.shape) % STRIDE == 0
+    ours, true = [], []
+    for view in range(CAPTURED, VIEWS):
+        normal = sphere_map.normal_from_uv(uv[inside]) @ views.frames[view].T
+        ours.append(views_fragment(views.coarser(CAPTURED), normal, views.sphere.vertices[view], warping))
+        true.append(views.combined[view][inside])
+    return np.concatenate(ours), np.concatenate(true)
+
+
+def error(ours: Array, true: Array) -> float:
+    """Relative root-mean-square error."""
+    return float(np.sqrt(np.sum((ours - true) ** 2) / np.sum(true.astype(np.float64) ** 2)))
+
+
+def main() -> None:
+    """Measure, and write the table."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", type=Path, help="where exact views are kept, half a gigabyte")
+    folder = parser.parse_args().folder
+    folder.mkdir(exist_ok=True)
+    lights = {name: load_environment(name) for name in ENVIRONMENTS}
+    filtered = {name: filtered_light(light.radiance) for name, light in lights.items()}
+    warps = (Warping.SINGLE, Warping.SPLIT, Warping.ALBEDO)
+    heads = (
+        *("material", "environment", *(f"12 views, {warp}" for warp in warps)),
+        *("lobes from 12", "left out", "lobes from 1", "relit in the other", "CPU"),
+    )
+    lines = [f"| {' | '.join(heads)} |", f"|---|---|{'---:|' * (len(heads) - 2)}"]
+    for material in MATERIALS:
+        views = {name: captured(light, material, folder) for name, light in lights.items()}
+        for name, other in zip(ENVIRONMENTS, reversed(ENVIRONMENTS), strict=True):
+            started = time.process_time()
+            fit = drain(fit_captures(views[name], filtered[name], shipped_families(), material, CAPTURED)).fit
+            seconds = time.process_time() - started
+            one = drain(fit_captures(views[name], filtered[name], shipped_families(), material, 1)).fit
+            figures = [
+                *(error(*blended(views[name], warp)) for warp in warps),
+                error(*predicted(fit, filtered[name], views[name], TEXELS)),
+                fit.left_out or np.nan,
+                error(*predicted(one, filtered[name], views[name], TEXELS)),
+                error(*predicted(fit, filtered[other], views[other], TEXELS)),
+            ]
+            told = " | ".join(f"{figure:.1%}" for figure in figures)
+            lines.append(f"| {material} | {name} | {told} | {seconds:.0f} s |")
+            print(lines[-1], flush=True)
+    write_table("captured-lobes.md", "captures", "\n".join(lines))
+
+
+if __name__ == "__main__":
+    main()

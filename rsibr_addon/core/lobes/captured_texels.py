@@ -1,0 +1,198 @@
+"""Texels of captured views as linear equations of a material's lobes.
+
+The light of a view set is known, so each texel says: its radiance is the sum over lobes and kernels of weight
+times the environment filtered with the kernel, along the lobe's axis.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..conventions import Array, Indices, texel_centres
+from ..geometry.directions import dot, reflect
+from ..kinds.kernel_bank.filtered_bank import FilteredBank
+from ..kinds.radiance_views.views import RadianceViews
+from ..maps import sphere_map
+from ..resample import texels_around
+from .fit import lobe_axes
+
+ACROSS, ACROSS_AT_RIM = 2, 4
+"""Points along each side of a texel, and of one at the rim, where the mirror direction changes fastest."""
+
+RIM = 0.9
+"""Radius from which texels count as the rim's."""
+
+_LEAST_MU = 1e-3
+
+
+@dataclass(frozen=True)
+class CapturedTexels:
+    """N texels of captured views, each the mean of some of M points on the sphere.
+
+    Attributes
+    ----------
+    normal, view_dir : ndarray, shape (M, 3)
+        At the points, those of one texel after those of another.
+    share : ndarray, shape (M,)
+        Weights of the points: those of a texel sum to 1.
+    first : ndarray of int, shape (N,)
+        Number of each texel's first point.
+    view : ndarray of int, shape (N,)
+        Number of its view.
+    diffuse, glossy : ndarray, shape (N, 3)
+        Captured radiance.
+    """
+
+    normal: Array
+    view_dir: Array
+    share: Array
+    first: Indices
+    view: Indices
+    diffuse: Array
+    glossy: Array
+
+    @cached_property
+    def mu(self) -> Array:
+        """n.v of each point, shape (M,)."""
+        mu: Array = np.maximum(dot(self.normal, self.view_dir), _LEAST_MU)
+        return mu
+
+    def means(self, values: Array) -> Array:
+        """Means over the texels, shape (N, ...), of values at the points, shape (M, ...)."""
+        share = self.share.reshape(-1, *[1] * (values.ndim - 1)).astype(values.dtype)
+        means: Array = np.add.reduceat(share * values, self.first, axis=0)
+        return means
+
+
+def captured_texels(views: RadianceViews, count: int, texels: int) -> CapturedTexels:
+    """Texels of the first views, evenly spread.
+
+    Parameters
+    ----------
+    views : RadianceViews
+    count : int
+        Number of views.
+    texels : int
+        About how many texels of all of them together.
+    """
+    size = views.size
+    centres = texel_centres(size, size).reshape(-1, 2)
+    radius = np.linalg.norm(2.0 * centres - 1.0, axis=-1)
+    inside = np.flatnonzero(radius < 1.0)
+    every = np.stack(np.meshgrid(np.arange(count), inside, indexing="ij"), axis=-1).reshape(-1, 2)
+    chosen = np.linspace(0, len(every) - 1, min(texels, len(every))).astype(np.intp)
+    view, texel = every[chosen].T
+    at_rim = radius[texel] >= RIM
+    # Texels of the rim last, as they have more points
+    order = np.argsort(at_rim, kind="stable")
+    view, texel, rims = view[order], texel[order], int(at_rim.sum())
+    uv, owner = [], []
+    for part, across in ((slice(len(view) - rims), ACROSS), (slice(len(view) - rims, None), ACROSS_AT_RIM)):
+        offsets = (texel_centres(across, across).reshape(-1, 2) - 0.5) / size
+        uv.append((centres[texel[part]][:, None] + offsets).reshape(-1, 2))
+        owner.append(np.repeat(np.arange(len(view))[part], across**2))
+    points, owners = np.concatenate(uv), np.concatenate(owner)
+    on_sphere = np.linalg.norm(2.0 * points - 1.0, axis=-1) < 1.0
+    points, owners = points[on_sphere], owners[on_sphere]
+    frames = views.frames[view[owners]]
+    return CapturedTexels(
+        normal=np.einsum("nij,nj->ni", frames, sphere_map.normal_from_uv(points)),
+        view_dir=frames[:, :, 2],
+        share=1.0 / np.bincount(owners)[owners],
+        first=np.searchsorted(owners, np.arange(len(view))),
+        view=view,
+        diffuse=views.diffuse.reshape(len(views.diffuse), -1, 3)[view, texel].astype(np.float64),
+        glossy=views.glossy.reshape(len(views.glossy), -1, 3)[view, texel].astype(np.float64),
+    )
+
+
+@dataclass(frozen=True)
+class Equations:
+    """What N texels see along the axes of J lobes, by kernels of which there are K.
+
+    Attributes
+    ----------
+    below : ndarray of int, shape (N,)
+        Number of the elevation below each texel.
+    rows : ndarray, shape (N, 2, J * K, 3), float32
+        Factors of the weights at the elevation below and at that above, in each channel. A texel that reaches
+        beyond both continues the line between them.
+    """
+
+    below: Indices
+    rows: Array
+
+    def radiance(self, chosen: Array, weights: Array) -> Array:
+        """Radiance of some texels, shape (n, 3), for weights of shape (S, J * K, 3)."""
+        below = self.below[chosen]
+        both = np.stack([weights[below], weights[below + 1]], axis=1)
+        radiance: Array = np.einsum("nemc,nemc->nc", self.rows[chosen], both)
+        return radiance
+
+
+def equations_of(texels: CapturedTexels, light: FilteredBank, mu: Array, tilts: Array) -> Equations:
+    """The texels' equations of the weights of all kernels about axes of given tilts.
+
+    Parameters
+    ----------
+    texels : CapturedTexels
+    light : FilteredBank
+        The environment of the captures, filtered with K kernels.
+    mu : ndarray, shape (S,)
+        Cosines of the elevations between which tilts and weights are linear.
+    tilts : ndarray, shape (S, J)
+        See `fit.lobe_axes`.
+    """
+    position = np.interp(texels.mu, mu, np.arange(len(mu)))
+    below = np.minimum(texels.means(position).astype(np.intp), len(mu) - 2)
+    above = position - np.repeat(below, np.diff(texels.first, append=len(position)))
+    shares = np.stack([1.0 - above, above], axis=1).astype(np.float32)
+    rows = [
+        texels.means(shares[:, :, None] * filtered[:, None]).reshape(len(below), 2, -1, 3)
+        for filtered in _filtered_along(texels, light, mu, tilts)
+    ]
+    return Equations(below, np.concatenate(rows, axis=2))
+
+
+def seen_functions(
+    texels: CapturedTexels, light: FilteredBank, mu: Array, tilts: Array, weights: Array
+) -> Array:
+    """What the texels see of functions that are sums of lobes.
+
+    Parameters
+    ----------
+    texels, light, mu, tilts
+        See `equations_of`.
+    weights : ndarray, shape (S, J, K, P)
+        Weights of the kernels for each of P functions; all channels share them.
+
+    Returns
+    -------
+    ndarray, shape (N, P, 3)
+    """
+    position = np.interp(texels.mu, mu, np.arange(len(mu)))
+    below = np.minimum(position.astype(np.intp), len(mu) - 2)
+    above = (position - below).astype(np.float32)[:, None, None]
+    weights = weights.astype(np.float32)
+    seen: Array = np.zeros((len(position), weights.shape[-1], 3), dtype=np.float32)
+    for lobe, filtered in enumerate(_filtered_along(texels, light, mu, tilts)):
+        own = (1.0 - above) * weights[below, lobe] + above * weights[below + 1, lobe]
+        seen += np.swapaxes(own, 1, 2) @ filtered.reshape(len(own), -1, 3)
+    return texels.means(seen).astype(np.float64)
+
+
+def _filtered_along(texels: CapturedTexels, light: FilteredBank, mu: Array, tilts: Array) -> Iterator[Array]:
+    """The light along the axis of each lobe at the points, shape (M, K * 3), float32."""
+    maps = np.moveaxis(light.maps, 0, -2).astype(np.float32).reshape(-1, 3 * len(light.bank))
+    reflect_dir = reflect(texels.view_dir, texels.normal)
+    for of_lobe in tilts.T:
+        tilt = np.interp(texels.mu, mu, of_lobe)
+        axes = lobe_axes(texels.normal, reflect_dir, np.stack([tilt, np.zeros_like(tilt)], axis=-1))
+        # All kernels' maps at once, as `resample.lookup` takes one
+        columns, rows, sheets, shares = texels_around(axes, light.representation, light.size, light.size)
+        filtered = np.zeros((len(axes), maps.shape[1]), dtype=np.float32)
+        for index, share in zip((sheets * light.size + rows) * light.size + columns, shares, strict=True):
+            filtered += share.astype(np.float32)[:, None] * maps[index]
+        yield filtered

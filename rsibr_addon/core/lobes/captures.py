@@ -1,0 +1,287 @@
+"""Lobes fitted to captured views: to pictures of a material in light that is known, without its BRDF.
+
+Each part of the radiance, diffuse and glossy, is fitted in two steps.
+
+1. Its *likeness* is a sum of a few known reflectances, of widths that fit. Few numbers say it, so that few
+   views tell them, even one; and it gives the lobes' axes.
+2. The *correction* is to the weights of all kernels about these axes, at all elevations, by least squares. A
+   price is on its power and on how much it changes from one elevation to the next: the highest at which views
+   that were left out are predicted nearly as well as at any.
+
+Normal equations are kept for each view, so that those of all others are a difference.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..conventions import Array, Indices
+from ..errors import RangeError
+from ..geometry.directions import dot
+from ..kinds.kernel_bank.filtered_bank import FilteredBank
+from ..kinds.radiance_views.views import RadianceViews
+from ..maps.sphere_map import texel_angle
+from ..progress import Progress, Steps
+from .bank import KernelBank
+from .captured_texels import CapturedTexels, Equations, captured_texels, equations_of, seen_functions
+from .family import Family
+from .fit import Fit, joined
+from .likeness import factors, likeness
+from .tridiagonal import Tridiagonal
+
+METHOD = "captured"
+"""`Fit.method` of these fits."""
+
+PRICES = 10.0 ** np.arange(1.0, -6.0, -1.0)
+"""Prices of a correction's power: of that of the likeness's lobes, in units of that of the captures."""
+
+EVENNESS = 30.0
+"""Price of a correction's change between neighbouring elevations, relative to that of its power."""
+
+TOLERATED = 1.02
+"""Greatest error of views left out, over the least."""
+
+FOLDS = 12
+"""Most groups of views that are left out in turn."""
+
+FEWEST_VIEWS = 3
+"""Views with which one that is left out tells how well a new one is predicted."""
+
+TEXELS, SEARCHED = 24000, 4000
+"""Texels that the correction, and that the search for a likeness takes."""
+
+NEGLIGIBLE = 1e-6
+"""Share of the captured power below which a part of the radiance is left out."""
+
+_SECTORS = 4
+_THINNEST = 0.25
+_FAINTEST = 1e-3
+_RANK = 1e-9
+
+
+@dataclass(frozen=True)
+class CapturedFit:
+    """A fit to captures, and what it found.
+
+    Attributes
+    ----------
+    fit : Fit
+        Its `left_out` is None with fewer than `FEWEST_VIEWS`.
+    widths : tuple of float
+        alpha of the glossy likeness's members; empty without glossy light.
+    """
+
+    fit: Fit
+    widths: tuple[float, ...]
+
+
+def fit_captures(
+    views: RadianceViews, light: FilteredBank, families: Sequence[Family], brdf: str, count: int | None = None
+) -> Steps[CapturedFit]:
+    """Fit lobes to captured views.
+
+    Parameters
+    ----------
+    views : RadianceViews
+    light : FilteredBank
+        The environment of the captures, filtered with the first kernels of the families.
+    families : sequence of Family
+        Kinds of glossy reflection, of the same kernels and elevations.
+    brdf : str
+        The text of the material.
+    count : int, optional
+        Use so many of the views, the first, only.
+
+    Raises
+    ------
+    RangeError
+        There are fewer views, or they are black.
+    """
+    count = count or len(views.diffuse)
+    if count > len(views.diffuse):
+        raise RangeError(
+            f"There are only {len(views.diffuse)} views, not {count}: use fewer or capture more."
+        )
+    texels = captured_texels(views, count, TEXELS)
+    power = float(np.sum((texels.diffuse + texels.glossy) ** 2))
+    if not 0.0 < power < np.inf:
+        raise RangeError("The captured views are black or not finite: capture the material in light.")
+    few = captured_texels(views, count, SEARCHED)
+    thinnest, folds = _THINNEST * texel_angle(views.size), _folds(texels, count)
+    fits: list[Fit] = []
+    errors: Array = np.zeros_like(texels.glossy)
+    widths: tuple[float, ...] = ()
+    mu = families[0].mu
+    lambert = lambert_family(mu, light.bank)
+    for number, (part, kinds) in enumerate({"diffuse": [lambert], "glossy": families}.items()):
+        radiance = getattr(texels, part)
+        if np.sum(radiance**2) <= NEGLIGIBLE * power:
+            errors += radiance
+            continue
+        yield Progress(2 * number, 4, f"finding what {part} light is like")
+        members = likeness(few, getattr(few, part), light, kinds, thinnest)
+        yield Progress(2 * number + 1, 4, f"fitting lobes to {part} light")
+        tilts = np.concatenate([each.tilts for each in members], axis=1)
+        weights = _side_by_side([each.weights(light.bank) for each in members])
+        seen = seen_functions(texels, light, mu, tilts, weights)
+        found = factors(seen, radiance)
+        alike = (weights @ found).reshape(len(mu), -1, 3)
+        rest = radiance - np.einsum("npc,pc->nc", seen, found)
+        equations = equations_of(texels, light, mu, tilts)
+        correction, left = _Corrector(equations, light.bank, alike, rest, radiance, folds).best()
+        fits.append(_fit(mu, light.bank, tilts, alike + correction, brdf))
+        errors += left
+        if part == "glossy":
+            widths = tuple(each.alpha for each in members)
+    left_out = float(np.sqrt(np.sum(errors**2) / power)) if count >= FEWEST_VIEWS else None
+    return CapturedFit(replace(joined(fits, brdf), left_out=left_out), widths)
+
+
+def lambert_family(mu: Array, bank: KernelBank) -> Family:
+    """Diffuse reflection as a family of one width: one lobe, about the normal.
+
+    Parameters
+    ----------
+    mu : ndarray, shape (S,)
+    bank : KernelBank
+
+    Returns
+    -------
+    Family
+        Of two functions: a white Lambert surface, and that times n.v, which is as below a coat that transmits
+        less at grazing. Both are exact under uniform light.
+    """
+    nodes, weight = np.polynomial.legendre.leggauss(512)
+    kernels = bank.values(0.5 * (1.0 - nodes))
+    system = kernels.T @ (weight[:, None] * kernels)
+    system += _RANK * np.trace(system) * np.eye(len(bank))
+    ones = np.ones((len(bank), 1))
+    bordered = np.block([[system, ones], [ones.T, np.zeros((1, 1))]])
+    cosine = weight * np.maximum(nodes, 0.0) / np.pi
+    profile = np.linalg.solve(bordered, np.append(cosine @ kernels, 1.0))[:-1]
+    weights = profile[:, None] * np.stack([np.ones_like(mu), mu], axis=-1)[:, None]
+    tilt = np.arccos(mu) / np.sqrt(1.0 - mu**2)
+    return Family(np.ones(1), mu, bank, tilt[None, :, None], weights[None, :, None])
+
+
+def _folds(texels: CapturedTexels, count: int) -> Indices:
+    """The group of each texel: views; of less than `FEWEST_VIEWS`, sectors of each sphere."""
+    if count >= FEWEST_VIEWS:
+        return texels.view % FOLDS
+    normal, view_dir = texels.normal[texels.first], texels.view_dir[texels.first]
+    side = np.cross(view_dir, np.eye(3)[np.argmin(np.abs(view_dir), axis=1)])
+    turn = np.arctan2(dot(normal, np.cross(side, view_dir)), dot(normal, side)) / (2.0 * np.pi) % 1.0
+    sectors: Indices = np.minimum((_SECTORS * turn).astype(np.intp), _SECTORS - 1)
+    return sectors
+
+
+def _side_by_side(weights: Sequence[Array]) -> Array:
+    """Weights of all members' lobes for all their functions, shape (S, J, K, P): 0 for others' lobes."""
+    slices, _, kernels, _ = weights[0].shape
+    lobes, functions = (sum(each.shape[axis] for each in weights) for axis in (1, 3))
+    every = np.zeros((slices, lobes, kernels, functions))
+    lobe = function = 0
+    for each in weights:
+        _, own, _, count = each.shape
+        every[:, lobe : lobe + own, :, function : function + count] = each
+        lobe, function = lobe + own, function + count
+    return every
+
+
+def _fit(mu: Array, bank: KernelBank, tilts: Array, weights: Array, brdf: str) -> Fit:
+    slices, lobes = tilts.shape
+    return Fit(
+        brdf=brdf,
+        method=METHOD,
+        mu=mu,
+        bank=bank,
+        weights=np.moveaxis(weights.reshape(slices, lobes, len(bank), 3), 1, 0),
+        scale=np.ones((lobes, slices, 3)),
+        offsets=np.stack([tilts.T, np.zeros_like(tilts.T)], axis=-1)[:, :, None],
+        taps=np.ones((lobes, slices, 1)),
+    )
+
+
+class _Corrector:
+    """Least squares for what a likeness leaves.
+
+    Parameters
+    ----------
+    equations : Equations
+        Of all its axes.
+    bank : KernelBank
+    alike : ndarray, shape (S, M, 3)
+        Weights of the likeness.
+    rest, radiance : ndarray, shape (N, 3)
+        What it leaves of the radiance, and that itself.
+    folds : ndarray of int, shape (N,)
+        Group of each texel.
+    """
+
+    def __init__(
+        self,
+        equations: Equations,
+        bank: KernelBank,
+        alike: Array,
+        rest: Array,
+        radiance: Array,
+        folds: Indices,
+    ) -> None:
+        self._equations, self._rest, self._folds = equations, rest, folds
+        slices, size, _ = alike.shape
+        self._systems, self._rights = self._normal_equations(slices, size)
+        power = np.kron(np.eye(size // len(bank)), bank.products(np.zeros(()))[0])
+        steps = np.diff(np.eye(slices), axis=0)
+        along = (np.eye(slices) + EVENNESS * steps.T @ steps) / slices
+        own = np.einsum("smc,mn,snc->c", alike, power, alike) / slices
+        unit = np.sum(radiance**2, axis=0) / np.maximum(own, _FAINTEST * own.max())
+        self._price = Tridiagonal(
+            unit[:, None, None, None] * np.diag(along)[:, None, None] * power,
+            unit[:, None, None, None] * np.diag(along, 1)[:, None, None] * power,
+        )
+
+    def best(self) -> tuple[Array, Array]:
+        """The correction, shape (S, M, 3), and the errors of texels when they are left out, shape (N, 3)."""
+        total, right = self._systems.sum(), self._rights.sum(axis=0)
+        without = Tridiagonal(total.diagonal[None], total.above[None]) - self._systems
+        # The highest price is that of no correction
+        tried: list[tuple[float, Array]] = [(np.inf, np.zeros_like(self._rights))]
+        for price in PRICES:
+            tried.append((price, (without + self._priced(price)).solve(right - self._rights)))
+        gains = [
+            np.sum(self._systems.form(x) - 2.0 * np.sum(x * self._rights, axis=(2, 3))) for _, x in tried
+        ]
+        errors = np.sum(self._rest**2) + np.array(gains)
+        price, unknowns = tried[int(np.argmax(errors <= TOLERATED**2 * errors.min()))]
+        correction = np.zeros_like(right)
+        if np.isfinite(price):
+            correction = (total + self._priced(price)).solve(right)
+        left = self._rest.copy()
+        for fold, those in enumerate(unknowns):
+            chosen = self._folds == fold
+            left[chosen] -= self._equations.radiance(chosen, np.moveaxis(those, 0, -1))
+        return np.moveaxis(correction, 0, -1), left
+
+    def _priced(self, price: float) -> Tridiagonal:
+        return Tridiagonal(price * self._price.diagonal, price * self._price.above)
+
+    def _normal_equations(self, slices: int, size: int) -> tuple[Tridiagonal, Array]:
+        """For each fold and channel the matrix and, of shape (F, 3, S, M), the right side."""
+        count, below_of = int(self._folds.max()) + 1, self._equations.below
+        diagonal = np.zeros((count, 3, slices, size, size))
+        above = np.zeros((count, 3, slices - 1, size, size))
+        rights = np.zeros((count, 3, slices, size))
+        for fold in range(count):
+            for below in range(slices - 1):
+                chosen = (self._folds == fold) & (below_of == below)
+                rows = self._equations.rows[chosen].reshape(-1, 2 * size, 3).astype(np.float64)
+                for channel in range(3):
+                    of_channel = np.ascontiguousarray(rows[..., channel])
+                    product = of_channel.T @ of_channel
+                    diagonal[fold, channel, below] += product[:size, :size]
+                    diagonal[fold, channel, below + 1] += product[size:, size:]
+                    above[fold, channel, below] += product[:size, size:]
+                    right = of_channel.T @ self._rest[chosen, channel]
+                    rights[fold, channel, below : below + 2] += right.reshape(2, size)
+        return Tridiagonal(diagonal, above), rights

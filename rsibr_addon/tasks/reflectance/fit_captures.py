@@ -1,0 +1,111 @@
+"""Captured views to lobes, in a file."""
+
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ...core.conventions import Array
+from ...core.kinds.kernel_bank.filtered_bank import FilteredBank
+from ...core.lobes.bake import filter_environment, sharpest_resolved
+from ...core.lobes.bank import KernelBank
+from ...core.lobes.captures import CapturedFit, fit_captures
+from ...core.lobes.family import Family
+from ...core.progress import Progress, Steps
+from ...files.atomic import check_target
+from ...files.families import shipped_family
+from ...files.fits import write_fit
+from ...files.kinds import environment, radiance_views
+from ...files.map_set import read_map_set
+from .brdfs import MATERIAL
+
+FAMILIES = ("ggx", "gaussian")
+"""Families of glossy lobes that captures may be like."""
+
+LAYOUT, SIZE = "octahedral", 256
+"""Of the filtered maps in which captured texels look their light up."""
+
+
+@dataclass(frozen=True)
+class CapturedResult:
+    """A fit to captured views, and its figures.
+
+    Attributes
+    ----------
+    captured : CapturedFit
+    seconds : float
+        Processor time, without reading.
+    """
+
+    captured: CapturedFit
+    seconds: float
+
+    def report(self) -> dict[str, Any]:
+        """The figures, as JSON values."""
+        fit = self.captured.fit
+        return {
+            "lobes": len(fit.weights),
+            "slices": len(fit.mu),
+            "taps": fit.taps.shape[2],
+            "alpha": list(self.captured.widths),
+            "left_out": fit.left_out,
+            "seconds": self.seconds,
+        }
+
+
+def shipped_families() -> list[Family]:
+    """The `FAMILIES`."""
+    return [shipped_family(name) for name in FAMILIES]
+
+
+def filtered_light(radiance: Array) -> FilteredBank:
+    """An environment as fits to captures take it: filtered with the families' kernels that it resolves.
+
+    Raises
+    ------
+    RangeError
+        It resolves none.
+    """
+    resolved = sharpest_resolved(len(radiance))
+    kernels = shipped_families()[0].bank.concentrations
+    bank = KernelBank(tuple(each for each in kernels if each <= resolved))
+    return filter_environment(radiance, bank, LAYOUT, SIZE)
+
+
+def fit_to_captures(
+    captures: Path, output: Path, count: int | None = None, force: bool = False
+) -> Steps[CapturedResult]:
+    """Fit lobes to captured views and write the fit.
+
+    Parameters
+    ----------
+    captures : Path
+        A map set of radiance views, with the light that they were made in.
+    output : Path
+        NAME.json.
+    count : int, optional
+        Use so many of the views, the first, only.
+    force : bool
+        Whether an existing file is replaced.
+
+    Raises
+    ------
+    MapSetError
+        The file holds no radiance views, or not the light that they were made in.
+    RangeError
+        There are fewer views, they are black, or their light resolves no kernel.
+    OutputFileError
+    """
+    check_target(output, force, (".json",))
+    yield Progress(0, 1, f"reading {captures.name}")
+    map_set = read_map_set(captures, radiance_views.KIND)
+    views = radiance_views.from_map_set(captures, map_set)
+    radiance = environment.from_map_set(captures, map_set).radiance
+    started = time.process_time()
+    yield Progress(0, 1, "filtering the environment")
+    light = filtered_light(radiance)
+    spec = f"{MATERIAL}:{map_set.header['material']['spec']}"
+    captured = yield from fit_captures(views, light, shipped_families(), spec, count)
+    result = CapturedResult(captured, time.process_time() - started)
+    write_fit(output, captured.fit, result.report(), force)
+    return result

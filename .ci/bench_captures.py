@@ -26,7 +26,7 @@ from rsibr.rsibr_addon.core.lobes.fit import Fit
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.tasks.light.environments import load_environment
-from rsibr.rsibr_addon.tasks.reflectance.fit_captures import filtered_light, shipped_families
+from rsibr.rsibr_addon.tasks.methods.fit_captures import filtered_light, shipped_families
 
 CAR = (
     "principled:base_color=0.03/0.12/0.45,metallic=0.5,roughness=0.5,"

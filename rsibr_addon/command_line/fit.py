@@ -34,7 +34,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     -------
     dict
         "fit", the path of the file, and its figures: see `tasks.reflectance.fit_lobes.FitResult` and
-        `tasks.reflectance.fit_captures.CapturedResult`.
+        `tasks.methods.fit_captures.CapturedResult`.
 
     Raises
     ------

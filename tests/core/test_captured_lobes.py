@@ -16,7 +16,7 @@ from rsibr.rsibr_addon.core.lobes.fit import Fit
 from rsibr.rsibr_addon.core.lobes.tridiagonal import Tridiagonal
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.tasks.reflectance.fit_captures import filtered_light, shipped_families
+from rsibr.rsibr_addon.tasks.methods.fit_captures import filtered_light, shipped_families
 
 HEIGHT, SIZE, FINER = 64, 32, 6
 COPPER = brdf_from_spec("ggx:alpha=0.3,metal=copper", lambda name, path: Lambert(kd=0.0))

@@ -21,8 +21,8 @@ from ...files.atomic import check_target
 from ...files.fits import write_fit
 from ...files.outputs import together
 from ...settings.fit import FitSettings, Fitting
+from ..methods.fit_captures import CapturedResult, fit_to_captures
 from .brdfs import load_brdf
-from .fit_captures import CapturedResult, fit_to_captures
 from .fit_plots import check_plots, write_plots
 
 

@@ -17,7 +17,7 @@ from ...files.families import shipped_family
 from ...files.fits import write_fit
 from ...files.kinds import environment, radiance_views
 from ...files.map_set import read_map_set
-from .brdfs import MATERIAL
+from ..reflectance.brdfs import MATERIAL
 
 FAMILIES = ("ggx", "gaussian")
 """Families of glossy lobes that captures may be like."""

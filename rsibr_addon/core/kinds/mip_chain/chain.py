@@ -15,7 +15,7 @@ LARGEST = 1024
 
 
 MOST_DEGREES = 20
-"""Largest degree of harmonics: from there on, they miss less than 0.4 % of all light."""
+"""Largest degree of harmonics, which misses at most 1.5 % of all light: more would cost more than it gives."""
 
 
 @dataclass(frozen=True)

@@ -145,7 +145,6 @@ def _blurred(radiance: Array, degrees: float) -> Array:
         return radiance
     lobe = expand(von_mises_fisher_lobe(1.0 / np.radians(degrees) ** 2), 1e-4)
     harmonics = analyse_environment(radiance, analysis_degree([lobe]))
-    filtered: Array = prefilter(harmonics, [lobe], _EQUIRECT.texel_directions(2 * BLURRED_ROWS)[0]).radiance[
-        0
-    ]
+    texels = _EQUIRECT.texel_directions(2 * BLURRED_ROWS)[0]
+    filtered: Array = prefilter(harmonics, [lobe], texels).radiance[0]
     return filtered

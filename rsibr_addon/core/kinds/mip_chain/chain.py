@@ -15,7 +15,7 @@ LARGEST = 1024
 
 
 MOST_DEGREES = 20
-"""Largest degree of harmonics, which misses at most 1.5 % of all light: more would cost more than it gives."""
+"""Largest degree of harmonics, which misses 1.5 % of all light at most."""
 
 
 @dataclass(frozen=True)

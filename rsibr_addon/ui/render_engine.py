@@ -19,7 +19,6 @@ from ..host.scenes import evaluated
 from ..host.visible_surfaces import RENDER_ENGINE, current_view
 from ..session.running import session
 from ..settings.render import RenderOptions
-from ..tasks.queue.background import State
 from ..tasks.queue.bake_request import is_baked
 from ..tasks.queue.world_bakes import WorldBake, world_bake_of, world_file
 from ..tasks.render.missing_bakes import bake_for_render
@@ -34,8 +33,8 @@ SHOW_SECONDS = 1.0
 SWITCHES = {DEPTH: "use_pass_z", NORMAL: "use_pass_normal", EMISSION: "use_pass_emit"}
 """Pass -> the view layer's switch."""
 
-LETTERS = {1: ("Z", "VALUE"), 3: ("XYZ", "VECTOR"), 4: ("RGBA", "COLOR")}
-"""Number of channels -> their letters, and the type of socket in the compositor."""
+SOCKETS = {"Z": "VALUE", "XYZ": "VECTOR", "RGB": "COLOR", "RGBA": "COLOR"}
+"""Channels of a pass -> the type of its socket in the compositor."""
 
 
 class RSIBR_RE_previews(bpy.types.RenderEngine):
@@ -52,8 +51,8 @@ class RSIBR_RE_previews(bpy.types.RenderEngine):
     def update_render_passes(self, scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> None:
         """Say which passes there are."""
         for name in _passes(layer):
-            letters, kind = ("RGB", "COLOR") if name == EMISSION else LETTERS[CHANNELS[name]]
-            self.register_pass(scene, layer, name, CHANNELS[name], letters, kind)
+            channels = CHANNELS[name]
+            self.register_pass(scene, layer, name, len(channels), channels, SOCKETS[channels])
 
     def update(self, data: bpy.types.BlendData, depsgraph: bpy.types.Depsgraph) -> None:
         """Write down what a background Blender needs for the world, while nobody can change it."""
@@ -114,9 +113,10 @@ class RSIBR_RE_previews(bpy.types.RenderEngine):
         finally:
             bake.cancel()
             bake.tidy()
-        if bake.state is State.FAILED:
-            self.report({"ERROR"}, bake.message)
-        return bake.state is State.DONE
+        if is_baked(bake.output):  # perhaps by another Blender
+            return True
+        self.report({"ERROR"}, bake.message)
+        return False
 
     def _render(self, depsgraph: bpy.types.Depsgraph) -> None:
         camera = self.camera_override
@@ -124,7 +124,7 @@ class RSIBR_RE_previews(bpy.types.RenderEngine):
         view = camera_view(depsgraph, camera, pose, (self.resolution_x, self.resolution_y))
         passes, renders = _passes(depsgraph.view_layer_eval), session().renders
         picture = renders.picture(view, passes)
-        for message in [*left_out(depsgraph.scene, camera), *renders.news(picture)]:
+        for message in renders.news(left_out(depsgraph.scene, camera)):
             warn(message)
         samples = options_of(RenderOptions, depsgraph.scene.rsibr_render).samples
         since = time.monotonic()
@@ -138,6 +138,8 @@ class RSIBR_RE_previews(bpy.types.RenderEngine):
                 self._show(picture, view.size, depsgraph.view_layer.name)
                 since = time.monotonic()
         self._show(picture, view.size, depsgraph.view_layer.name)
+        for message in renders.news(renders.messages(picture)):
+            warn(message)
 
     def _show(self, picture: Picture, size: tuple[int, int], layer: str) -> None:
         result = self.begin_result(0, 0, *size, layer=layer)

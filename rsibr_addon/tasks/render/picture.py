@@ -20,8 +20,8 @@ from ..viewport.frame import Frame, Shown
 
 COMBINED, DEPTH, NORMAL, EMISSION = "Combined", "Depth", "Normal", "Emission"
 
-CHANNELS = {COMBINED: 4, DEPTH: 1, NORMAL: 3, EMISSION: 3}
-"""Name of a pass, as Blender has it -> its number of channels."""
+CHANNELS = {COMBINED: "RGBA", DEPTH: "Z", NORMAL: "XYZ", EMISSION: "RGB"}
+"""Name of a pass -> its channels, as Blender has them."""
 
 
 class Picture:
@@ -38,13 +38,7 @@ class Picture:
         No light, in which own materials show what they emit.
     """
 
-    def __init__(
-        self,
-        frame: Frame,
-        view: CameraView,
-        passes: Collection[str],
-        darkness: GpuMapSet,
-    ) -> None:
+    def __init__(self, frame: Frame, view: CameraView, passes: Collection[str], darkness: GpuMapSet) -> None:
         self._frame, self._view, self._darkness = frame, view, darkness
         self._backdrop = None if view.scene.render.film_transparent else frame.backdrop
         self._stage = Stage()
@@ -56,8 +50,9 @@ class Picture:
 
     @property
     def items(self) -> list[Any]:
-        """The objects that it shows."""
-        return [each.drawable.surface.item for each in self._frame.shown]
+        """The objects that it shows, each once."""
+        surfaces = [each.drawable.surface for each in self._frame.shown]
+        return [*{surface.number: surface.item for surface in surfaces}.values()]
 
     def add_sample(self) -> None:
         """Draw the picture once more, a part of a pixel aside; the first time at the pixels' centres."""
@@ -71,7 +66,7 @@ class Picture:
                 for strength in frame.strengths:
                     frame.set(self._stage, strength, True, partial(_DRAWN[name], self))
                     film.lay(self._stage.radiance, 1.0 if name == NORMAL else strength)
-                if self._is_first and frame.strengths:  # a picture of all that is there, whatever is drawn
+                if self._is_first and frame.strengths:  # what is not of a stage's strength hides there
                     self._depths, self._is_first = self._stage.depths(), False
 
     def read(self) -> dict[str, Array]:
@@ -85,7 +80,7 @@ class Picture:
         read = {name: film.read() for name, film in self._films.items()}
         for name in read.keys() - {NORMAL}:
             read[name][..., :3] = working_from_rec709(read[name][..., :3])
-        found = {name: pixels[..., : CHANNELS[name]] for name, pixels in read.items()}
+        found = {name: pixels[..., : len(CHANNELS[name])] for name, pixels in read.items()}
         if self._wants_depth:
             found[DEPTH] = self._view.distances(self._depths)[..., None]
         return found

@@ -72,9 +72,12 @@ class Renders:
             self._darkness = darkness()
         return Picture(frame, view, passes, self._darkness)
 
-    def news(self, picture: Picture) -> list[str]:
-        """What is to be said of what a picture shows, and was not yet."""
-        messages = [message for item in picture.items for message in self._messages(item)]
+    def messages(self, picture: Picture) -> list[str]:
+        """What is to be said of what a picture shows, as far as it is drawn."""
+        return [message for item in picture.items for message in self._messages(item)]
+
+    def news(self, messages: Iterable[str]) -> list[str]:
+        """Those of some messages that this render has not told."""
         news = list(dict.fromkeys(each for each in messages if each not in self._told))
         self._told.update(news)
         return news

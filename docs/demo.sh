@@ -73,6 +73,7 @@ for mesh in monkey sphere; do
 done
 step "Putting the pictures on one sheet" python "$docs/../.ci/contact_sheet.py" systems.png 5 -1.3 {plastic,lobes,tables,mips,bank}-monkey.exr \
     {plastic,lobes,tables,mips,bank}-sphere.exr
+step "Writing copper as a web page" ours export lobes.rsibr.exr --mesh monkey --view 0.3,-1,0.3 -o look.html --force
 
 echo
 echo "Pictures in $PWD:"
@@ -80,6 +81,7 @@ echo "  systems.png: captured plastic, copper from lobes, varnish from reflectio
 echo "  gold from a kernel bank; mips.ktx2 is the mip chain for engines"
 echo "  copper-monkey.png, plastic-monkey.png and their .mp4: a turn around Suzanne"
 echo "  lobes.html: all of a map set on one page"
+echo "  look.html: copper on Suzanne, to be turned in a browser"
 echo "  copper-compare/index.html, plastic-compare/index.html: previews beside Cycles' own pictures, and the errors;"
 echo "  lobes-compare/index.html: beside the BRDF itself:"
 sed 's/^/    /' errors.txt

@@ -1,4 +1,4 @@
-"""Write the active object's map set for other programs: an operator for each format, and one for engines."""
+"""Write the active object's map set for other programs: for each format, for engines, and as a web page."""
 
 import os
 from pathlib import Path
@@ -9,14 +9,22 @@ import bpy
 
 from ..rsibr_addon.core.options import declared_options
 from ..rsibr_addon.core.progress import Steps, drain
+from ..rsibr_addon.files.kinds.registry import look_types
 from ..rsibr_addon.host.map_sets import planned_path, written_path
+from ..rsibr_addon.host.meshes import mesh_of_objects
 from ..rsibr_addon.host.option_properties import options_of, properties_of
+from ..rsibr_addon.host.principled import principled
+from ..rsibr_addon.settings.page import PageOptions
 from ..rsibr_addon.tasks.export.engines.engines import ENGINES
 from ..rsibr_addon.tasks.export.engines.export import export_for_engine
 from ..rsibr_addon.tasks.export.engines.settings import AnySettings
 from ..rsibr_addon.tasks.export.export import export
 from ..rsibr_addon.tasks.export.format import Format
 from ..rsibr_addon.tasks.export.formats import FORMATS
+from ..rsibr_addon.tasks.export.page.own_material import with_constants
+from ..rsibr_addon.tasks.export.page.page import export_page
+from ..rsibr_addon.tasks.methods.kinds import kind_of
+from ..rsibr_addon.tasks.viewport.looks import wants_own
 from .file_properties import file_path
 from .reporting import reporting
 
@@ -135,4 +143,47 @@ EXPORT_FOR_ENGINE = type(
     {"__doc__": _ExportForEngine.__doc__, **properties_of(AnySettings)},
 )
 
-CLASSES = (*(_operator(name, exported) for name, exported in FORMATS.items()), EXPORT_FOR_ENGINE)
+
+class _ExportPage(_Export):
+    """Write one web page that shows the selected objects in the active object's map set"""  # noqa: D400
+
+    bl_idname = "rsibr.export_page"
+    bl_label = "Export Web Page"
+
+    filter_glob = bpy.props.StringProperty(default="*.html", options={"HIDDEN"})
+
+    def ending(self) -> str:
+        """Of the file's name."""
+        return ".html"
+
+    def exporting(self: Any, map_set: Path, output: Path, force: bool) -> Steps[list[Path]]:
+        """See `export_page`."""
+        active = bpy.context.object
+        shading = planned_path(active.rsibr)
+        alike = [
+            item
+            for item in bpy.context.selected_objects
+            if item.rsibr.map_set and planned_path(item.rsibr) == shading
+        ]
+        mesh = mesh_of_objects(alike or [active], bpy.context.evaluated_depsgraph_get())
+        kind = kind_of(map_set)
+        look = options_of(look_types()[kind], getattr(active.rsibr, kind))
+        if wants_own(active, kind) and active.active_material is not None:
+            look = with_constants(look, principled(active.active_material))
+        return export_page(map_set, output, options_of(PageOptions, self), mesh, look, force)
+
+
+EXPORT_PAGE = type(
+    "RSIBR_OT_export_page",
+    (_ExportPage, bpy.types.Operator),
+    {
+        "__doc__": _ExportPage.__doc__,
+        **properties_of(PageOptions),
+    },
+)
+
+CLASSES = (
+    *(_operator(name, exported) for name, exported in FORMATS.items()),
+    EXPORT_FOR_ENGINE,
+    EXPORT_PAGE,
+)

@@ -164,7 +164,11 @@ vec3 principled_radiance(sampler2D atlas,
   }
   // One loop for both, so that the program has the lobes' code once
   for (int coat = 0; coat < 2; coat++) {
-    Powers coefficients = (coat == 1) ? layers.coat : layers.base;
+    // WebGL chooses no structures by ?:
+    Powers coefficients = layers.base;
+    if (coat == 1) {
+      coefficients = layers.coat;
+    }
     float roughness = (coat == 1) ? surface.coat_roughness : surface.roughness;
     vec3 layer_normal = (coat == 1) ? coat_normal : mirror_normal;
     float layer_mu = (coat == 1) ? coat_mu : mu;

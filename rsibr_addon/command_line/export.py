@@ -5,10 +5,16 @@ from pathlib import Path
 from typing import Any
 
 from ..core.options import Options
+from ..core.progress import Steps
+from ..files.kinds.registry import look_types
+from ..settings.page import MeshPageOptions
 from ..tasks.export.engines.engines import ENGINES
 from ..tasks.export.formats import FORMATS
 from . import options
 from .console import Console
+
+PAGE, PAGE_ENDING = "page", ".html"
+"""Name of the options of web pages, and the ending of their files' names."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -17,7 +23,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "map_set",
         metavar="NAME.rsibr.exr|PICTURE",
         type=Path,
-        help="a map set; for an engine a mip chain, or a picture of an environment, OpenEXR or Radiance HDR",
+        help="a map set, or a picture of an environment, OpenEXR or Radiance HDR; for an engine a mip chain "
+        "or a picture",
     )
     uses = "; ".join(f"{name}, {each.use}" for name, each in ENGINES.items())
     parser.add_argument(
@@ -28,10 +35,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help=f"engine to write for, exactly what it loads, and what to do there: {uses} (default: none)",
     )
     options.add_options_of(parser, _owners())
-    suffixes = [each.suffix for each in FORMATS.values()]
+    suffixes = [*(each.suffix for each in FORMATS.values()), PAGE_ENDING]
     endings = dict.fromkeys([*suffixes, *(name for each in ENGINES.values() for name in each.endings)])
     names = "|".join(f"OUT{ending}" for ending in endings)
-    options.add_output(parser, names, "the first file; its name tells the format")
+    options.add_output(
+        parser,
+        names,
+        "the first file; its name tells the format, HTML is a web page that needs no other file",
+    )
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
@@ -45,24 +56,41 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     Raises
     ------
     RsibrError
-        See `tasks.export.export` and `tasks.export.engines.export`.
+        See `tasks.export.export`, `tasks.export.engines.export` and `tasks.export.page.page`.
     """
     from ..tasks.export.engines.export import export_for_engine
     from ..tasks.export.export import export, format_of
 
     source, output, engine = arguments.map_set, arguments.output, arguments.engine
-    settings = options.given_of(arguments, _owners(), engine or format_of(output))
-    if engine:
-        steps = export_for_engine(source, output, engine, settings, arguments.force)
+    if not engine and output.suffix.lower() == PAGE_ENDING:
+        textures = console.steps(_page(arguments))
     else:
-        steps = export(source, output, settings, arguments.force)
-    textures = console.steps(steps)
+        settings = options.given_of(arguments, _owners(), engine or format_of(output))
+        if engine:
+            steps = export_for_engine(source, output, engine, settings, arguments.force)
+        else:
+            steps = export(source, output, settings, arguments.force)
+        textures = console.steps(steps)
     for texture in textures:
         console.say(f"{texture}")
     return {"textures": [str(texture) for texture in textures]}
 
 
+def _page(arguments: argparse.Namespace) -> Steps[list[Path]]:
+    """Export a web page."""
+    from ..host.meshes import load_mesh
+    from ..tasks.export.page.page import export_page
+    from ..tasks.methods.kinds import kind_of
+
+    kind = kind_of(arguments.map_set)
+    settings = options.given_of(arguments, _owners(), PAGE, beside=kind)
+    look = options.given_of(arguments, _owners(), kind, beside=PAGE)
+    mesh = load_mesh(settings.mesh)
+    return export_page(arguments.map_set, arguments.output, settings, mesh, look, arguments.force)
+
+
 def _owners() -> dict[str, type[Options]]:
-    """A format or an engine -> its options."""
+    """A format, an engine, a page, or a kind that a page shows -> its options."""
     formats = {name: each.settings for name, each in FORMATS.items()}
-    return formats | {name: each.settings for name, each in ENGINES.items()}
+    engines = {name: each.settings for name, each in ENGINES.items()}
+    return formats | engines | {PAGE: MeshPageOptions} | look_types()

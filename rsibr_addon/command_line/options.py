@@ -94,7 +94,9 @@ def add_options_of(parser: argparse.ArgumentParser, owners: Mapping[str, type[Op
             add_option(group(SEVERAL), first, told)
 
 
-def given_of(arguments: argparse.Namespace, owners: Mapping[str, type[Options]], owner: str) -> Any:
+def given_of(
+    arguments: argparse.Namespace, owners: Mapping[str, type[Options]], owner: str, beside: str = ""
+) -> Any:
     """The options of one of several owners that a command line gives.
 
     Parameters
@@ -104,6 +106,8 @@ def given_of(arguments: argparse.Namespace, owners: Mapping[str, type[Options]],
         See `add_options_of`.
     owner : str
         The one that counts.
+    beside : str, optional
+        Another whose options may be given beside.
 
     Raises
     ------
@@ -112,7 +116,7 @@ def given_of(arguments: argparse.Namespace, owners: Mapping[str, type[Options]],
     """
     for flag, declared in _by_flag(owners).items():
         name = next(iter(declared.values())).name
-        if name in vars(arguments) and owner not in declared:
+        if name in vars(arguments) and not {owner, beside} & declared.keys():
             raise RangeError(f"The option {flag} is for {' or '.join(declared)}, not for {owner}: omit it.")
     return given(arguments, owners[owner])
 

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import gpu
 import numpy as np
@@ -122,21 +122,32 @@ class Inputs:
         Values of its block, as `buffers.block_rows` takes them.
     textures : mapping of str to GpuTexture
         Its samplers -> what they look up.
+    sums : mapping of str to (str, ndarray of shape (3,))
+        Samplers of summed tables -> the sampler of the map that each sums, and the unit of its sums.
     """
 
     program: shaders.MeshProgram
     fields: tuple[Array, ...]
     textures: Mapping[str, GpuTexture]
+    sums: Mapping[str, tuple[str, Array]] = field(default_factory=dict)
+
+
+@runtime_checkable
+class WithInputs(Protocol):
+    """A map set that one program draws from one block and textures, here or on a web page."""
+
+    def inputs(self, look: Any) -> Inputs:
+        """What a look is drawn from; made without the GPU."""
 
 
 class ProgramMapSet(ABC):
-    """A `GpuMapSet` that one program draws from one block and textures, here or on a web page."""
+    """A `GpuMapSet` that one program draws from its inputs."""
 
     textures: Sequence[GpuTexture]
 
     @abstractmethod
     def inputs(self, look: Any) -> Inputs:
-        """What a look is drawn from; made without the GPU."""
+        """See `WithInputs`."""
 
     @cached_property
     def _block(self) -> buffers.KeptBlock:

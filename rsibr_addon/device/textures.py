@@ -41,6 +41,12 @@ class GpuTexture:
         """Whether all of it is on the GPU."""
         return self._values is None
 
+    @property
+    def values(self) -> Array:
+        """What it was made of, as long as it is not on the GPU."""
+        assert self._values is not None
+        return self._values
+
     def whole(self) -> gpu.types.GPUTexture:
         """The texture; what is missing is uploaded.
 

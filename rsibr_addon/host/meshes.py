@@ -5,7 +5,7 @@ corners at a vertex disagree, the vertex is split.
 """
 
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -115,6 +115,24 @@ def mesh_from_object(item: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> 
         return triangle_mesh(mesh, item.name)
 
 
+def mesh_of_objects(items: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph) -> TriangleMesh:
+    """Objects as one mesh, as they stand to each other, fitted into the unit sphere.
+
+    Parameters are those of `mesh_from_object`; the name is that of the first object.
+
+    Raises
+    ------
+    SceneError
+        One has no geometry, or all have no faces.
+    InputFileError
+        They have no extent.
+    """
+    mesh = _joined(items[0].name, items, depsgraph)
+    if not len(mesh.triangles):
+        raise SceneError(f"{mesh.name} has no faces to show: choose a mesh with faces.")
+    return _fitted(mesh)
+
+
 @contextmanager
 def evaluated_mesh(item: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Iterator[bpy.types.Mesh]:
     """An object's mesh as it is drawn, for as long as the context lasts.
@@ -194,7 +212,7 @@ def _monkey() -> TriangleMesh:
         scene.collection.objects.link(item)
         subdivision = item.modifiers.new("Subdivision", "SUBSURF")
         subdivision.levels = MONKEY_SUBDIVISIONS
-        return _joined("monkey", scene)
+        return _joined_scene("monkey", scene)
 
 
 def _read_obj(path: Path) -> TriangleMesh:
@@ -211,7 +229,7 @@ def _read_obj(path: Path) -> TriangleMesh:
         for item in scene.objects:
             if item.type == "MESH":
                 _repair(item.data, path)
-        mesh = _joined(path.name, scene)
+        mesh = _joined_scene(path.name, scene)
     if not len(mesh.triangles):
         raise InputFileError(f"{path} holds no faces: give a Wavefront OBJ file of a surface.")
     return mesh
@@ -229,21 +247,29 @@ def _repair(data: bpy.types.Mesh, path: Path) -> None:
         data.shade_smooth()
 
 
-def _joined(name: str, scene: bpy.types.Scene) -> TriangleMesh:
+def _joined_scene(name: str, scene: bpy.types.Scene) -> TriangleMesh:
     """Everything in a scene as one mesh, in world coordinates."""
     scene.view_layers[0].update()
-    depsgraph = scene.view_layers[0].depsgraph
+    return _joined(name, scene.objects, scene.view_layers[0].depsgraph)
+
+
+def _joined(name: str, items: Iterable[bpy.types.Object], depsgraph: bpy.types.Depsgraph) -> TriangleMesh:
+    """Objects as one mesh, in world coordinates."""
     positions: list[Array] = [np.empty((0, 3), np.float32)]
     normals: list[Array] = [np.empty((0, 3), np.float32)]
     triangles: list[Indices] = [np.empty((0, 3), np.int32)]
     count = 0
-    for item in scene.objects:
+    for item in items:
         mesh = mesh_from_object(item, depsgraph)
-        matrix = np.array(item.matrix_world, np.float32)
-        # The importer only rotates, so normals turn as positions do.
+        matrix = np.array(item.evaluated_get(depsgraph).matrix_world, np.float32)
         positions.append(mesh.positions @ matrix[:3, :3].T + matrix[:3, 3])
-        normals.append(mesh.normals @ matrix[:3, :3].T)
-        triangles.append(mesh.triangles + np.int32(count))
+        # The cofactors, which a flat object has as well
+        x, y, z = matrix[:3, :3]
+        turned = mesh.normals @ np.array([np.cross(y, z), np.cross(z, x), np.cross(x, y)]).T
+        mirrors = float(np.dot(x, np.cross(y, z))) < 0.0
+        turned *= (-1.0 if mirrors else 1.0) / np.maximum(np.linalg.norm(turned, axis=1), 1e-30)[:, None]
+        normals.append(turned.astype(np.float32))
+        triangles.append(mesh.triangles[:, :: -1 if mirrors else 1] + np.int32(count))
         count += len(mesh.positions)
     return TriangleMesh(name, np.concatenate(positions), np.concatenate(normals), np.concatenate(triangles))
 

@@ -11,8 +11,8 @@ from .matte import MatteOptions
 
 
 @dataclass(frozen=True, kw_only=True)
-class SceneOptions(Options):
-    """What is drawn, and how large."""
+class MeshOptions(Options):
+    """What is drawn."""
 
     mesh: str = option(
         "sphere",
@@ -20,6 +20,12 @@ class SceneOptions(Options):
         help="sphere, monkey or FILE.obj; fitted into the unit sphere, which fills the frame",
         metavar="MESH",
     )
+
+
+@dataclass(frozen=True, kw_only=True)
+class CameraOptions(Options):
+    """How it is projected."""
+
     perspective: float | None = option(
         None,
         label="Perspective",
@@ -28,10 +34,8 @@ class SceneOptions(Options):
         least=0.1,
         most=179.0,
         none="orthographic",
+        none_as=0.0,
         metavar="DEG",
-    )
-    size: int = option(
-        512, label="Size", help="Width and height of a picture", unit="pixels", least=1, most=2048
     )
 
     def __post_init__(self) -> None:
@@ -43,6 +47,43 @@ class SceneOptions(Options):
         return Camera(view_dir, None if self.perspective is None else math.radians(self.perspective))
 
 
+@dataclass(frozen=True, kw_only=True)
+class SceneOptions(MeshOptions, CameraOptions):
+    """What is drawn, and how large."""
+
+    size: int = option(
+        512, label="Size", help="Width and height of a picture", unit="pixels", least=1, most=2048
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShownOptions(CameraOptions):
+    """From where it is seen, and how its radiance is shown."""
+
+    view: tuple[float, float, float] = option(
+        (0.0, -1.0, 0.0), label="View", help="Direction from the object to the eye", metavar="X,Y,Z"
+    )
+    exposure: float = exposure_option(
+        0.0, "How much brighter PNG, movie or page are; EXR holds radiance as it is"
+    )
+    view_transform: str = option(
+        "Standard",
+        label="View Transform",
+        help="How PNG, movie or page show radiance",
+        choices={
+            "Standard": Choice("Standard", "as it is, up to white"),
+            "AgX": Choice("AgX", "as film, which keeps detail in lamps"),
+            "Filmic": Choice("Filmic", "as AgX's predecessor"),
+            "Khronos PBR Neutral": Choice("Khronos PBR Neutral", "keeps the colours of materials"),
+            "False Color": Choice("False Color", "colours for brightness"),
+        },
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self.camera(self.view)
+
+
 class Turned(StrEnum):
     """What a turntable turns about Z."""
 
@@ -52,12 +93,9 @@ class Turned(StrEnum):
 
 
 @dataclass(frozen=True, kw_only=True)
-class PreviewOptions(SceneOptions, MatteOptions, Clamp):
+class PreviewOptions(SceneOptions, ShownOptions, MatteOptions, Clamp):
     """What a preview shows."""
 
-    view: tuple[float, float, float] = option(
-        (0.0, -1.0, 0.0), label="View", help="Direction from the object to the eye", metavar="X,Y,Z"
-    )
     fill: float = option(
         1.0,
         label="Fill",
@@ -84,22 +122,3 @@ class PreviewOptions(SceneOptions, MatteOptions, Clamp):
         },
         flag="--turn",
     )
-    exposure: float = exposure_option(
-        0.0, "How much brighter a PNG or a movie is; EXR holds radiance as it is"
-    )
-    view_transform: str = option(
-        "Standard",
-        label="View Transform",
-        help="How a PNG or a movie shows radiance",
-        choices={
-            "Standard": Choice("Standard", "as it is, up to white"),
-            "AgX": Choice("AgX", "as film, which keeps detail in lamps"),
-            "Filmic": Choice("Filmic", "as AgX's predecessor"),
-            "Khronos PBR Neutral": Choice("Khronos PBR Neutral", "keeps the colours of materials"),
-            "False Color": Choice("False Color", "colours for brightness"),
-        },
-    )
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        self.camera(self.view)

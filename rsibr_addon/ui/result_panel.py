@@ -58,6 +58,7 @@ class RSIBR_PT_result(InSidebar, bpy.types.Panel):
         row = layout.row(align=True)
         row.operator("rsibr.open_report", icon="URL")
         row.operator("rsibr.compare", icon="MOD_DATA_TRANSFER")
+        layout.operator("rsibr.export_page", icon="WORLD")
         page = comparison_page(path)
         if (comparing := session().bakes.unfinished(page)) is not None:
             draw_progress(layout, comparing, context.region.width)

@@ -5,6 +5,7 @@ import os
 import subprocess
 import tempfile
 import threading
+from collections.abc import Callable
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from typing import Any
@@ -64,12 +65,60 @@ def asked(page: str, question: dict[str, Any], files: Path) -> dict[str, Any]:
     AssertionError
         It did not answer, or something went wrong there.
     """
+    return _answer(lambda host: f"{host}/tests/{page}", {**PLACES, "files": files}, question)
+
+
+def driven(page: Path, script: str, before: str = "") -> dict[str, Any]:
+    """What a page that is opened from disk answers to a script.
+
+    Parameters
+    ----------
+    page : Path
+        One of `tasks.export.page`.
+    script : str
+        Runs after the page's own, and gives its answer to `answer`.
+    before : str
+        Runs before the page's own.
+
+    Raises
+    ------
+    AssertionError
+        It did not answer, or told of trouble.
+    """
+
+    def address(host: str) -> str:
+        text = page.read_text(encoding="utf-8").replace("<head>", f"<head><script>{before}</script>")
+        copy = page.with_name(f"driven-{page.name}")
+        copy.write_text(text + DRIVER.replace("HOST", host).replace("SCRIPT", script), encoding="utf-8")
+        return copy.resolve().as_uri()
+
+    return _answer(address, {}, {})
+
+
+DRIVER = """<script type="module">
+const answer = (said) => fetch("HOST", {method: "POST", mode: "no-cors", body: JSON.stringify(said)});
+const failed = (error) => answer({error: String(error)});
+const trouble = document.querySelector("#trouble");
+const look = () => trouble.hidden || failed(trouble.textContent);
+new MutationObserver(look).observe(trouble, {attributes: true});
+look();
+(async () => {
+SCRIPT
+})().catch(failed);
+</script>"""
+"""A script that asks a page: HOST takes its answers."""
+
+
+def _answer(
+    address_of: Callable[[str], str], places: dict[str, Path], question: dict[str, Any]
+) -> dict[str, Any]:
+    """What the page of an address answers; the address is made of that of the server, which is asked."""
     server = ThreadingHTTPServer(("127.0.0.1", 0), _Handler)
-    server.places, server.question = {**PLACES, "files": files}, question  # type: ignore[attr-defined]
+    server.places, server.question = places, question  # type: ignore[attr-defined]
     server.answered, server.said = threading.Event(), {}  # type: ignore[attr-defined]
+    address = address_of(f"http://127.0.0.1:{server.server_port}")
     serving = threading.Thread(target=server.serve_forever)
     serving.start()
-    address = f"http://127.0.0.1:{server.server_port}/tests/{page}"
     with (
         tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile,
         tempfile.TemporaryFile("w+", errors="replace") as log,  # a pipe that nobody reads would fill up
@@ -86,7 +135,7 @@ def asked(page: str, question: dict[str, Any], files: Path) -> dict[str, Any]:
             server.shutdown()
             server.server_close()
             serving.join()
-    assert answered, f"{page} did not answer: {told[-2000:]}"
+    assert answered, f"{address} did not answer: {told[-2000:]}"
     said: dict[str, Any] = server.said  # type: ignore[attr-defined]
     assert "error" not in said, said["error"]
     return said

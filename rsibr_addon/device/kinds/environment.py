@@ -29,4 +29,6 @@ class GpuEnvironment(ProgramMapSet):
         """See `ProgramMapSet.inputs`. Reference: core/kinds/environment.py."""
         sums = self._sums if look.antialiased else self._no_sums
         fields = np.array(look.f0), sums.unit, np.array([float(look.antialiased)])
-        return Inputs(environment_shader, fields, {"environment": self._map, "sums": sums.texture})
+        textures = {"environment": self._map, "sums": sums.texture}
+        summed = {"sums": ("environment", sums.unit)} if look.antialiased else {}
+        return Inputs(environment_shader, fields, textures, summed)

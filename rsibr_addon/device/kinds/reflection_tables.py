@@ -74,7 +74,8 @@ class GpuReflectionTables(ProgramMapSet):
         )
         textures = {role.value: texture for role, texture in self._textures.items()}
         textures |= {f"{role}_sums": each.texture for role, each in sums.items()}
-        return Inputs(reflection_tables_shader, fields, {**textures, "weights": weights})
+        summed = {f"{role}_sums": (role.value, each.unit) for role, each in sums.items() if look.antialiased}
+        return Inputs(reflection_tables_shader, fields, {**textures, "weights": weights}, summed)
 
     def _as_looked_at(self, look: TablesLook) -> tuple[ReflectionTables, GpuTexture]:
         """The tables as a look changes them, and their weights."""

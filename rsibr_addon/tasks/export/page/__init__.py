@@ -1,0 +1,1 @@
+"""One web page that shows a map set on a mesh, without a network."""

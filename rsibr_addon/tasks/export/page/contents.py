@@ -1,0 +1,108 @@
+"""Textures, meshes and displays as a page unpacks them."""
+
+from typing import Any
+
+import numpy as np
+
+from ....core.companded import Companded, companded
+from ....core.conventions import Array
+from ....core.errors import RangeError
+from ....core.half_floats import half_holds
+from ....core.pictures.display import table_radiance
+from ....device.textures import GpuTexture
+from ....files.packed_arrays import packed_floats, packed_integers
+from ....host.display import displayed_colours
+from ....host.meshes import TriangleMesh
+from ....host.scenes import temporary_scene
+
+EXACT = 2**14
+"""Textures of at most so many numbers are not rounded, nor those whose alpha is not 1, which are no maps."""
+
+MOST_TRIANGLES = 1_000_000
+"""Of a mesh: some 12 MB."""
+
+DIGITS = 32767
+"""Largest number of coordinates, which lie in [-1, 1]."""
+
+
+def packed_texture(texture: GpuTexture) -> tuple[dict[str, Any], float]:
+    """A texture that is not on the GPU yet.
+
+    Returns
+    -------
+    packed : dict
+        "size", its width, height and layers, 0 for a texture of two dimensions; "half", whether half floats
+        are enough for it; and either "floats", or "codes", "unit" and "relative", see `Companded`: a plane
+        for each of three channels and each layer. Relative ones have green taken from red and blue.
+    error : float
+        Root mean square of what rounding changed, relative to that of the values.
+    """
+    values = texture.values
+    layers = values.shape[0] if values.ndim == 4 else 0
+    height, width, _ = values.shape[-3:]
+    size = [width, height, layers]
+    if values.size <= EXACT or not np.all(values[..., 3] == 1.0):
+        return {"size": size, "half": False, "floats": packed_floats(values)}, 0.0
+    colours = values[..., :3].astype(np.float64)
+    rounded = companded(colours)
+    error = np.sqrt(np.mean((rounded.values() - colours) ** 2) / np.mean(colours**2))
+    packed = {"size": size, "half": half_holds([values]), "unit": rounded.unit, **_smaller(rounded)}
+    return packed, float(error)
+
+
+def _smaller(rounded: Companded) -> dict[str, Any]:
+    """The codes, or those relative to green if these take less room."""
+    red, green, blue = np.moveaxis(rounded.codes, -1, 0)
+    ways = {False: np.stack([red, green, blue]), True: np.stack([red - green, green, blue - green])}
+    packed = {
+        relative: packed_integers(codes.reshape(-1, *codes.shape[-2:]), 16, along=(1, 2))
+        for relative, codes in ways.items()
+    }
+    best = min(packed, key=lambda relative: len(packed[relative]["data"]))
+    return {"codes": packed[best], "relative": best}
+
+
+def packed_mesh(mesh: TriangleMesh) -> dict[str, Any]:
+    """A mesh within the unit sphere.
+
+    Returns
+    -------
+    dict
+        "positions" and "normals", in steps of 1 / `DIGITS`, and "triangles", each a row for each of three
+        coordinates or corners. Where normals are the positions, as of a sphere, they are None.
+
+    Raises
+    ------
+    RangeError
+        It has too many triangles.
+    """
+    if len(mesh.triangles) > MOST_TRIANGLES:
+        raise RangeError(
+            f"{mesh.name} has {len(mesh.triangles):,} triangles, and a page takes {MOST_TRIANGLES:,} at "
+            f"most: decimate it."
+        )
+    positions, normals = (
+        np.rint(DIGITS * values.T).astype(np.int32) for values in (mesh.positions, mesh.normals)
+    )
+    return {
+        "positions": packed_integers(positions, 16, along=(1,)),
+        "normals": None if np.array_equal(positions, normals) else packed_integers(normals, 16, along=(1,)),
+        "triangles": packed_integers(mesh.triangles.T, 32, along=(1,)),
+    }
+
+
+def packed_display(view_transform: str) -> dict[str, Any]:
+    """A view transform's table for sRGB displays: see `core.pictures.display`.
+
+    Returns
+    -------
+    dict
+        Whole numbers to 255, for each channel at each node of blue, green and red.
+    """
+    with temporary_scene() as scene:
+        scene.display_settings.display_device = "sRGB"
+        scene.view_settings.view_transform = view_transform
+        colours: Array = displayed_colours(scene, table_radiance())
+    numbers = np.moveaxis(np.rint(255.0 * colours), -1, 0).astype(np.int32)
+    ways = [packed_integers(numbers, 8, along) for along in ((1,), (1, 2), (2, 3))]
+    return min(ways, key=lambda packed: len(packed["data"]))

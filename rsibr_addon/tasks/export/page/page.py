@@ -1,0 +1,138 @@
+"""A web page that shades a mesh from a map set: orbit, exposure, and the look's options as sliders.
+
+It shades with the extension's own shaders (`sources.py`), from the same numbers and textures.
+"""
+
+import json
+from html import escape
+from pathlib import Path
+from string import Template
+from typing import Any
+
+from ....core.errors import RangeError
+from ....core.options import declared_options
+from ....core.progress import Progress, Steps
+from ....device.drawing import Inputs, WithInputs
+from ....files.atomic import check_target, written_aside
+from ....files.kinds.environment import is_environment
+from ....files.kinds.registry import look_types
+from ....files.map_set import read_map_set_header
+from ....files.map_set_facts import in_words, told_errors, told_facts
+from ....host.meshes import TriangleMesh
+from ....settings.page import PageOptions
+from ...methods.kinds import KINDS, OpenedMapSet, open_map_set
+from .contents import packed_display, packed_mesh, packed_texture
+from .parameters import block_of, parameters
+from .sources import page_sources
+
+FOLDER = Path(__file__).parent
+SCRIPTS = ("unpack.js", "camera.js", "picture.js", "panel.js", "main.js")
+"""What the page runs, in this order."""
+
+
+def export_page(
+    map_set: Path,
+    output: Path,
+    settings: PageOptions,
+    mesh: TriangleMesh,
+    look: Any = None,
+    force: bool = False,
+) -> Steps[list[Path]]:
+    """Write one page that needs no other file and no network.
+
+    Parameters
+    ----------
+    map_set : Path
+        A map set, or a picture of an environment.
+    output : Path
+        NAME.html.
+    mesh : TriangleMesh
+        In world coordinates, within the unit sphere.
+    look : Options, optional
+        What the page shows at first: see `files.kinds.registry.look_types`; by default the kind's best.
+
+    Returns
+    -------
+    list of Path
+        `output`.
+
+    Raises
+    ------
+    MapSetError, InputFileError, OutputFileError
+    RangeError
+        Nothing of this kind can be shown on a page, or the mesh is too large.
+    """
+    check_target(output, force, (".html",))
+    yield Progress(0, 4, f"reading {map_set.name}")
+    opened = open_map_set(map_set, clamp=settings.clamp)
+    drawable = opened.drawable()
+    if not isinstance(drawable, WithInputs):
+        raise RangeError(
+            f"{map_set} is a {in_words(opened.kind).lower()}, which no page shows yet: preview it."
+        )
+    yield Progress(1, 4, "packing its maps")
+    shown = look or look_types()[opened.kind]()
+    inputs = drawable.inputs(shown)
+    textures, error = _packed_textures(inputs)
+    yield Progress(2, 4, "packing the mesh and the display")
+    title, sentence = _told(map_set, opened, error)
+    camera = settings.camera(settings.view)
+    content = {
+        "programs": page_sources(inputs.program),
+        "block": block_of(inputs).tolist(),
+        "parameters": [] if KINDS[opened.kind].live else parameters(drawable, shown),
+        "textures": textures,
+        "mesh": packed_mesh(mesh),
+        "displays": {name: packed_display(name) for name in _view_transforms()},
+        "display": settings.view_transform,
+        "exposure": settings.exposure,
+        "view": camera.view_dir,
+        "angle": camera.field_of_view,
+    }
+    yield Progress(3, 4, f"writing {output.name}")
+    text = Template((FOLDER / "page.html").read_text(encoding="utf-8")).substitute(
+        title=escape(title),
+        kind=escape(in_words(opened.kind)),
+        told=escape(sentence),
+        style=(FOLDER / "page.css").read_text(encoding="utf-8"),
+        content=json.dumps(content, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c"),
+        script="\n".join((FOLDER / name).read_text(encoding="utf-8") for name in SCRIPTS),
+    )
+    with written_aside(output, force) as aside:
+        aside.write_text(text, encoding="utf-8", errors="replace")  # of names that are no UTF-8
+    return [output]
+
+
+def _packed_textures(inputs: Inputs) -> tuple[dict[str, Any], float]:
+    """Each sampler's texture, and the largest error of those that are rounded."""
+    packed, errors = {}, [0.0]
+    for name, texture in inputs.textures.items():
+        kind = inputs.program.samplers[name]
+        if name in inputs.sums:
+            summed, unit = inputs.sums[name]
+            packed[name] = {"type": kind, "summed": summed, "unit": unit.tolist(), "half": False}
+            continue
+        said, error = packed_texture(texture)
+        packed[name] = {"type": kind, **said}
+        errors.append(error)
+    return packed, max(errors)
+
+
+def _told(map_set: Path, opened: OpenedMapSet, error: float) -> tuple[str, str]:
+    """What the page shows, and what is said of its errors."""
+    rounding = f"This page rounds its maps by {error:.1g} of themselves (root mean square)."
+    if is_environment(map_set):
+        return in_words(map_set.stem), rounding
+    header = read_map_set_header(map_set)
+    facts = told_facts(header)
+    title = " in ".join(facts[what] for what in ("Material", "Light") if what in facts)
+    bounds = [f"{name.removeprefix('Error, ')} {bound}" for name, bound in told_errors(header).items()]
+    stated = (
+        f"The map set states errors: {', '.join(bounds)}. " if bounds else "The map set states no error. "
+    )
+    return title, stated + rounding
+
+
+def _view_transforms() -> list[str]:
+    option = next(each for each in declared_options(PageOptions) if each.name == "view_transform").option
+    return list(option.choices)

@@ -1,0 +1,143 @@
+"""What a web page holds, without a browser."""
+
+import json
+import re
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import bpy
+import numpy as np
+import pytest
+import rsibr
+from rsibr.rsibr_addon.command_line.main import run
+from rsibr.rsibr_addon.core.errors import RangeError
+from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
+from rsibr.rsibr_addon.core.kinds.mip_chain.shading import Borders, MipLook
+from rsibr.rsibr_addon.device.kinds.mip_chain import GpuMipChain
+from rsibr.rsibr_addon.host.meshes import TriangleMesh
+from rsibr.rsibr_addon.tasks.export.page import contents
+from rsibr.rsibr_addon.tasks.export.page.contents import packed_mesh, packed_texture
+from rsibr.rsibr_addon.tasks.export.page.parameters import block_of, parameters
+from rsibr.tests.files.test_export import CHAIN, chain_file
+from rsibr.tests.files.test_packed_arrays import unpacked
+
+
+def content_of(page: Path) -> dict[str, Any]:
+    found = re.search(r'<script id="content" type="application/json">(.*?)</script>', page.read_text(), re.S)
+    return json.loads(found[1])
+
+
+@pytest.mark.slow
+def test_a_page_needs_nothing_else(tmp_path: Path) -> None:
+    source, page = str(chain_file(tmp_path)), tmp_path / "look.html"
+    assert run(["export", source, "-o", str(page), "--roughness", "0.3"]) == 0
+    text = page.read_text()
+    content = content_of(page)
+    plain = re.sub('<script id="content".*?</script>', "", text, flags=re.S)
+    assert not re.search(r"https?:|src\s*=|href\s*=|\bimport\b|url\(|fetch\(", plain)
+    assert len(plain) < 4e4
+    assert next(each for each in content["parameters"] if each["name"] == "roughness")["start"] == 0.3
+    assert len(text) - len(json.dumps(content["textures"])) < 5e5
+    assert "error" in text
+    assert run(["export", str(page.with_name("none.exr")), "-o", str(tmp_path / "new.html")]) == 1
+    assert run(["export", source, "-o", str(page)]) == 1
+    assert page.read_text() == text
+    assert run(["export", source, "-o", str(page), "--force", "--metallic", "1"]) == 1
+
+
+def applied(told: dict[str, Any], values: list[float], block: np.ndarray) -> None:
+    for each, value in zip(told["sets"], values, strict=True):
+        for entry, column in zip(each["entries"], np.array(each["values"]).T, strict=True):
+            block[entry] = np.interp(value, each["at"], column)
+
+
+def test_sliders_set_the_block_as_looks_do() -> None:
+    drawable, look = GpuMipChain(CHAIN), MipLook(f0=(0.1, 0.2, 0.3))
+    told = {each["name"]: each for each in parameters(drawable, look)}
+    assert list(told) == [
+        "f0",
+        "kd",
+        "roughness",
+        "borders",
+        "antialiased",
+        "room",
+    ]  # roughness chooses the mip
+    assert told["roughness"]["start"] == 0.0
+    block = block_of(drawable.inputs(look))
+    applied(told["kd"], [0.25, 0.5, 1.0], block)
+    applied(told["roughness"], [0.4], block)
+    applied(told["borders"], [list(Borders).index(Borders.CLAMPED)], block)
+    applied(told["antialiased"], [0.0], block)
+    wanted = replace(look, kd=(0.25, 0.5, 1.0), roughness=0.4, borders=Borders.CLAMPED, antialiased=False)
+    np.testing.assert_allclose(block, block_of(drawable.inputs(wanted)), atol=1e-2)
+    exact = [entry for entry in range(len(block)) if entry not in told["roughness"]["sets"][0]["entries"]]
+    np.testing.assert_allclose(block[exact], block_of(drawable.inputs(wanted))[exact], atol=1e-6)
+
+
+def test_a_chain_without_roughness_has_a_slider_of_mips() -> None:
+    told = parameters(GpuMipChain(MipChain(CHAIN.mips, CHAIN.harmonics, None)), MipLook())
+    (mip,) = (each for each in told if each["name"] == "mip")
+    assert mip["sets"][0]["at"][-1] == 3.0  # no slider beyond the last of four
+
+
+def test_texels_are_rounded_as_promised(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(contents, "EXACT", 0)
+    texture = GpuMipChain(CHAIN).textures[0]
+    packed, error = packed_texture(texture)
+    width, height, layers = packed["size"]
+    codes = unpacked(packed["codes"], signed=True).reshape(3, height, width)
+    if packed["relative"]:
+        codes[[0, 2]] += codes[1]
+    values = packed["unit"] * np.sinh(codes / 512.0)
+    wanted = np.moveaxis(texture.values[..., :3], -1, 0)
+    assert layers == 0
+    assert np.all(np.abs(values - wanted) <= 1.01 * (wanted + packed["unit"]) / 1024.0)
+    relative = np.sqrt(np.mean((values - wanted) ** 2) / np.mean(wanted**2))
+    assert np.isclose(relative, error, rtol=1e-3)
+    assert 1e-4 < error < 1e-3
+
+
+def test_a_mesh_that_is_too_large_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    corners = np.eye(3, dtype=np.float32)
+    mesh = TriangleMesh("Rock", corners, -corners, np.array([[0, 1, 2]], np.int32))
+    packed = packed_mesh(mesh)
+    assert np.array_equal(unpacked(packed["positions"], signed=True), 32767 * corners.T)
+    assert np.array_equal(unpacked(packed["normals"], signed=True), -32767 * corners.T)
+    assert unpacked(packed["triangles"], signed=False).tolist() == [[0], [1], [2]]
+    monkeypatch.setattr(contents, "MOST_TRIANGLES", 0)
+    with pytest.raises(RangeError, match=r"Rock has 1 triangles, and a page takes 0 at most: decimate it\."):
+        packed_mesh(mesh)
+
+
+@pytest.mark.slow
+def test_the_operator_shows_the_selected_objects(tmp_path: Path) -> None:
+    page = tmp_path / "page.html"
+    rsibr.register()
+    try:
+        cube = bpy.context.object
+        bpy.ops.rsibr.assign(filepath=str(chain_file(tmp_path)))
+        assert bpy.ops.rsibr.export_page(filepath=str(page)) == {"FINISHED"}
+        alone = content_of(page)["mesh"]
+        assert alone["triangles"]["shape"] == [3, 12]
+        other = cube.copy()
+        bpy.context.collection.objects.link(other)
+        other.location, other.scale = (4.0, 0.0, 0.0), (-1.0, 1.0, 2.0)
+        other.select_set(True)
+        with pytest.raises(RuntimeError, match=r"page\.html exists"):
+            bpy.ops.rsibr.export_page(filepath=str(page))
+        both = tmp_path / "both.html"
+        assert bpy.ops.rsibr.export_page(filepath=str(both)) == {"FINISHED"}
+    finally:
+        rsibr.unregister()
+    mesh = SimpleNamespace(
+        **{name: unpacked(packed, signed=True).T / 32767 for name, packed in content_of(both)["mesh"].items()}
+    )
+    corners = mesh.positions[np.rint(32767 * mesh.triangles).astype(int)]
+    facets = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    facets /= np.linalg.norm(facets, axis=1, keepdims=True)
+    normals = mesh.normals[np.rint(32767 * mesh.triangles).astype(int)[:, 0]]
+    assert len(facets) == 24
+    assert np.all(np.sum(facets * normals, axis=1) > 0.99)  # also of the mirrored one
+    assert np.isclose(np.linalg.norm(mesh.positions, axis=1).max(), 1.0, atol=1e-4)

@@ -1,0 +1,199 @@
+"""A map set's web page, opened from disk in a browser: what it draws is what `rsibr preview` draws."""
+
+import base64
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.command_line.main import run
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.look import PrincipledLook
+from rsibr.rsibr_addon.core.pictures.display import displayed, table_radiance
+from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.device.preview import PreviewRenderer
+from rsibr.rsibr_addon.files.kinds.registry import look_types
+from rsibr.rsibr_addon.files.map_set import write_map_set
+from rsibr.rsibr_addon.host.display import displayed_colours
+from rsibr.rsibr_addon.host.meshes import load_mesh
+from rsibr.rsibr_addon.host.scenes import temporary_scene
+from rsibr.rsibr_addon.settings.page import PageOptions
+from rsibr.rsibr_addon.tasks.export.page.page import export_page
+from rsibr.rsibr_addon.tasks.methods.kinds import open_map_set
+from rsibr.tests.engine_light import sky_file
+from rsibr.tests.mirror_capture import mirror_map_set
+from rsibr.tests.web.browser import driven
+
+SIZE = 96
+VIEW = (0.3, -1.0, 0.4)
+SETTINGS = PageOptions(view=VIEW, perspective=40.0)
+
+LIGHT_ALONE = ("mip-chain", "--filter", "ggx", "--size", "64")
+BAKES = {
+    "mip_chain": LIGHT_ALONE,
+    "lobe_stack": ("lobe-stack", "--brdf", "ggx:alpha=0.4,metal=copper", "--slices", "3", "--size", "64"),
+    "reflection_tables": ("reflection-tables", "--material", "varnished"),
+    "kernel_bank": ("kernel-bank", "--size", "64"),
+    "kernel_pyramid": ("kernel-pyramid", "--size", "64"),
+}
+"""Kind -> what bakes it."""
+
+SET_UP = f"""
+const canvas = document.querySelector("canvas");
+const drawn = () => new Promise((done) => {{
+  canvas.addEventListener("drawn", ({{ detail }}) => done(detail()), {{ once: true }});
+}});
+const settled = async () => {{
+  let read;
+  do {{ read = await drawn(); }} while (read.width !== {SIZE} || read.height !== {SIZE});
+  return read;
+}};
+const encoded = (values) => {{
+  let text = "";
+  for (const byte of new Uint8Array(values.buffer)) text += String.fromCharCode(byte);
+  return btoa(text);
+}};
+const set = async (name, value) => {{
+  const control = document.querySelector(`[name="${{name}}"]`);
+  control[control.type === "checkbox" ? "checked" : "value"] = value;
+  const after = settled();
+  control.dispatchEvent(new Event(control.tagName === "SELECT" ? "change" : "input"));
+  return after;
+}};
+canvas.style.cssText = "flex: none; width: {SIZE}px; height: {SIZE}px";
+const first = await settled();
+"""
+"""The first picture, and what moves a control and waits for the next."""
+
+KEPT = """
+const getContext = HTMLCanvasElement.prototype.getContext;
+HTMLCanvasElement.prototype.getContext = function (kind, options) {
+  return getContext.call(this, kind, { ...options, preserveDrawingBuffer: true });
+};
+"""
+"""Has a canvas keep what it shows."""
+
+
+def light_file(folder: Path, kind: str) -> Path:
+    """A small map set of a kind, or a picture."""
+    picture = sky_file(folder)
+    if kind == "environment":
+        return picture
+    path = folder / f"{kind}.rsibr.exr"
+    if kind in BAKES:
+        bake = ["bake", *BAKES[kind][:1], "--environment", str(picture), *BAKES[kind][1:], "-o", str(path)]
+        assert run(bake) == 0
+    else:
+        write_map_set(path, mirror_map_set(size=64))
+    return path
+
+
+def page_of(source: Path) -> Path:
+    (page,) = drain(export_page(source, source.with_name("page.html"), SETTINGS, load_mesh("sphere")))
+    return page
+
+
+def radiance(said: str) -> np.ndarray:
+    return np.frombuffer(base64.b64decode(said), "<f4").reshape(SIZE, SIZE, 4)
+
+
+def preview(source: Path, look: Any = None, view: tuple[float, float, float] = VIEW) -> np.ndarray:
+    opened, mesh = open_map_set(source), load_mesh("sphere")
+    renderer = PreviewRenderer(opened.drawable())
+    shown = look or look_types()[opened.kind]()
+    surface = mesh.positions, mesh.normals, mesh.triangles
+    return renderer.draw(*surface, SETTINGS.camera(view), SIZE, shown)
+
+
+def check_alike(got: np.ndarray, wanted: np.ndarray) -> None:
+    """The same but for rounding: of texels by 1e-3 at most, of their weights in hardware to 1/256."""
+    assert np.abs(got[..., 3] - wanted[..., 3]).max() <= 1 / 16  # of sixteen samples at the edge
+    inside = wanted[..., 3] == 1.0
+    error, size = (got - wanted)[inside], wanted[inside][:, :3]
+    assert np.sqrt(np.mean(error**2)) < 1e-3 * np.sqrt(np.mean(size**2))
+    # But for the rim, where a sample of sixteen may be of another facet
+    assert np.quantile(np.abs(error).max(axis=1), 0.99) < size.max() / 256
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", [*BAKES, "radiance_views", "environment"])
+def test_a_page_of_every_kind_is_the_preview(kind: str, tmp_path: Path) -> None:
+    source = light_file(tmp_path, kind)
+    said = driven(page_of(source), SET_UP + "answer({pixels: encoded(first.pixels)});")
+    check_alike(radiance(said["pixels"]), preview(source))
+
+
+@pytest.mark.slow
+def test_dragging_and_sliders_change_what_the_preview_would(tmp_path: Path) -> None:
+    source = light_file(tmp_path, "kernel_pyramid")
+    script = """
+    const at = (name, clientX, clientY) =>
+      new PointerEvent(name, { pointerId: 1, clientX, clientY, bubbles: true });
+    canvas.dispatchEvent(at("pointerdown", 20, 20));
+    const turned = settled();
+    canvas.dispatchEvent(at("pointermove", 20 + SIZE / 4, 20));
+    canvas.dispatchEvent(at("pointerup", 20 + SIZE / 4, 20));
+    const dragged = (await turned).pixels;
+    await set("metallic", 1);
+    const changed = (await set("roughness", 0.25)).pixels;
+    const lit = (await set("turn", 45)).pixels;
+    answer({ dragged: encoded(dragged), changed: encoded(changed), lit: encoded(lit) });
+    """.replace("SIZE", str(SIZE))
+    said = driven(page_of(source), SET_UP + script)
+    # A quarter of the frame's width is an eighth of a turn of the eye, clockwise seen from above
+    x, y, z = VIEW
+    half = np.sqrt(0.5)
+    view = (half * (x + y), half * (y - x), z)
+    check_alike(radiance(said["dragged"]), preview(source, view=view))
+    metal = PrincipledLook(metallic=1.0, roughness=0.25)
+    check_alike(radiance(said["changed"]), preview(source, metal, view))
+    # Light that turns with the eye looks as before; turned alone by as much, as an eye that turned back
+    turned_eye = (half * (view[0] + view[1]), half * (view[1] - view[0]), z)
+    check_alike(radiance(said["lit"]), preview(source, metal, turned_eye))
+
+
+@pytest.mark.slow
+def test_a_page_shows_radiance_as_blender_does(tmp_path: Path) -> None:
+    source = light_file(tmp_path, "mip_chain")
+    script = """
+    const shown = {};
+    for (const name of ["Standard", "AgX"]) {
+      const menu = document.querySelector("[name=display]");
+      menu.value = name;
+      menu.dispatchEvent(new Event("change"));
+      document.querySelector("[name=exposure]").value = -1;
+      document.querySelector("[name=exposure]").dispatchEvent(new Event("input"));
+      await new Promise((done) => setTimeout(done, 2000)); // unpacking says nothing of its end
+      const { width, height } = canvas;
+      const bytes = new Uint8Array(4 * width * height);
+      const gl = canvas.getContext("webgl2");
+      gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+      gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+      shown[name] = encoded(bytes);
+    }
+    answer({ pixels: encoded(first.pixels), shown });
+    """
+    said = driven(page_of(source), SET_UP + script, before=KEPT)
+    linear = radiance(said["pixels"])
+    inside = linear[..., 3] == 1.0
+    for name, pixels in said["shown"].items():
+        with temporary_scene() as scene:
+            scene.display_settings.display_device = "sRGB"
+            scene.view_settings.view_transform = name
+            table = displayed_colours(scene, table_radiance())
+        bytes_ = np.frombuffer(base64.b64decode(pixels), np.uint8).reshape(SIZE, SIZE, 4)
+        wanted = displayed(table, 0.5 * linear[inside][:, :3])
+        assert np.abs(bytes_[inside][:, :3] / 255.0 - wanted).max() < 1.01 / 255
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("before", "sentence"),
+    [
+        ("HTMLCanvasElement.prototype.getContext = () => null;", "needs WebGL 2"),
+        ("WebGL2RenderingContext.prototype.getExtension = () => null;", "draws to float textures"),
+        ("delete window.DecompressionStream;", "needs a browser of 2023"),
+    ],
+)
+def test_a_page_says_what_a_browser_lacks(before: str, sentence: str, tmp_path: Path) -> None:
+    with pytest.raises(AssertionError, match=sentence):
+        driven(page_of(sky_file(tmp_path)), "", before=before)

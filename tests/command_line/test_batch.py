@@ -79,6 +79,16 @@ def test_methods_of_light_alone_take_no_material_and_sizes_multiply() -> None:
     assert sorted(outputs(path)) == sorted(f"{light}-{size}.exr" for light in ENVIRONMENTS for size in (4, 8))
 
 
+def test_what_a_batch_names_is_beside_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = write_batch(environments=["light/dawn.exr", "light/noon.exr:Sky", "forest"]).resolve()
+    (tmp_path / "elsewhere").mkdir()
+    monkeypatch.chdir(tmp_path / "elsewhere")
+    bakes = read_batch(path)
+    beside = {f"{tmp_path}/light/dawn.exr", f"{tmp_path}/light/noon.exr:Sky", "forest"}
+    assert {each.job.light.environment for each in bakes} == beside
+    assert {Path(each.job.output).parent for each in bakes} == {tmp_path / "maps"}
+
+
 def test_materials_are_what_each_method_takes() -> None:
     Path("gold.binary").touch()
     materials = ["copper", "Chrome", "*.binary", "car.blend:Red/dark", "ggx:alpha=0.2,f0=0.5"]

@@ -15,6 +15,7 @@ from ...core.options import Declared, declared_options, value_from_text
 from ...core.schema import decode, loads
 from ...files.kinds.registry import STORED
 from ...files.measured_files import MEASURED_FORMATS, measured_spec
+from ...files.pictures import split_layer
 from ...files.reading import opened
 from ...job import BakeJob
 from ...settings.light import Light
@@ -184,7 +185,9 @@ def _found(text: str, folder: Path) -> Sequence[str]:
         if not paths:
             raise InputFileError(f"Nothing is called {text} in {folder}: correct the batch.")
         return [f"{path}{rest}" for path in paths]
-    is_file = blend or (folder / file).is_file() or Path(file).suffix.lower() in MEASURED_FORMATS
+    is_file = (
+        blend or split_layer(folder / file)[0].is_file() or Path(file).suffix.lower() in MEASURED_FORMATS
+    )
     return [f"{folder / file}{rest}" if is_file else text]
 
 

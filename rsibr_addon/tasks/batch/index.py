@@ -70,7 +70,7 @@ def _figure(page: Path, bake: BatchBake, note: Note | None, failures: Mapping[st
     link = quote(relpath(bake.job.output, page.parent))
     told, picture, warnings = ["failed" if bake.job.output in failures else "not known"], "", []
     if note:
-        told = [note["told"], f"{note['seconds']:.2f} s" if note["seconds"] else "made before"]
+        told = [note["told"], f"{note['seconds']:.2f} s"] if note["seconds"] else ["there before this batch"]
         picture = f'<img alt="" src="data:image/png;base64,{note["picture"]}">'
         warnings = [f'<span class="warning">{escape(warning)}</span>' for warning in note["warnings"]]
     lines = [f'<a href="{link}">{escape(name)}</a>', escape(method), *map(escape, told), *warnings]

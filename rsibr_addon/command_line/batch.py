@@ -2,7 +2,6 @@
 
 import argparse
 import sys
-from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -66,9 +65,9 @@ def _listed(bakes: list[Any], console: Console) -> dict[str, Any]:
         there = ", exists" if Path(bake.job.output).exists() else ""
         console.say(f"{bake.job.output}: {bake.job.settings.LABEL}, {bake.title}{there}")
     seconds, disk = sum(cost.processor_seconds for cost in costs), sum(cost.disk for cost in costs)
-    environments = len(Counter(bake.environment for bake in bakes))
+    environments = len({bake.job.light.environment for bake in bakes})
     console.say(
-        f"{len(bakes)} bakes in {environments} environments: at most {seconds:.0f} s of processors and "
+        f"{len(bakes)} bakes in {environments} environments: about {seconds:.0f} s of processors and "
         f"{disk / 1e6:.0f} MB on disk"
     )
     outputs = [bake.job.output for bake in bakes]

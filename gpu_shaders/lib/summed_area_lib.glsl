@@ -104,8 +104,8 @@ vec3 box_mean(sampler2DArray table, vec3 unit, vec4 box)
   return power * unit / (turn * dot(row_weights, bands));
 }
 
-// Mean radiance over a footprint, of whose parts each has a box. Of less than a texel, the map interpolated in
-// the footprint's middle: the same except for the solid angles of the rows, in a quarter of the time.
+// Mean radiance over a footprint, of whose parts each has a box. Of less than a texel, the map interpolated
+// in the footprint's middle: the same except for the solid angles of the rows, in a quarter of the time.
 vec3 footprint_mean(
     sampler2D bordered, sampler2DArray table, vec3 unit, vec3 direction, vec3 corners[4])
 {

@@ -409,11 +409,11 @@ def test_a_comparison_is_a_job_with_a_page(tmp_path: Path, monkeypatch: pytest.M
     assert isinstance(job, CommandJob)
     assert parsed(job.arguments).output == comparison.output.parent
     chosen = bpy.context.scene.rsibr_bake
-    chosen.kind, chosen.mip_chain.size, chosen.mip_chain.filter = "mip_chain", "64", "box"
-    mips = output()
-    assert run_job(order().job(mips), tmp_path) == 0
+    chosen.kind, chosen.kernel_bank.size = "kernel_bank", "64"
+    bank = output()
+    assert run_job(order().job(bank), tmp_path) == 0
     with pytest.raises(MapSetError, match="is of a kind without a truth to compare with"):
-        comparison_of(bpy.context.scene, bpy.context.object, mips)
+        comparison_of(bpy.context.scene, bpy.context.object, bank)
 
 
 def test_one_material_is_compared_as_it_is_shown_and_own_ones_are_not(

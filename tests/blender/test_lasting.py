@@ -113,7 +113,7 @@ def test_an_override_keeps_what_was_set_there(tmp_path: Path, touched: bool) -> 
 def test_every_setting_is_kept_by_overrides() -> None:
     for group in (*properties.CLASSES, *bake_properties.CLASSES):
         for prop in group.bl_rna.properties:
-            derived = prop.identifier in ("map_set", "picture")
+            derived = prop.is_skip_save or prop.identifier in ("map_set", "picture")
             if prop.identifier not in bpy.types.PropertyGroup.bl_rna.properties and not derived:
                 assert prop.is_overridable, f"{group.__name__}.{prop.identifier}"
 

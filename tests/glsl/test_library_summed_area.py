@@ -89,6 +89,15 @@ def digit_by_hand(places: np.ndarray) -> np.ndarray:
 
 CORNERS = "vec3 corners[4] = vec3[4](in_0.xyz, in_1.xyz, in_2.xyz, in_3.xyz);"
 
+
+def within_by_hand(*arguments: np.ndarray) -> np.ndarray:
+    """The mean of four corners, by their shares of a square."""
+    *corners, place = arguments
+    x, y = place[:, :1], place[:, 1:]
+    shares = ((1.0 - x) * (1.0 - y), x * (1.0 - y), x * y, (1.0 - x) * y)
+    return sum(share * corner for share, corner in zip(shares, corners, strict=True))
+
+
 TWINS = {
     "footprint_box": Twin(
         "summed_area_lib.glsl",
@@ -96,6 +105,13 @@ TWINS = {
         footprints,
         lambda *corners: footprint_box(np.stack(corners, axis=1), WIDTH, HEIGHT),
         3e-6,  # two arc tangents, each 1e-6 at most
+    ),
+    "within": Twin(
+        "summed_area_lib.glsl",
+        f"{CORNERS} result_0.xyz = within(corners, in_4.xy);",
+        lambda: [*footprints(), single(np.random.default_rng(24).random((COUNT, 2)))],
+        within_by_hand,
+        4.0 * ULP * 3.0,  # four roundings of directions that are 3 long at most
     ),
     "cut": Twin(
         "summed_area_lib.glsl",

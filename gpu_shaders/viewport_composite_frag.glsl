@@ -1,6 +1,6 @@
-// Brings the previews of one frame to the display, at the depths that they were drawn at, where their coverage
-// is from `least` to `most`. Colours that are written here are encoded as sRGB on their way to the window, hence
-// the curve is undone. Where Blender itself brings radiance to the display, radiance is written.
+// Brings the previews of one frame to the display, at the depths that they were drawn at, where their
+// coverage is from `least` to `most`. Colours that are written here are encoded as sRGB on their way to the
+// window, hence the curve is undone. Where Blender itself brings radiance to the display, it is written.
 #include "lib/display_lib.glsl"
 #include "lib/false_colour_lib.glsl"
 #include "lib/transfer_curve_lib.glsl"

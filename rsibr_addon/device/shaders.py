@@ -5,7 +5,7 @@ Each raises a DeviceError where the driver refuses the program.
 
 import atexit
 from collections.abc import Callable, Mapping
-from functools import cache
+from functools import cache, wraps
 from threading import current_thread, main_thread
 
 import gpu
@@ -27,7 +27,12 @@ def kept_until_exit(build: Callable[[], gpu.types.GPUShader]) -> Callable[[], gp
     """
     cached = cache(lambda of_render: build())
     _kept.append(cached.cache_clear)
-    return lambda: cached(current_thread() is not main_thread())
+
+    @wraps(build)
+    def program() -> gpu.types.GPUShader:
+        return cached(current_thread() is not main_thread())
+
+    return program
 
 
 _kept: list[Callable[[], None]] = []

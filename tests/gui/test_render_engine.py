@@ -1,0 +1,60 @@
+"""The render engine in Blender's window: F12, while the window goes on."""
+
+from collections.abc import Callable
+
+Told = Callable[[str], dict]
+
+PRELUDE = """
+RENDER = importlib.import_module(ROOT + ".rsibr_addon.ui.render_engine")
+
+def scene_in_the_world():
+    bpy.ops.wm.save_as_mainfile(filepath="/job/render.blend")
+    scene = bpy.context.scene
+    scene.render.engine, scene.view_settings.view_transform = "RSIBR", "Standard"
+    scene.rsibr_bake.kernel_pyramid.size, scene.rsibr_render.samples = "256", 1
+    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.2, 0.4, 0.8, 1.0)
+    scene.render.dither_intensity = 0.0
+    scene.render.image_settings.media_type = "IMAGE"
+    scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "PNG", "8"
+    scene.render.filepath = "/job/render.png"
+    material = bpy.data.materials["Material"].node_tree.nodes["Principled BSDF"].inputs
+    material["Base Color"].default_value = (0.9, 0.5, 0.1, 1.0)
+    return scene
+
+def rendered(path="/job/render.png"):
+    image = bpy.data.images.load(path)
+    image.colorspace_settings.name = "Non-Color"
+    width, height = image.size
+    found = np.empty(4 * width * height, np.float32)
+    image.pixels.foreach_get(found)
+    bpy.data.images.remove(image)
+    return np.rint(255.0 * found).astype(int).reshape(height, width, 4)[..., :3]
+
+def f12(window_shown="NONE"):
+    # As the key does: in a thread of its own, while the window goes on
+    bpy.context.preferences.view.render_display_type = window_shown
+    with bpy.context.temp_override(window=window(), area=view(), region=region(view())):
+        assert bpy.ops.render.render("INVOKE_DEFAULT", write_still=True) == {"RUNNING_MODAL"}
+    while not bpy.app.is_job_running("RENDER"):
+        yield
+    while bpy.app.is_job_running("RENDER"):
+        yield
+    yield
+"""
+
+NOT_BAKED = """
+def scenario(told):
+    scene_in_the_world()
+    bpy.context.scene.render.resolution_percentage = 20
+    yield from f12()
+    told["world"] = rendered()[2, 2].tolist()
+    told["baked"] = len(list(Path("/job/rsibr").glob("*.rsibr.exr")))
+    told["held"] = len(session().renders._previews._map_sets.used)
+"""
+
+
+def test_f12_bakes_the_world_that_was_not_baked(told: Told) -> None:
+    answer = told(PRELUDE + NOT_BAKED)
+    assert answer["baked"] >= 1
+    assert answer["world"] == [124, 170, 231]
+    assert answer["held"] == 0

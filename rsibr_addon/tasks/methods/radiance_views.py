@@ -13,7 +13,7 @@ from ...core.geometry.camera import Camera
 from ...core.geometry.geodesic import geodesic_sphere
 from ...core.maps.sphere_map import fill_rim
 from ...core.options import to_plain
-from ...core.progress import Progress, Steps
+from ...core.progress import Progress, Steps, drain
 from ...core.warned import warn
 from ...files.atomic import written_aside
 from ...files.exr import Part, read_attributes, read_parts, write_parts
@@ -98,7 +98,9 @@ def bake(job: BakeJob[RadianceViewsSettings], recipe: Recipe) -> Steps[Baked]:
         RenderSettings(asked.size, asked.samples, asked.denoise, asked.seed + view)
         for view in range(asked.views)
     ]
-    captured = _Captured(asked, (yield from read_light(job)))
+    # Its own steps would be of another total than the views
+    yield Progress(0, asked.views, "reading the environment")
+    captured = _Captured(asked, drain(read_light(job)))
     captured.check_memory(job.output)
     folder = work_folder_beside(Path(job.output))
     with kept_parts(folder, {**recipe}):
@@ -107,7 +109,7 @@ def bake(job: BakeJob[RadianceViewsSettings], recipe: Recipe) -> Steps[Baked]:
             yield Progress(view, asked.views, f"rendering view {view + 1} of {asked.views}")
             if not _is_finished(path):
                 _write_view(path, captured.render(view, settings[view]))
-        path = yield from written(job, recipe, _map_set(captured, paths))
+        path = drain(written(job, recipe, _map_set(captured, paths)))
     figures = {"views": asked.views, "size": asked.size}
     return Baked(path, f"{asked.views} views of {asked.size}x{asked.size}", figures)
 

@@ -181,7 +181,7 @@ def test_a_capture_killed_after_it_named_its_output_needs_no_force(
     if not described:
         (partial / "job.json").unlink()  # it goes before the views do
     rendered.clear()
-    with pytest.raises(OutputFileError, match=r"exists: .*--force"):
+    with pytest.raises(OutputFileError, match=r"exists, made with other settings \(Seed 3, not 50\)"):
         drain(bake(changed(job, seed=50)))
     assert len(list(partial.glob("view*.exr"))) == 11
     drain(bake(job))
@@ -226,9 +226,7 @@ def test_a_damaged_view_is_rendered_again(job: BakeJob, partial: Path, rendered:
 
 def test_two_captures_do_not_meet(job: BakeJob) -> None:
     first = steps(job, 1)
-    second = bake(job)
-    with pytest.raises(OutputFileError, match=r"Another process is working in .*partial: wait for it"):
-        drain(second)
+    assert next(bake(job)).what == "waiting for another process that makes copper.rsibr.exr"
     first.close()
     drain(bake(job))
 

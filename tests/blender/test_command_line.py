@@ -209,7 +209,8 @@ def test_failure_is_1_on_both_streams(
     work.append(how)
     assert run(["info", "x", "--json"]) == 1
     out, err = capfd.readouterr()
-    assert json.loads(out) == {"ok": False, "error": sentence, "warnings": ["The sky is dark: light it."]}
+    told = {"ok": False, "error": sentence, "try_again": False, "warnings": ["The sky is dark: light it."]}
+    assert json.loads(out) == told
     assert f"rsibr: error: {sentence}" in err.splitlines()
 
 

@@ -1,6 +1,11 @@
-"""The render engine in Blender's window: F12, while the window goes on."""
+"""The render engine in a Blender of its own: F12, while the window goes on; an animation without a window."""
 
+import subprocess
 from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from rsibr.rsibr_addon.files.pictures import read_exr
 
 Told = Callable[[str], dict]
 
@@ -58,3 +63,30 @@ def test_f12_bakes_the_world_that_was_not_baked(told: Told) -> None:
     assert answer["baked"] >= 1
     assert answer["world"] == [124, 170, 231]
     assert answer["held"] == 0
+
+
+FILE = """
+import bpy
+scene = bpy.context.scene
+scene.rsibr_bake.kernel_pyramid.size, scene.rsibr_render.samples = "256", 1
+scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.2, 0.4, 0.8, 1.0)
+scene.render.resolution_percentage = 5
+cube = bpy.data.objects["Cube"]
+cube.keyframe_insert("location", frame=1)
+cube.location.x = 100.0
+cube.keyframe_insert("location", frame=2)
+bpy.ops.wm.save_as_mainfile(filepath="/job/animated.blend")
+"""
+
+
+def test_an_animation_without_a_window(
+    blender: Callable[..., subprocess.CompletedProcess[str]], job: Path
+) -> None:
+    assert blender("-b", "--python-expr", FILE).returncode == 0
+    frames = "-F", "OPEN_EXR", "-o", "/job/frame#", "-s", "1", "-e", "2", "-a"
+    rendered = blender("-b", "/job/animated.blend", "-E", "RSIBR", *frames)
+    assert rendered.returncode == 0, rendered.stderr
+    first, second = (read_exr(job / f"frame{number}.exr")[..., :3] for number in (1, 2))
+    blue = np.isclose(second, (0.2, 0.4, 0.8), rtol=1e-3)  # half floats
+    assert blue.all(), "the cube has left the picture"
+    assert 0.05 < np.mean(first != second) < 0.5

@@ -115,12 +115,12 @@ def test_antialiased_tables_are_means_over_the_pixel() -> None:
     maps = {role: rng.random((16, 32, 3)) for role in (Role.SPECULAR, Role.COAT)}
     weights = rng.random((len(Role), 1, 3))
     tables = ReflectionTables(maps, weights)
-    # The corners of a box of 4 x 2 texels, whose mean is by hand.
-    corners = equirect.direction_from_uv(np.array([(8, 6), (12, 6), (12, 8), (8, 8)]) / (32, 16))
+    # The corners of a box of 2 x 1 texels, which is not parted, and whose mean is by hand.
+    corners = equirect.direction_from_uv(np.array([(8, 6), (10, 6), (10, 7), (8, 7)]) / (32, 16))
     normal = view_dir = np.array([0.0, 0.0, 1.0])
-    solid_angle = equirect.texel_solid_angle(32, 16)[6:8, 8:12, None]
+    solid_angle = equirect.texel_solid_angle(32, 16)[6:7, 8:10, None]
     expected = sum(
-        weights[row, 0] * np.sum(maps[role][6:8, 8:12] * solid_angle, axis=(0, 1)) / solid_angle.sum()
+        weights[row, 0] * np.sum(maps[role][6:7, 8:10] * solid_angle, axis=(0, 1)) / solid_angle.sum()
         for row, role in ((1, Role.SPECULAR), (2, Role.COAT))
     )
     shown = reflect_tables(tables, normal, view_dir, TablesLook(antialiased=True), corners)

@@ -133,17 +133,18 @@ def scenario(told):
     cube.location, other.location = (-1.5, 0.0, 0.0), (1.5, 0.0, 0.0)
     part = view().spaces.active.region_3d
     part.view_rotation, part.view_distance = (0.7071, 0.7071, 0.0, 0.0), 12.0
+    part.view_perspective = "ORTHO"  # else each shows another of its sides
     in_bank(other).brdf = "lambert:kd=0.9"
-    material.brdf = "lambert:kd=0.3"
+    material.brdf = "lambert:kd=0.5"
     yield from drawn()
     told["dark and bright"] = left_and_right(pixels())
-    material.brdf, other.rsibr.kernel_bank.brdf = "lambert:kd=0.9", "lambert:kd=0.3"
+    material.brdf, other.rsibr.kernel_bank.brdf = "lambert:kd=0.9", "lambert:kd=0.5"
     yield from drawn()
     told["bright and dark"] = left_and_right(pixels())
     material.brdf = "gold"
     yield from drawn()
     told["faults"] = [session().previews.faults.message(item) for item in (cube, other)]
-    material.brdf = "lambert:kd=0.3"
+    material.brdf = "lambert:kd=0.5"
     yield from drawn()
     told["after"] = session().previews.faults.message(cube)
     told["both dark"] = left_and_right(pixels())

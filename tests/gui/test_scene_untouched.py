@@ -156,6 +156,7 @@ def scenario(told):
             ("accept", {}),
             ("reload_map_sets", {}),
             ("open_report", {"open_browser": False}),
+            ("export_page", {"filepath": "/job/untouched.html"}),
             ("cancel_bake", {"number": 0}),
             ("assign", {"filepath": path}),
             ("bake_inputs", {}),
@@ -176,7 +177,7 @@ def scenario(told):
     told["libraries"] = [os.path.isdir(each.path) for each in libraries][known:]
     yield from press_all(
         [
-            ("capture_environment", {"filepath": "/job/light.exr", "size": 16, "samples": 1, "use": True}),
+            ("capture_environment", CAPTURE),
             ("merge_brackets", BRACKET),
             ("unwrap_ball", BALL),
             ("assemble_faces", {"filepath": "/job/cube-px.png", "size": 16, "use": True}),
@@ -200,6 +201,7 @@ def scenario(told):
     yield from after("live light")
     told["pressed"] = sorted(pressed)
 
+CAPTURE = {"filepath": "/job/captured-light.exr", "size": 16, "samples": 1, "use": True}
 BALL = {"filepath": "/job/ball.exr", "circle": (32, 32, 20), "size": 16, "use": True}
 BRACKET = {"filepath": "/job/a.exr", "directory": "/job", "times": "0.1 0.5", "align": False}
 CONVERSION = {"filepath": "/job/ball.exr", "source_layout": "angular_map", "use": True}
@@ -236,9 +238,9 @@ def test_no_button_changes_anything_but_ours(told: Callable[[str], dict], job: P
         "lights": [
             "a-light.exr",
             "ball-light.exr",
+            "captured-light.exr",
             "converted-light.exr",
             "cube-light.exr",
-            "light.exr",
             "painting-light.exr",
         ],
         "bakes": [["done", ""]],

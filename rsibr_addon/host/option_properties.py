@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable
 from dataclasses import MISSING
 from enum import Enum
+from functools import cache
 from typing import Any, TypeVar
 
 import bpy
@@ -135,7 +136,7 @@ def replaced_options(options: type[Options], group: Any) -> set[str]:
     }
 
 
-def said_by(options: type[Options], group: Any) -> tuple[Any, ...]:
+def said_by(options: type, group: Any) -> tuple[Any, ...]:
     """All that properties say, to tell whether anything has changed; hashable, and never raises.
 
     Parameters
@@ -144,16 +145,26 @@ def said_by(options: type[Options], group: Any) -> tuple[Any, ...]:
         What `properties_of` made the properties of.
     group : bpy.types.PropertyGroup
     """
-    values = []
+    values = [getattr(group, name) for name in _names_of(options)]
+    return tuple(
+        each
+        if isinstance(each, str | float | int)
+        else frozenset(each)
+        if isinstance(each, set)
+        else tuple(each)
+        for each in values
+    )
+
+
+@cache
+def _names_of(options: type) -> tuple[str, ...]:
+    """Names of the properties that say options; found once, as every redraw of every object reads these."""
+    names = []
     for declared in declared_options(options):
-        name = property_name(declared)
-        value = getattr(group, name)
-        if isinstance(value, set):
-            value = frozenset(value)
-        values.append(value if isinstance(value, str | float | int | frozenset) else tuple(value))
+        names.append(property_name(declared))
         if declared.option.switch is not None:
-            values.append(getattr(group, f"use_{name}"))
-    return tuple(values)
+            names.append(f"use_{property_name(declared)}")
+    return tuple(names)
 
 
 def show_option(declared: Declared, group: Any, value: Any) -> None:

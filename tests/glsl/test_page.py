@@ -10,7 +10,6 @@ from typing import Any
 import bpy
 import numpy as np
 import pytest
-import rsibr
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import RangeError
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
@@ -112,25 +111,22 @@ def test_a_mesh_that_is_too_large_is_refused(monkeypatch: pytest.MonkeyPatch) ->
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("view")
 def test_the_operator_shows_the_selected_objects(tmp_path: Path) -> None:
     page = tmp_path / "page.html"
-    rsibr.register()
-    try:
-        cube = bpy.context.object
-        bpy.ops.rsibr.assign(filepath=str(chain_file(tmp_path)))
-        assert bpy.ops.rsibr.export_page(filepath=str(page)) == {"FINISHED"}
-        alone = content_of(page)["mesh"]
-        assert alone["triangles"]["shape"] == [3, 12]
-        other = cube.copy()
-        bpy.context.collection.objects.link(other)
-        other.location, other.scale = (4.0, 0.0, 0.0), (-1.0, 1.0, 2.0)
-        other.select_set(True)
-        with pytest.raises(RuntimeError, match=r"page\.html exists"):
-            bpy.ops.rsibr.export_page(filepath=str(page))
-        both = tmp_path / "both.html"
-        assert bpy.ops.rsibr.export_page(filepath=str(both)) == {"FINISHED"}
-    finally:
-        rsibr.unregister()
+    cube = bpy.context.object
+    bpy.ops.rsibr.assign(filepath=str(chain_file(tmp_path)))
+    assert bpy.ops.rsibr.export_page(filepath=str(page)) == {"FINISHED"}
+    alone = content_of(page)["mesh"]
+    assert alone["triangles"]["shape"] == [3, 12]
+    other = cube.copy()
+    bpy.context.collection.objects.link(other)
+    other.location, other.scale = (4.0, 0.0, 0.0), (-1.0, 1.0, 2.0)
+    other.select_set(True)
+    with pytest.raises(RuntimeError, match=r"page\.html exists"):
+        bpy.ops.rsibr.export_page(filepath=str(page))
+    both = tmp_path / "both.html"
+    assert bpy.ops.rsibr.export_page(filepath=str(both)) == {"FINISHED"}
     mesh = SimpleNamespace(
         **{name: unpacked(packed, signed=True).T / 32767 for name, packed in content_of(both)["mesh"].items()}
     )

@@ -149,6 +149,15 @@ def test_only_its_own_modules_and_the_registries_know_a_kind(path: Path) -> None
     assert not [kind for kind in STORED for word in named if kind in word]
 
 
+@pytest.mark.parametrize(
+    "path", sorted((ROOT / "rsibr_addon" / "host").glob("*.py")), ids=lambda path: path.stem
+)
+def test_host_s_modules_import_bpy_before_what_it_brings(path: Path) -> None:
+    names = [imported[0] for _, imported in imports(path)]
+    brought = [names.index(name) for name in ("bmesh", "mathutils") if name in names]
+    assert not brought or names.index("bpy") < min(brought)
+
+
 def test_state_of_the_running_extension_is_its_session_s() -> None:
     found = set()
     for path in MODULES:

@@ -10,8 +10,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-import bmesh
 import bpy
+
+# isort: split
+import bmesh  # exists, outside Blender, once bpy is imported
 import numpy as np
 
 from ..core.conventions import Array, Indices

@@ -1,5 +1,6 @@
 """Blender's working colour space, which a file's author may choose, and Rec. 709."""
 
+import bpy as bpy  # Outside Blender, the module mathutils exists once bpy is imported.
 import numpy as np
 from mathutils import Color
 

@@ -279,3 +279,25 @@ def test_nobody_waits_for_what_nobody_wants(
     assert not previews.is_busy
     disk.rest()
     assert previews._map_sets.used == {}
+
+
+def test_a_look_that_needs_another_table_leaves_the_last_one(
+    draw: Draw, written: dict[str, MapSet], disk: SlowDisk, previews: Previews
+) -> None:
+    item = shade(next(path for path, each in written.items() if each.kind == "reflection_tables"))
+    disk.may_go.set()
+    draw(previews)
+    disk.rest()
+    first, look = draw(previews), item.rsibr.reflection_tables
+    assert first.any()
+    look.diffuse = "lambert:kd=0.2"
+    darker = draw(previews)
+    assert not np.array_equal(darker, first)
+    assert not previews.messages(item)
+    look.specular = "phong:ks=0.5,n=7"
+    assert np.array_equal(draw(previews), darker)
+    (message,) = previews.messages(item)
+    assert "specular table is another one" in message
+    look.specular, look.diffuse = "", ""
+    assert np.array_equal(draw(previews), first)
+    assert not previews.messages(item)

@@ -1,7 +1,11 @@
 """How objects are shaded: what their settings say, or what can be drawn of it as yet."""
 
+from dataclasses import dataclass
 from typing import Any
+from weakref import WeakKeyDictionary
 
+from ...core.errors import RangeError
+from ...device.drawing import GpuMapSet, WithInputs
 from ...device.own_materials import OwnMaterials
 from ...files.kinds.registry import look_types
 from ...host.option_properties import options_of, said_by
@@ -31,6 +35,23 @@ def _settings(item: Any, kind: str, other: bool) -> Any:
     return getattr(item.rsibr.other if other else item.rsibr, kind)
 
 
+@dataclass(frozen=True)
+class _Drawn:
+    """A look that was asked of a map set.
+
+    Attributes
+    ----------
+    asked, look : object
+        What was asked for, and what is drawn: the last look before it where the map set does not serve that.
+    refusal : str
+        Why it is not drawn; empty where it is.
+    """
+
+    asked: object
+    look: Any
+    refusal: str = ""
+
+
 class Looks:
     """Looks of objects; of kinds that are live, those that were asked for since the last that is there.
 
@@ -43,13 +64,22 @@ class Looks:
     def __init__(self) -> None:
         self._types = look_types()
         self._made: dict[tuple[int, bool], tuple[object, Any]] = {}  # what was said last, and the look
+        self._drawn: WeakKeyDictionary[GpuMapSet, dict[tuple[int, bool], _Drawn]] = WeakKeyDictionary()
         self.asked: dict[tuple[int, str, bool], list[Any]] = {}
 
     def of(self, surface: Surface, map_set: ViewportMapSet, other: bool) -> Any:
-        """An object's look: as before, while a new one is being made; None before there is any."""
+        """An object's look: as before, while a new one is being made; None before there is any.
+
+        What the map set does not serve leaves the look as it was.
+
+        Raises
+        ------
+        RangeError
+            The map set does not serve the first look that is asked of it.
+        """
         look = self._said(surface.item, map_set.kind, other)
         if not KINDS[map_set.kind].live:
-            return look
+            return self._served(map_set.gpu_map_set, (surface.item.session_uid, other), look)
         asked = self.asked.setdefault((surface.item.session_uid, surface.path, other), [])
         if look in asked:
             asked.remove(look)
@@ -60,15 +90,27 @@ class Looks:
         return newest
 
     def warnings(self, item: Any, map_set: ViewportMapSet) -> list[str]:
-        """What the makers of an object's looks have to say of them."""
+        """What the makers of an object's looks have to say of them, or why the last ones are still shown."""
         if not KINDS[map_set.kind].live:
-            return []
+            drawn = self._drawn.get(map_set.gpu_map_set, {})
+            both = (drawn.get((item.session_uid, other)) for other in (False, True))
+            return list(dict.fromkeys(each.refusal for each in both if each and each.refusal))
         looks = [self._said(item, map_set.kind, other) for other in (False, True)]
         return [warning for look in dict.fromkeys(looks) if (warning := map_set.gpu_map_set.warning(look))]
 
     def keep(self, paths: set[str]) -> None:
         """Forget what was asked of other map sets."""
         self.asked = {shown: looks for shown, looks in self.asked.items() if shown[1] in paths}
+
+    def _served(self, map_set: GpuMapSet, shown: tuple[int, bool], asked: Any) -> Any:
+        """A look as a map set can draw it; it is tried once, as every frame asks for it."""
+        if not isinstance(map_set, WithInputs):
+            return asked
+        drawn = self._drawn.setdefault(map_set, {})
+        before = drawn.get(shown)
+        if before is None or before.asked is not asked:
+            drawn[shown] = _tried(map_set, asked, before)
+        return drawn[shown].look
 
     def _said(self, item: Any, kind: str, other: bool) -> Any:
         """The look that an object's properties say; it is checked once, as every frame asks for it."""
@@ -79,3 +121,13 @@ class Looks:
             look = options_of(self._types[kind], group)
             self._made[shown] = said, look
         return look
+
+
+def _tried(map_set: WithInputs, asked: Any, before: _Drawn | None) -> _Drawn:
+    try:
+        map_set.inputs(asked)
+    except RangeError as error:
+        if before is None:
+            raise
+        return _Drawn(asked, before.look, str(error))
+    return _Drawn(asked, asked)

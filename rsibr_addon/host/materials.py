@@ -24,6 +24,15 @@ ORIGINAL = "RSIBR_ORIGINAL"
 NAMES_SHOWN = 8
 """Number of a file's materials that are listed when an unknown one is asked for."""
 
+GENERATED = (
+    "generated_type",
+    "generated_width",
+    "generated_height",
+    "use_generated_float",
+    "generated_color",
+)
+"""What makes a generated tile of an image."""
+
 MATRIX_DIGITS = 5
 """Decimals of an object's matrix: sines in it may differ in their last digits between processors."""
 
@@ -252,15 +261,28 @@ def _content(value: Any) -> Any:
 
 
 def _image_content(image: bpy.types.Image) -> Any:
-    return [image.source, image.alpha_mode, image.colorspace_settings.name, _image_digest(image)]
+    return [image.source, image.alpha_mode, image.colorspace_settings.name, _pixels_content(image)]
 
 
-def _image_digest(image: bpy.types.Image) -> str:
-    file = Path(bpy.path.abspath(image.filepath, library=image.library))
-    if image.packed_file:
-        return hashlib.sha256(image.packed_file.data).hexdigest()
-    if image.filepath and file.is_file() and not image.is_dirty:
-        return digest(file)
+def _pixels_content(image: bpy.types.Image) -> Any:
+    """What an image's pixels are made of, by which they need not be read; themselves where nothing else is."""
+    if image.is_dirty:
+        return _pixels_digest(image)
+    if packed := [each.packed_file.data for each in image.packed_files]:
+        return [hashlib.sha256(data).hexdigest() for data in packed]
+    tiles = [_tile_content(image, tile) for tile in image.tiles]
+    return _pixels_digest(image) if None in tiles else tiles
+
+
+def _tile_content(image: bpy.types.Image, tile: bpy.types.UDIMTile) -> Any:
+    """What Blender generates a tile by, or its file's hash; None where it is neither generated nor a file."""
+    if image.source == "GENERATED" or tile.is_generated_tile:
+        return [tile.number, *(_content(getattr(tile, name)) for name in GENERATED)]
+    file = Path(bpy.path.abspath(image.filepath, library=image.library).replace("<UDIM>", str(tile.number)))
+    return [tile.number, digest(file)] if image.filepath and file.is_file() else None
+
+
+def _pixels_digest(image: bpy.types.Image) -> str:
     pixels = np.empty(len(image.pixels), dtype=np.float32)
     image.pixels.foreach_get(pixels)
-    return hashlib.sha256(pixels.tobytes()).hexdigest()
+    return hashlib.sha256(pixels).hexdigest()

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.brdf.cycles_presets import PRESETS
 from rsibr.rsibr_addon.core.errors import InputFileError, SceneError
+from rsibr.rsibr_addon.host import materials
 from rsibr.rsibr_addon.host.materials import fingerprint, lasting_spec, load_material, material_name
 from rsibr.rsibr_addon.host.shape_dependence import shape_dependence
 
@@ -139,6 +140,7 @@ CHANGES: dict[str, Callable[[bpy.types.Material], None]] = {
         m.node_tree.nodes["Principled BSDF"].inputs["Base Color"],
     ),
     "pixels": lambda m: bpy.data.images["picture"].pixels.__setitem__(0, 0.5),
+    "what is generated": lambda m: setattr(bpy.data.images["picture"], "generated_type", "UV_GRID"),
     "a colour space": lambda m: setattr(bpy.data.images["picture"].colorspace_settings, "name", "Non-Color"),
     "a muted node": lambda m: setattr(m.node_tree.nodes["RGB Curves"], "mute", True),
 }
@@ -180,6 +182,46 @@ def test_an_image_file_counts_by_content(material: bpy.types.Material, tmp_path:
         material.node_tree.nodes["Image Texture"].image = bpy.data.images.load(str(tmp_path / name))
         prints.append(fingerprint(material))
     assert prints[0] == prints[1] != prints[2]
+
+
+def test_pixels_count_where_an_image_is_packed_and_painted(material: bpy.types.Material) -> None:
+    image = bpy.data.images["picture"]
+    image.pack()
+    packed = fingerprint(material)
+    assert fingerprint(material) == packed
+    image.pixels[0] = 0.5
+    painted = fingerprint(material)
+    image.pixels[0] = 0.7
+    assert len({packed, painted, fingerprint(material)}) == 3
+
+
+def test_every_tile_of_an_image_counts(material: bpy.types.Material, tmp_path: Path) -> None:
+    painted = bpy.data.images.new("tile", 4, 4)
+    tiled = bpy.data.images.new("tiled", 4, 4, tiled=True)
+    for number in (1001, 1002):
+        painted.save(filepath=str(tmp_path / f"{number}.png"))
+    tiled.filepath = str(tmp_path / "<UDIM>.png")
+    tiled.tiles.new(1002)
+    tiled.reload()
+    material.node_tree.nodes["Image Texture"].image = tiled
+    before = fingerprint(material)
+    painted.pixels[0] = 0.5
+    painted.save(filepath=str(tmp_path / "1002.png"))
+    assert fingerprint(material) != before
+
+
+def test_pixels_are_read_of_nothing_but_what_is_painted(
+    material: bpy.types.Material, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(materials, "_pixels_digest", lambda image: pytest.fail(f"{image.name} is read"))
+    image = bpy.data.images["picture"]
+    fingerprint(material)
+    image.filepath_raw, image.file_format = str(tmp_path / "picture.png"), "PNG"
+    image.save()
+    fingerprint(material)
+    image.pack()
+    assert image.packed_files
+    fingerprint(material)
 
 
 def linked(material: bpy.types.Material, kind: str, output: str | int, target: str = "Base Color") -> None:

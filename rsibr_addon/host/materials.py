@@ -265,7 +265,7 @@ def _image_content(image: bpy.types.Image) -> Any:
 
 
 def _pixels_content(image: bpy.types.Image) -> Any:
-    """What an image's pixels are made of, by which they need not be read; themselves where nothing else is."""
+    """What an image's pixels are made of, so that they need not be read; themselves if nothing else is."""
     if image.is_dirty:
         return _pixels_digest(image)
     if packed := [each.packed_file.data for each in image.packed_files]:

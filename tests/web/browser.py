@@ -2,13 +2,14 @@
 
 import json
 import os
+import shlex
 import subprocess
 import tempfile
 import threading
 from collections.abc import Callable
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 TESTS = Path(__file__).parent
 PLACES = {
@@ -47,11 +48,14 @@ class _Handler(SimpleHTTPRequestHandler):
         self.wfile.write(text)
 
     def do_POST(self) -> None:
-        said = self.rfile.read(int(self.headers["Content-Length"]))
+        said = json.loads(self.rfile.read(int(self.headers["Content-Length"])))
+        if self.path == "/browser":
+            self.server.browser.send(*said)  # type: ignore[attr-defined]
+        else:
+            self.server.said = said  # type: ignore[attr-defined]
+            self.server.answered.set()  # type: ignore[attr-defined]
         self.send_response(200)
         self.end_headers()
-        self.server.said = json.loads(said)  # type: ignore[attr-defined]
-        self.server.answered.set()  # type: ignore[attr-defined]
 
     def log_message(self, *_: Any) -> None:
         pass
@@ -76,14 +80,15 @@ def driven(page: Path, script: str, before: str = "") -> dict[str, Any]:
     page : Path
         One of `tasks.export.page`.
     script : str
-        Runs after the page's own, and gives its answer to `answer`.
+        Runs after the page's own, and gives its answer to `answer`. Its `browser(METHOD, PARAMETERS)` has
+        Chromium's DevTools protocol do what a script cannot: real touches, keys and sizes of screens.
     before : str
         Runs before the page's own.
 
     Raises
     ------
     AssertionError
-        It did not answer, or told of trouble.
+        It did not answer, or told of trouble that `window.expectsTrouble`, set by `before`, did not foresee.
     """
 
     def address(host: str) -> str:
@@ -97,9 +102,10 @@ def driven(page: Path, script: str, before: str = "") -> dict[str, Any]:
 
 DRIVER = """<script type="module">
 const answer = (said) => fetch("HOST", {method: "POST", mode: "no-cors", body: JSON.stringify(said)});
+const browser = (...command) => fetch("HOST/browser", {method: "POST", mode: "no-cors", body: JSON.stringify(command)});
 const failed = (error) => answer({error: String(error)});
 const trouble = document.querySelector("#trouble");
-const look = () => trouble.hidden || failed(trouble.textContent);
+const look = () => trouble.hidden || window.expectsTrouble || failed(trouble.textContent);
 new MutationObserver(look).observe(trouble, {attributes: true});
 look();
 (async () => {
@@ -107,6 +113,55 @@ SCRIPT
 })().catch(failed);
 </script>"""
 """A script that asks a page: HOST takes its answers."""
+
+
+class _Browser:
+    """Chromium, with its DevTools protocol on the pipes 3 and 4: JSON that ends with a zero byte."""
+
+    def __init__(self, command: list[str], log: IO[str]) -> None:
+        (commands, self._commands), (self._answers, answers) = os.pipe(), os.pipe()
+        pipes = f"exec 3<&{commands} 4>&{answers}; exec {shlex.join(command)} --remote-debugging-pipe"
+        self._process = subprocess.Popen(
+            ["bash", "-c", pipes], stdout=subprocess.DEVNULL, stderr=log, pass_fds=(commands, answers)
+        )
+        os.close(commands)
+        os.close(answers)
+        self._number, self._read, self._session, self._turn = 0, b"", "", threading.Lock()
+
+    def send(self, method: str, parameters: dict[str, Any]) -> None:
+        """Have the page's tab do something, and wait until it is done."""
+        with self._turn:
+            if not self._session:
+                targets = self._done("Target.getTargets", {})["targetInfos"]
+                page = next(each["targetId"] for each in targets if each["type"] == "page")
+                attached = self._done("Target.attachToTarget", {"targetId": page, "flatten": True})
+                self._session = attached["sessionId"]
+            self._done(method, parameters)
+
+    def end(self) -> None:
+        """End it."""
+        self._process.terminate()
+        self._process.wait()
+        os.close(self._commands)
+        os.close(self._answers)
+
+    def _done(self, method: str, parameters: dict[str, Any]) -> dict[str, Any]:
+        self._number += 1
+        message = {"id": self._number, "method": method, "params": parameters}
+        if self._session:
+            message["sessionId"] = self._session
+        os.write(self._commands, json.dumps(message).encode() + b"\0")
+        while True:
+            while b"\0" not in self._read:
+                read = os.read(self._answers, 2**16)
+                assert read, "Chromium has ended"
+                self._read += read
+            first, _, self._read = self._read.partition(b"\0")
+            said = json.loads(first)
+            if said.get("id") == self._number:
+                assert "error" not in said, said["error"]
+                result: dict[str, Any] = said["result"]
+                return result
 
 
 def _answer(
@@ -123,13 +178,12 @@ def _answer(
         tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile,
         tempfile.TemporaryFile("w+", errors="replace") as log,  # a pipe that nobody reads would fill up
     ):
-        command = [*CHROMIUM, f"--user-data-dir={profile}", "--remote-debugging-port=0", address]
-        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=log)
+        browser = _Browser([*CHROMIUM, f"--user-data-dir={profile}", address], log)
+        server.browser = browser  # type: ignore[attr-defined]
         try:
             answered = server.answered.wait(PATIENCE)  # type: ignore[attr-defined]
         finally:
-            process.terminate()
-            process.wait()
+            browser.end()
             log.seek(0)
             told = log.read()
             server.shutdown()

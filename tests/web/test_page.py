@@ -126,12 +126,11 @@ def test_a_page_of_every_kind_is_the_preview(kind: str, tmp_path: Path) -> None:
 def test_dragging_and_sliders_change_what_the_preview_would(tmp_path: Path) -> None:
     source = light_file(tmp_path, "kernel_pyramid")
     script = """
-    const at = (name, clientX, clientY) =>
-      new PointerEvent(name, { pointerId: 1, clientX, clientY, bubbles: true });
-    canvas.dispatchEvent(at("pointerdown", 20, 20));
+    const mouse = (type, x, y) => browser("Input.dispatchMouseEvent", { type, x, y, button: "left", buttons: 1 });
+    await mouse("mousePressed", 20, 20);
     const turned = settled();
-    canvas.dispatchEvent(at("pointermove", 20 + SIZE / 4, 20));
-    canvas.dispatchEvent(at("pointerup", 20 + SIZE / 4, 20));
+    await mouse("mouseMoved", 20 + SIZE / 4, 20);
+    await mouse("mouseReleased", 20 + SIZE / 4, 20);
     const dragged = (await turned).pixels;
     await set("metallic", 1);
     const changed = (await set("roughness", 0.25)).pixels;
@@ -197,3 +196,66 @@ def test_a_page_shows_radiance_as_blender_does(tmp_path: Path) -> None:
 def test_a_page_says_what_a_browser_lacks(before: str, sentence: str, tmp_path: Path) -> None:
     with pytest.raises(AssertionError, match=sentence):
         driven(page_of(sky_file(tmp_path)), "", before=before)
+
+
+def widths(said: dict[str, str]) -> dict[str, int]:
+    """How many pixels wide the object is in each picture."""
+    return {name: int((radiance(text)[..., 3] > 0.5).any(axis=0).sum()) for name, text in said.items()}
+
+
+@pytest.mark.slow
+def test_fingers_and_keys_orbit_and_magnify(tmp_path: Path) -> None:
+    script = """
+    const fingers = async (type, ...at) =>
+      browser("Input.dispatchTouchEvent", { type, touchPoints: at.map(([x, y], id) => ({ x, y, id })) });
+    await browser("Emulation.setTouchEmulationEnabled", { enabled: true, maxTouchPoints: 2 });
+    const after = async (act) => {
+      const next = settled();
+      await act();
+      return encoded((await next).pixels);
+    };
+    const key = (named) => after(async () => {
+      await browser("Input.dispatchKeyEvent", { type: "keyDown", key: named });
+      await browser("Input.dispatchKeyEvent", { type: "keyUp", key: named });
+    });
+    canvas.focus();
+    const small = [];
+    for (let time = 0; time < 8; time++) small.push(await key("-"));
+    const away = small[small.length - 1];
+    const pinched = await after(async () => {
+      await fingers("touchStart", [38, 48], [58, 48]);
+      await fingers("touchMove", [28, 48], [68, 48]); // from 20 pixels apart to 40
+      await fingers("touchEnd");
+    });
+    const scale = visualViewport.scale;
+    const right = await key("ArrowRight");
+    const left = await key("ArrowLeft");
+    answer({ widths: { first: encoded(first.pixels), away, pinched }, right, left, pinched, scale });
+    """
+    said = driven(page_of(light_file(tmp_path, "mip_chain")), SET_UP + script)
+    seen = widths(said["widths"])
+    assert seen["first"] >= SIZE - 2
+    assert abs(seen["away"] - SIZE / 1.1**8) <= 2
+    assert abs(seen["pinched"] - min(2 * SIZE / 1.1**8, SIZE)) <= 2
+    assert said["scale"] == 1, "the browser itself magnified the page"
+    assert not np.allclose(radiance(said["right"]), radiance(said["pinched"]), atol=1e-2)
+    assert np.allclose(radiance(said["left"]), radiance(said["pinched"]), atol=1e-4)
+
+
+@pytest.mark.slow
+def test_a_page_goes_on_after_its_context_was_lost(tmp_path: Path) -> None:
+    script = """
+    await set("roughness", 0.8);
+    const before = await set("turn", 90);
+    const lose = canvas.getContext("webgl2").getExtension("WEBGL_lose_context");
+    lose.loseContext();
+    await new Promise((done) => setTimeout(done, 100));
+    const again = settled();
+    lose.restoreContext();
+    const after = await again;
+    answer({ before: encoded(before.pixels), after: encoded(after.pixels), told: !document.querySelector("#trouble").hidden });
+    """
+    source = light_file(tmp_path, "mip_chain")
+    said = driven(page_of(source), SET_UP + script, before="window.expectsTrouble = true;")
+    assert not said["told"]
+    assert np.array_equal(radiance(said["before"]), radiance(said["after"]))

@@ -3,6 +3,15 @@
 const SAMPLES = 4; // Along each side of a pixel at rest; one while something moves
 const SHARPEST = 2; // Pixels of the picture to a pixel of CSS
 
+const KEYS = {
+  ArrowLeft: (camera) => camera.orbit(-1 / 36, 0),
+  ArrowRight: (camera) => camera.orbit(1 / 36, 0),
+  ArrowUp: (camera) => camera.orbit(0, 1 / 36),
+  ArrowDown: (camera) => camera.orbit(0, -1 / 36),
+  "+": (camera) => camera.magnify(1.1),
+  "-": (camera) => camera.magnify(1 / 1.1),
+};
+
 const canvas = document.querySelector("canvas");
 
 function say(sentence) {
@@ -17,6 +26,8 @@ class Page {
     this.picture = picture;
     this.camera = new Camera(content.view, content.angle);
     this.exposure = content.exposure;
+    this.display = content.display;
+    this.block = new Float32Array(content.block);
     this.turn = 0;
     this.waiting = [];
     this.samples = 1;
@@ -28,16 +39,29 @@ class Page {
     if (this.picture.coarse) {
       say("This device does not interpolate 32-bit float textures, so the picture may show steps.");
     }
-    await this.picture.show(this.content.displays[this.content.display]);
+    await this.picture.show(this.content.displays[this.display]);
+    document.querySelector("#waiting").hidden = true;
+    document.querySelector("#reset").hidden = false;
     this.fillPanel();
     this.listen();
     new ResizeObserver(() => this.resize()).observe(canvas);
+    window.addEventListener("resize", () => this.resize()); // also of pixels of another size
+    this.resize();
+  }
+
+  // Drivers take a context away, as from a page that was long in the background, and give another.
+  async restore() {
+    const picture = new Picture(canvas);
+    await picture.load(this.content);
+    await picture.show(this.content.displays[this.display]);
+    this.picture = picture;
+    document.querySelector("#trouble").hidden = true;
     this.resize();
   }
 
   fillPanel() {
     const panel = new Panel(document.querySelector("#settings"));
-    const { block } = this.picture;
+    const { block } = this;
     const moved = () => this.moved();
     const more = document.querySelector("#more");
     for (const told of this.content.parameters) {
@@ -57,8 +81,9 @@ class Page {
     });
     const names = Object.keys(this.content.displays);
     const display = { name: "display", label: "View", help: "How radiance is shown" };
-    panel.menu(display, names, names.indexOf(this.content.display), async (number) => {
-      await this.picture.show(this.content.displays[names[number]]);
+    panel.menu(display, names, names.indexOf(this.display), async (number) => {
+      this.display = names[number];
+      await this.picture.show(this.content.displays[this.display]);
       this.ask();
     });
     const reset = () => {
@@ -96,7 +121,7 @@ class Page {
     const finest = this.samples === SAMPLES;
     const tiles = this.waiting.splice(0, finest ? 1 : this.waiting.length);
     for (const tile of tiles) {
-      this.picture.draw(this.camera, this.turn, tile, this.samples);
+      this.picture.draw(this, tile, this.samples);
     }
     this.picture.present(this.exposure);
     if (tiles.length && !this.waiting.length) {
@@ -120,10 +145,13 @@ class Page {
       return Math.hypot(a.x - b.x, a.y - b.y);
     };
     canvas.addEventListener("pointerdown", (event) => {
-      fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
-      canvas.classList.add("held");
+      if (event.button === 0) {
+        canvas.setPointerCapture(event.pointerId); // or a drag that ends outside of a frame would not end
+        fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+        canvas.classList.add("held");
+      }
     });
-    window.addEventListener("pointermove", (event) => {
+    canvas.addEventListener("pointermove", (event) => {
       const finger = fingers.get(event.pointerId);
       if (!finger) {
         return;
@@ -139,27 +167,35 @@ class Page {
       }
       this.moved();
     });
-    for (const end of ["pointerup", "pointercancel"]) {
-      window.addEventListener(end, (event) => {
-        fingers.delete(event.pointerId);
-        canvas.classList.toggle("held", fingers.size > 0);
-      });
-    }
+    canvas.addEventListener("lostpointercapture", (event) => {
+      fingers.delete(event.pointerId);
+      canvas.classList.toggle("held", fingers.size > 0);
+    });
     canvas.addEventListener("wheel", (event) => {
       event.preventDefault();
-      this.camera.magnify(Math.exp(-event.deltaY / 500));
+      const pinched = event.ctrlKey ? 10 : 1; // Two fingers on a touch pad, whose steps are small
+      this.camera.magnify(Math.exp((-pinched * event.deltaY) / 500));
       this.moved();
     });
     canvas.addEventListener("keydown", (event) => {
-      const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
-      if (step) {
+      const act = KEYS[event.key];
+      if (act && !event.ctrlKey && !event.metaKey && !event.altKey) {
         event.preventDefault();
-        this.camera.orbit(step[0] / 36, step[1] / 36);
+        act(this.camera);
         this.moved();
       }
     });
-    canvas.addEventListener("webglcontextlost", () => say("The graphics driver has given up: load the page again."));
+    canvas.addEventListener("webglcontextlost", (event) => {
+      event.preventDefault(); // asks for another
+      say("The graphics driver has stopped this page, which waits for it: load the page again if nothing comes.");
+    });
+    canvas.addEventListener("webglcontextrestored", () => this.restore().catch(failed));
   }
+}
+
+function failed(error) {
+  say(error instanceof Missing ? error.message : `This page is damaged: ${error.message}`);
+  throw error;
 }
 
 async function begin() {
@@ -170,7 +206,4 @@ async function begin() {
   await new Page(content, new Picture(canvas)).start();
 }
 
-begin().catch((error) => {
-  say(error instanceof Missing ? error.message : `This page is damaged: ${error.message}`);
-  throw error;
-});
+begin().catch(failed);

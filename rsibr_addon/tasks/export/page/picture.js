@@ -38,7 +38,6 @@ class Picture {
       this.textures[name] = this.texture(packed, size ? [size[0] - 1, size[1] - 1, 3] : packed.size, values);
     }
     await this.loadMesh(content.mesh);
-    this.block = new Float32Array(content.block);
     this.buffers = ["DrawBlock", "LookBlock"].map((name, slot) => {
       const program = this.programs.surface;
       gl.uniformBlockBinding(program, gl.getUniformBlockIndex(program, name), slot);
@@ -184,7 +183,7 @@ class Picture {
     return found;
   }
 
-  draw(camera, turn, tile, samples) {
+  draw({ camera, turn, block }, tile, samples) {
     const gl = this.gl;
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.tile.framebuffer);
     gl.viewport(0, 0, tile.width * samples, tile.height * samples);
@@ -193,7 +192,7 @@ class Picture {
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
     this.fill(0, this.drawBlock(camera, turn, tile));
-    this.fill(1, this.block);
+    this.fill(1, block);
     this.use("surface", this.textures, {});
     gl.bindVertexArray(this.mesh);
     gl.drawElements(gl.TRIANGLES, this.corners, gl.UNSIGNED_INT, 0);

@@ -2,16 +2,46 @@
 
 import argparse
 import sys
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from ..core.errors import NotNowError, RsibrError
+from ..core.errors import InputFileError, NotNowError, RsibrError
+from ..core.near_names import did_you_mean
 from ..core.warned import warn
 from .console import Console
+
+if TYPE_CHECKING:
+    from ..tasks.batch.bakes import BatchBake
+    from ..tasks.batch.notes import Failure
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what `run` reads."""
+    add_batch(parser)
+    parser.add_argument(
+        "--output",
+        metavar="FOLDER",
+        type=Path,
+        help="where the map sets and the page go (default: beside the batch)",
+    )
+    how = parser.add_mutually_exclusive_group()
+    how.add_argument("--dry-run", action="store_true", help="list the bakes and what they cost, and do none")
+    how.add_argument(
+        "--part",
+        metavar="NAME",
+        help="do the bakes of one environment and method alone, as --dry-run names them, and write no page; "
+        "it fails only if another try may help",
+    )
+    how.add_argument(
+        "--page",
+        action="store_true",
+        help="write the page alone, and fail if a bake has failed or is missing",
+    )
+
+
+def add_batch(parser: argparse.ArgumentParser) -> None:
+    """Declare the batch of a command."""
     parser.add_argument(
         "batch",
         metavar="BATCH.json|BATCH.csv",
@@ -19,59 +49,103 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="environments, materials, methods and a pattern of outputs; a map set that exists and was made "
         "with the same settings is kept",
     )
-    parser.add_argument(
-        "--dry-run", action="store_true", help="list the bakes and what they cost, and do none"
-    )
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
-    """Do the batch, or list it.
+    """Do the batch, a part of it, or its page; or list it.
 
     Returns
     -------
     dict
         "page", the path of the page that shows all; "made" and "found", numbers of bakes that were done, and
         that were there already. Of a dry run "bakes", the paths of the map sets; "processor_seconds" and
-        "disk", what they cost together.
+        "disk", what they cost together; "parts", the names of the parts.
 
     Raises
     ------
     RsibrError
-        See `tasks.batch.description.read_batch` and `tasks.batch.run.run_batch`; or bakes failed, which the
-        message names.
+        See `tasks.batch.description.read_batch` and `tasks.batch.run`; or bakes failed, which the message
+        names.
     """
     from ..tasks.batch.description import read_batch
-    from ..tasks.batch.run import run_batch
+    from ..tasks.batch.notes import batch_folder
+    from ..tasks.batch.run import run_bakes, write_page
 
-    bakes = read_batch(arguments.batch)
+    outputs = arguments.output or arguments.batch.parent
+    bakes = read_batch(arguments.batch, outputs)
     if arguments.dry_run:
-        return _listed(bakes, console)
-    result = console.steps(run_batch(arguments.batch, bakes, _worker_command()))
-    for output, failure in sorted(result.failures.items()):
-        warn(f"{output}: {failure['error']}")
-    if result.failures:
-        kind = NotNowError if all(each["try_again"] for each in result.failures.values()) else RsibrError
-        names = ", ".join(sorted(result.failures))
-        raise kind(f"{len(result.failures)} of {len(bakes)} bakes failed ({names}): see {result.page}.")
-    console.say(f"{result.page}: {len(bakes)} bakes, {result.found} of them there already")
+        return listed(bakes, console)
+    folder = batch_folder(arguments.batch, outputs)
+    if arguments.part is not None:
+        return _run_part(arguments.part, bakes, folder, console)
+    result = None
+    if not arguments.page:
+        result = console.steps(run_bakes(folder, bakes, _worker_command()))
+    page = write_page(folder, arguments.batch.stem, bakes)
+    _warn_of(page.failures)
+    if page.failures:
+        names = ", ".join(sorted(page.failures))
+        raise _failed(
+            page.failures, f"{len(page.failures)} of {len(bakes)} bakes failed ({names}): see {page.page}."
+        )
+    made = result.made if result else 0
+    console.say(f"{page.page}: {counted(len(bakes), 'bake')}, {len(bakes) - made} of them there already")
+    return {"page": str(page.page), "made": made, "found": len(bakes) - made}
+
+
+def _run_part(name: str, bakes: Sequence["BatchBake"], folder: Path, console: Console) -> dict[str, Any]:
+    from ..tasks.batch.bakes import parts_of
+    from ..tasks.batch.run import run_bakes
+
+    parts = parts_of(bakes)
+    if name not in parts:
+        raise InputFileError(
+            f"There is no part {name}{did_you_mean(name, parts)}: choose one of {', '.join(parts)}."
+        )
+    result = console.steps(run_bakes(folder, parts[name], _worker_command()))
+    _warn_of(result.failures)
+    passing = {output: failure for output, failure in result.failures.items() if failure["try_again"]}
+    if passing:
+        raise _failed(passing, f"{len(passing)} bakes of part {name} failed: give it again.")
+    console.say(f"{name}: {counted(len(parts[name]), 'bake')}, {result.found} of them there already")
     return {"page": str(result.page), "made": result.made, "found": result.found}
 
 
-def _listed(bakes: list[Any], console: Console) -> dict[str, Any]:
+def _warn_of(failures: Mapping[str, "Failure"]) -> None:
+    for output, failure in sorted(failures.items()):
+        warn(f"{output}: {failure['error']}")
+
+
+def _failed(failures: Mapping[str, "Failure"], sentence: str) -> RsibrError:
+    """The error of bakes that failed: whether another try may help."""
+    kind = NotNowError if all(each["try_again"] for each in failures.values()) else RsibrError
+    return kind(sentence)
+
+
+def listed(bakes: Sequence["BatchBake"], console: Console) -> dict[str, Any]:
+    """List a batch's parts and bakes, with what they cost."""
+    from ..tasks.batch.bakes import parts_of
     from ..tasks.batch.run import cost_of
 
-    costs = [cost for cost in map(cost_of, bakes) if cost]
-    for bake in bakes:
-        there = ", exists" if Path(bake.job.output).exists() else ""
-        console.say(f"{bake.job.output}: {bake.job.settings.LABEL}, {bake.title}{there}")
-    seconds, disk = sum(cost.processor_seconds for cost in costs), sum(cost.disk for cost in costs)
-    environments = len({bake.job.light.environment for bake in bakes})
-    console.say(
-        f"{len(bakes)} bakes in {environments} environments: about {seconds:.0f} s of processors and "
-        f"{disk / 1e6:.0f} MB on disk"
-    )
+    parts = parts_of(bakes)
+    total, disk = 0.0, 0.0
+    for name, part in parts.items():
+        costs = [cost for cost in map(cost_of, part) if cost]
+        seconds = sum(cost.processor_seconds for cost in costs)
+        total, disk = total + seconds, disk + sum(cost.disk for cost in costs)
+        console.say(f"{name}: {counted(len(part), 'bake')}, about {seconds:.0f} s of processors")
+        for bake in part:
+            there = ", exists" if Path(bake.job.output).exists() else ""
+            console.say(f"  {bake.job.output}: {bake.job.settings.LABEL}, {bake.title}{there}")
+    summary = f"{counted(len(bakes), 'bake')} in {counted(len(parts), 'part')}"
+    console.say(f"{summary}: about {total:.0f} s of processors and {disk / 1e6:.0f} MB on disk")
     outputs = [bake.job.output for bake in bakes]
-    return {"bakes": outputs, "processor_seconds": seconds, "disk": disk}
+    return {"bakes": outputs, "parts": list(parts), "processor_seconds": total, "disk": disk}
+
+
+def counted(number: int, thing: str) -> str:
+    """A number of things, in words."""
+    return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
 
 
 def _worker_command() -> list[str]:

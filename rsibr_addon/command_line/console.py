@@ -1,6 +1,7 @@
 """What a command tells while it works and at its end; standard output belongs to the result alone."""
 
 import json
+import time
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -15,14 +16,21 @@ Result = TypeVar("Result")
 
 BAR_WIDTH = 24
 
+QUIET_SECONDS = 1.0
+"""Shortest time between two lines for a farm, which keeps them all; what is done is told at once."""
+
+BEAT_SECONDS = 60.0
+"""Longest time between two lines for a farm, which takes what is silent for minutes for dead."""
+
 
 class Console:
     """Shows progress and warnings on standard error, and collects what the result will say.
 
     Parameters
     ----------
-    progress : {"auto", "bar", "json", "none"}
-        A bar, one JSON object a line, or nothing; "auto" is a bar on a terminal and else nothing.
+    progress : {"auto", "bar", "json", "lines", "openjd", "none"}
+        A bar; one JSON object a line; a line of text for each step, and at least one in `BEAT_SECONDS`, or
+        the same as OpenJD has it; or nothing. "auto" is a bar on a terminal and else nothing.
     told : Outlet
         Standard error.
 
@@ -41,10 +49,17 @@ class Console:
             self.progress = "bar" if told.isatty() else "none"
         self.lines: list[str] = []
         self.warnings: list[str] = []
+        self._beat = (-BEAT_SECONDS, Progress(-1, 0, ""))
 
     def say(self, line: str) -> None:
         """Add a line to the result for people."""
         self.lines.append(line)
+
+    def fail(self, sentence: str) -> None:
+        """Show why a command failed."""
+        self.told.write(f"rsibr: error: {sentence}\n")
+        if self.progress == "openjd":
+            self.told.write(f"openjd_fail: {sentence}\n")
 
     def steps(self, steps: Steps[Result]) -> Result:
         """Run long work to its end, showing where it is, and return its result.
@@ -97,6 +112,22 @@ class Console:
             self.told.control("\r")
         elif self.progress == "json":
             self.told.write(json.dumps({"progress": vars(progress)}) + "\n")
+        elif self.progress in ("lines", "openjd"):
+            self._tell_farm(progress)
+
+    def _tell_farm(self, progress: Progress) -> None:
+        """Write what is new, or the same after a while."""
+        since, last = self._beat
+        now, total = time.monotonic(), max(progress.total, 1)
+        wait = QUIET_SECONDS if progress != last else BEAT_SECONDS
+        if progress.done == last.done and now - since < wait:
+            return
+        self._beat = (now, progress)
+        what = progress.what or "done"
+        line = f"{progress.done} of {total}: {what}\n"
+        if self.progress == "openjd":
+            line = f"openjd_progress: {100.0 * progress.done / total:.1f}\nopenjd_status: {what}\n"
+        self.told.write(line)
 
     def _clear(self) -> None:
         if self.progress == "bar":

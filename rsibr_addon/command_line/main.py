@@ -127,7 +127,7 @@ def _done(arguments: argparse.Namespace, told: Outlet) -> tuple[dict[str, Any], 
                 raise
             sentence = sentence_of(error, arguments.command)
             result = {"ok": False, "error": sentence, "try_again": may_pass(error)}
-            told.write(f"rsibr: error: {result['error']}\n")
+            console.fail(sentence)
     return result | {"warnings": console.warnings}, console.lines if result["ok"] else []
 
 

@@ -54,6 +54,7 @@ def _result(asked: dict[str, Any], told: Outlet) -> dict[str, Any]:
         try:
             job = read_job(json.dumps(asked["job"]), "The job")
             assert isinstance(job, BakeJob)
+            _open(asked["opened"])
             result = _baked(job, told)
             times = {"seconds": time.monotonic() - started, "processor": time.process_time() - processor}
             if asked["picture"] or not result["found"]:
@@ -61,6 +62,18 @@ def _result(asked: dict[str, Any], told: Outlet) -> dict[str, Any]:
         except (RsibrError, OSError, MemoryError, ModuleNotFoundError) as error:
             return {"ok": False, "error": sentence_of(error, "rsibr batch"), "try_again": may_pass(error)}
     return result | times | {"warnings": list(dict.fromkeys(warnings))}
+
+
+def _open(file: str | None) -> None:
+    """Open the file of Blender that a job means, once for all jobs that follow and mean the same."""
+    if file is None:
+        return
+    from ..host.bake_settings import enable_extension
+    from ..host.blend_files import is_open, open_blend
+
+    if not is_open(Path(file)):
+        enable_extension()
+        open_blend(Path(file))
 
 
 def _baked(job: BakeJob[Any], told: Outlet) -> dict[str, Any]:

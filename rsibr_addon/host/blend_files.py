@@ -27,6 +27,11 @@ def is_file_open() -> bool:
     return bool(bpy.data.filepath)
 
 
+def is_open(path: Path) -> bool:
+    """Whether a file is the one that is open."""
+    return bool(bpy.data.filepath) and Path(bpy.data.filepath) == path.resolve()
+
+
 def check_there(path: Path) -> None:
     """Refuse a missing file.
 

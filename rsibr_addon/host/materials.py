@@ -72,6 +72,24 @@ def load_material(spec: str) -> bpy.types.Material:
     return material
 
 
+def names_in(path: Path) -> list[str]:
+    """The names of the materials that a file of Blender holds.
+
+    Raises
+    ------
+    InputFileError
+        It is missing, or Blender cannot read it.
+    """
+    check_there(path)
+    if _is_open(path):
+        return [material.name for material in bpy.data.materials if material.library is None]
+    try:
+        with bpy.data.libraries.load(str(path)) as (found, _):
+            return list(found.materials)
+    except OSError as error:
+        raise unreadable(path) from error
+
+
 def surface_output(material: bpy.types.Material) -> bpy.types.Node | None:
     """The output node from which Cycles takes a material's surface; None where there is no surface."""
     tree = material.node_tree

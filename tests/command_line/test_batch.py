@@ -125,9 +125,67 @@ def test_a_table_has_a_bake_or_a_pattern_a_row() -> None:
     assert settings["noon-matte.rsibr"].rows == 8
 
 
+def test_a_table_of_excel_is_read() -> None:
+    path = Path("excel.csv")
+    # With its mark of UTF-8, its ends of lines, semicolons, and an empty row
+    path.write_bytes(
+        "\ufeffEnvironment;Method;Material;exact;Fit\r\n"
+        " light/dawn.exr ;reflection-tables;chrome;yes;\r\n;;;;\r\n".encode()
+    )
+    bakes = read_batch(path)
+    assert [each.title for each in bakes] == ["chrome in dawn"]
+    assert bakes[0].job.settings.exact
+
+
+@pytest.mark.parametrize(
+    ("rows", "sentence"),
+    [
+        (
+            "light/dawn.exr,lobe-stack,ward:alpha=0.3,ks=0.5,8",
+            "line 2 has more cells than columns: put quotes",
+        ),
+        ("light/dawn.exr,reflection-tables,,maybe", "exact of line 2: 'maybe' is neither true nor false"),
+        ("\n,mip-chain,,", "line 3 has no environment"),
+        ("light/dawn.exr,mips,,", "there is no method mips: choose one of .*mip-chain"),
+    ],
+)
+def test_what_is_wrong_with_a_table_is_a_sentence(rows: str, sentence: str) -> None:
+    Path("rows.csv").write_text(f"environment,method,material,exact\n{rows}\n")
+    with pytest.raises(InputFileError, match=sentence):
+        read_batch(Path("rows.csv"))
+
+
+def test_files_that_settings_name_are_beside_the_batch(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    Path("fit.json").touch()
+    path = write_batch(
+        materials=[], methods=[{"kind": "lobe-stack", "fit": "fit.json"}], environments=["light/dawn.exr"]
+    ).resolve()
+    Path("spec.json").write_text(
+        json.dumps(
+            {"environments": ["dark.exr"], "methods": ["lobe-stack"], "materials": ["merl:path=a/b.binary"]}
+        )
+    )
+    monkeypatch.chdir("light")
+    [bake] = read_batch(path)
+    assert bake.job.settings.fit == f"{tmp_path}/fit.json"
+    [spec] = read_batch(tmp_path / "spec.json")
+    assert spec.job.settings.brdf == f"merl:path={tmp_path}/a/b.binary"
+    assert spec.job.light.environment == f"{tmp_path}/dark.exr"
+    assert Path(spec.job.output).name == "dark-merl-path-b.binary.rsibr.exr"
+
+
+def test_an_empty_name_takes_its_dash_along() -> None:
+    path = write_batch(methods=["mip-chain"], output="{environment}-{material}.rsibr.exr")
+    assert sorted(outputs(path)) == [f"{light}.rsibr.exr" for light in sorted(ENVIRONMENTS)]
+
+
 @pytest.mark.parametrize(
     ("changed", "sentence"),
     [
+        ({"environments": []}, "it has no environment and method"),
+        ({"output": "{environment}-{material}"}, "does not end in .exr"),
         ({"environments": ["none/*.exr"]}, r"Nothing is called none/\*\.exr"),
         ({"methods": ["baking"]}, "there is no method baking: choose one of"),
         ({"output": "{light}.exr"}, "output names {light}, which is none of environment, material"),
@@ -148,8 +206,11 @@ def test_a_dry_run_lists_and_bakes_nothing(capfd: pytest.CaptureFixture[str]) ->
     write_batch()
     assert run(["batch", "metals.json", "--dry-run"]) == 0
     lines = capfd.readouterr().out.splitlines()
-    assert len(lines) == 10
-    assert lines[-1].startswith("9 bakes in 3 environments: about ")
+    assert [line for line in lines if not line.startswith(" ")] == [
+        *(f"{light}-reflection-tables: 3 bakes, about 11 s of processors" for light in sorted(ENVIRONMENTS)),
+        "9 bakes in 3 parts: about 32 s of processors and 40 MB on disk",
+    ]
+    assert len(lines) == 13
     assert not Path("maps").exists()
 
 
@@ -187,6 +248,34 @@ def test_broken_bakes_are_named_and_stop_no_other(capfd: pytest.CaptureFixture[s
     assert all(picture.startswith("data:image/png;base64,iVBOR") for picture in page.pictures)
     assert text.count("There is no preset wood") == 3
     assert "http" not in text
+
+
+def test_parts_and_their_page_are_the_batch(capfd: pytest.CaptureFixture[str]) -> None:
+    path = write_batch(environments=["light/dawn.exr", "light/dusk.exr"], materials=["chrome", "wood"])
+    command = ["batch", str(path), "--output", "there", "--json", "--progress", "none"]
+    # What is wrong for good fails the page and no part, as another try would not help
+    assert run([*command, "--part", "dawn-reflection-tables"]) == 0
+    assert run([*command, "--page"]) == 1
+    told = json.loads(capfd.readouterr().out.splitlines()[-1])
+    assert told["error"].startswith("3 of 4 bakes failed")
+    assert "It has not been done" in Path("there/metals-batch/index.html").read_text()
+    assert run([*command, "--part", "dusk-reflection-tables"]) == 0
+    assert run([*command, "--page"]) == 1
+    assert json.loads(capfd.readouterr().out.splitlines()[-1])["error"].startswith("2 of 4 bakes failed")
+    assert sorted(each.name for each in Path("there/maps").iterdir()) == [
+        "dawn-chrome.rsibr.exr",
+        "dusk-chrome.rsibr.exr",
+    ]
+    assert run([*command, "--part", "dusk-reflection-table"]) == 1
+    assert "did you mean dusk-reflection-tables" in capfd.readouterr().out
+
+
+def test_progress_for_farms_is_told_in_lines(capfd: pytest.CaptureFixture[str]) -> None:
+    write_batch(environments=["light/dawn.exr"], materials=["matte"])
+    assert run(["batch", "metals.json", "--progress", "lines"]) == 0
+    told = capfd.readouterr().err.splitlines()
+    assert told[0].startswith("0 of 1: matte in dawn")
+    assert told[-1] == "1 of 1: done"
 
 
 def test_a_batch_given_again_keeps_all_and_its_page(capfd: pytest.CaptureFixture[str]) -> None:

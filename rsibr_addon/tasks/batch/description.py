@@ -1,17 +1,17 @@
 """What a batch is, and the bakes that it stands for."""
 
-import csv
-import io
+import os
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any, Literal
 
 from ...core.brdf.cycles_presets import PRESETS
 from ...core.brdf.gallery import GALLERY
 from ...core.errors import InputFileError, RangeError, SchemaError
-from ...core.options import Declared, declared_options, value_from_text
+from ...core.options import Declared, declared_options
 from ...core.schema import decode, loads
 from ...files.kinds.registry import STORED
 from ...files.measured_files import MEASURED_FORMATS, measured_spec
@@ -19,6 +19,9 @@ from ...files.pictures import split_layer
 from ...files.reading import opened
 from ...job import BakeJob
 from ...settings.light import Light
+from .bake_list import bakes_of_list, is_bake_list
+from .bakes import BatchBake
+from .table import method_kind, rows_of
 
 OUTPUT = "{environment}-{material}.rsibr.exr"
 """Pattern of outputs where a batch gives none."""
@@ -27,28 +30,8 @@ FIELDS = ("environment", "material", "method", "size")
 """What a pattern may name."""
 
 _BLEND = re.compile(r"(.+?\.blend\d*):(.+)", re.IGNORECASE)
+_PATH = re.compile(r"\bpath=([^,]+)")
 _MODELS = {name: text for models in GALLERY.values() for name, text in models.items()}
-
-
-@dataclass(frozen=True)
-class BatchBake:
-    """One bake of a batch.
-
-    Attributes
-    ----------
-    environment, material : str
-        Names for people; the material's is empty where light alone is baked.
-    job : BakeJob
-    """
-
-    environment: str
-    material: str
-    job: BakeJob[Any]
-
-    @property
-    def title(self) -> str:
-        """What is baked, in words."""
-        return f"{self.material or self.job.settings.LABEL} in {self.environment}"
 
 
 @dataclass(frozen=True)
@@ -64,94 +47,71 @@ class _Batch:
     format: Literal[1] = field(default=1, kw_only=True)
 
 
-def read_batch(path: Path) -> list[BatchBake]:
+def read_batch(path: Path, folder: Path | None = None) -> list[BatchBake]:
     """The bakes of a batch, those in the same environment behind each other.
 
     Parameters
     ----------
     path : Path
         BATCH.json, or BATCH.csv. What it names is looked for beside it.
+    folder : Path, optional
+        Where outputs go; by default beside it too.
 
     Raises
     ------
     InputFileError
-        The file is missing or no batch, a pattern finds no file, or two bakes would have one output.
+        The file is missing or no batch, a pattern finds nothing, or two bakes would have one output.
     """
     with opened(path) as stream:
         data = stream.read()
+    folder = path.parent if folder is None else folder
     try:
-        text = data.decode("utf-8-sig")
-        batches = _rows(text) if path.suffix.lower() == ".csv" else [decode(_Batch, loads(text))]
-        found = [bake for batch in batches for bake in _bakes(batch, path.parent)]
+        found = list(_read(data.decode("utf-8-sig"), path, folder))
+        _check(found, path)
     except UnicodeDecodeError as error:
         raise InputFileError(f"{path} is no text: give a batch as JSON or CSV in UTF-8.") from error
     except (SchemaError, RangeError) as error:
         reason = str(error).rstrip(".")
         raise InputFileError(f"{path} is no batch ({reason}): correct it.") from error
+    return sorted(found, key=lambda bake: str(bake.job.light.environment))
+
+
+def _read(text: str, path: Path, folder: Path) -> Iterator[BatchBake]:
+    if path.suffix.lower() == ".csv":
+        batches = [_Batch(**fields) for fields in rows_of(text)]
+    else:
+        plain = loads(text)
+        if is_bake_list(plain):
+            yield from bakes_of_list(plain, path.parent, folder)
+            return
+        batches = [decode(_Batch, plain)]
+    for batch in batches:
+        yield from _bakes(batch, path.parent, folder)
+
+
+def _check(bakes: Sequence[BatchBake], path: Path) -> None:
+    """Refuse a batch of nothing, and outputs that cannot be."""
+    if not bakes:
+        raise SchemaError("it has no environment and method")
     outputs: dict[str, BatchBake] = {}
-    for bake in found:
-        other = outputs.setdefault(bake.job.output, bake)
+    for bake in bakes:
+        if not bake.job.output.lower().endswith(".exr"):
+            raise SchemaError(f"output {bake.job.output} does not end in .exr")
+        other = outputs.setdefault(os.path.abspath(bake.job.output), bake)
         if other is not bake:
             raise InputFileError(
                 f"{path} makes {bake.job.output} of {other.title} and of {bake.title}: tell them apart in "
                 f"the pattern of outputs, by {', '.join(f'{{{name}}}' for name in FIELDS)}."
             )
-    return sorted(found, key=lambda bake: str(bake.job.light.environment))
 
 
-def _rows(text: str) -> Iterator[_Batch]:
-    """A batch for each row of a table."""
-    table = csv.DictReader(io.StringIO(text))
-    for number, row in enumerate(table, 2):
-        cells = {name: cell for name, cell in row.items() if name and cell}
-        try:
-            environment, method = cells.pop("environment"), cells.pop("method")
-        except KeyError as error:
-            raise SchemaError(f"line {number} has no {error.args[0]}") from error
-        material, clamp = cells.pop("material", None), cells.pop("clamp", None)
-        output = cells.pop("output", OUTPUT)
-        settings = {"kind": method} | _values(_kind(method), cells, number)
-        materials = () if material is None else (material,)
-        limit = None if clamp is None else _number(clamp, number)
-        yield _Batch((environment,), (settings,), materials, (), output, limit)
-
-
-def _number(text: str, line: int) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        raise SchemaError(f"clamp of line {line} is not a number") from None
-
-
-def _values(kind: str, cells: dict[str, str], line: int) -> dict[str, Any]:
-    """Settings as JSON has them, of the cells of a row."""
-    known = {each.name: each for each in declared_options(STORED[kind].settings)}
-    values: dict[str, Any] = {}
-    for name, cell in cells.items():
-        if name not in known:
-            raise SchemaError(f"column {name} of line {line} is none of {', '.join(known)}")
-        try:
-            is_flag = known[name].wanted is bool
-            value = cell.lower() == "true" if is_flag else value_from_text(known[name], cell)
-        except ValueError as error:
-            raise SchemaError(f"{name} of line {line}: {error}") from error
-        values[name] = list(value) if isinstance(value, tuple) else value
-    return values
-
-
-def _kind(name: str) -> str:
-    kind = name.replace("-", "_")
-    if kind not in STORED:
-        raise SchemaError(f"there is no method {name}: choose one of {', '.join(STORED)}")
-    return kind
-
-
-def _bakes(batch: _Batch, folder: Path) -> Iterator[BatchBake]:
-    environments = [each for text in batch.environments for each in _found(text, folder)]
-    materials = [each for text in batch.materials for each in _found(text, folder)]
+def _bakes(batch: _Batch, folder: Path, outputs: Path) -> Iterator[BatchBake]:
+    environments = [each for text in batch.environments for each in _environments(text, folder)]
+    materials = [each for text in batch.materials for each in _materials(text, folder)]
     for method in batch.methods:
         given = {"kind": method} if isinstance(method, str) else dict(method)
-        kind = _kind(str(given.pop("kind", "")))
+        kind = method_kind(str(given.pop("kind", "")))
+        given = _with_files_beside(given, kind, folder)
         chooser = next(
             (each for each in declared_options(STORED[kind].settings) if each.option.materials), None
         )
@@ -167,28 +127,67 @@ def _bakes(batch: _Batch, folder: Path) -> Iterator[BatchBake]:
                         "method": kind.replace("_", "-"),
                         "size": str(getattr(settings, "size", "")),
                     }
-                    output = str(folder / _filled(batch.output, names))
+                    output = str(outputs / _filled(batch.output, names))
                     light = Light(environment=environment, clamp=batch.clamp)
                     job = BakeJob(settings, output, light, if_missing=True)
                     yield BatchBake(names["environment"], _title(material), job)
 
 
-def _found(text: str, folder: Path) -> Sequence[str]:
-    """What a text of a batch names: files beside it, all that a pattern finds, or itself."""
+def _with_files_beside(given: dict[str, Any], kind: str, folder: Path) -> dict[str, Any]:
+    """Settings whose files are looked for beside the batch."""
+    files = [
+        each.name
+        for each in declared_options(STORED[kind].settings)
+        if each.option.subtype == "FILE_PATH" and isinstance(given.get(each.name), str)
+    ]
+    return given | {name: str(folder / given[name]) for name in files}
+
+
+def _environments(text: str, folder: Path) -> Sequence[str]:
+    """What a text names: pictures beside the batch, all that a pattern finds, or one of Blender's own."""
+    if _is_pattern(text):
+        return [str(path) for path in _files(text, folder)]
+    is_file = split_layer(folder / text)[0].is_file() or Path(split_layer(text)[0]).suffix
+    return [str(folder / text) if is_file else text]
+
+
+def _materials(text: str, folder: Path) -> Sequence[str]:
+    """What a text names: materials in files beside the batch, all that a pattern finds, or itself."""
     blend = _BLEND.fullmatch(text)
-    file, rest = (blend[1], f":{blend[2]}") if blend else (text, "")
-    if any(sign in file for sign in "*?["):
-        try:
-            paths = sorted(folder.glob(file))
-        except (NotImplementedError, ValueError):  # an absolute one
-            paths = sorted(Path(Path(file).anchor).glob(str(Path(file).relative_to(Path(file).anchor))))
-        if not paths:
-            raise InputFileError(f"Nothing is called {text} in {folder}: correct the batch.")
-        return [f"{path}{rest}" for path in paths]
-    is_file = (
-        blend or split_layer(folder / file)[0].is_file() or Path(file).suffix.lower() in MEASURED_FORMATS
-    )
-    return [f"{folder / file}{rest}" if is_file else text]
+    if blend is None:
+        if _is_pattern(text):
+            return [str(path) for path in _files(text, folder)]
+        if Path(text).suffix.lower() in MEASURED_FORMATS and "path=" not in text:
+            return [str(folder / text)]
+        return [_PATH.sub(lambda found: f"path={folder / found[1]}", text)]
+    files = _files(blend[1], folder) if _is_pattern(blend[1]) else [folder / blend[1]]
+    names = {file: _names(file, blend[2]) for file in files}
+    if not any(names.values()):
+        raise InputFileError(f"No material is called {text}: correct the batch.")
+    return [f"{file}:{name}" for file in files for name in names[file]]
+
+
+def _names(file: Path, pattern: str) -> list[str]:
+    """The materials of a file of Blender that a pattern means; a name with its signs comes first."""
+    if not _is_pattern(pattern):
+        return [pattern]
+    from ...host.materials import names_in
+
+    names = sorted(names_in(file))
+    return [pattern] if pattern in names else [name for name in names if fnmatchcase(name, pattern)]
+
+
+def _is_pattern(text: str) -> bool:
+    return any(sign in text for sign in "*?[")
+
+
+def _files(pattern: str, folder: Path) -> list[Path]:
+    """All files that a pattern means, of which there is one at least."""
+    anchor = Path(pattern).anchor
+    paths = sorted(Path(anchor or folder).glob(str(Path(pattern).relative_to(anchor))))
+    if not paths:
+        raise InputFileError(f"Nothing is called {pattern} in {folder}: correct the batch.")
+    return paths
 
 
 def _text(chooser: Declared, material: str) -> str:
@@ -209,13 +208,15 @@ def _title(material: str) -> str:
     blend = _BLEND.fullmatch(material)
     if blend:
         return blend[2]
+    if "path=" in material:
+        return _PATH.sub(lambda found: f"path={Path(found[1]).name}", material)
     return Path(material).stem if Path(material).suffix.lower() in MEASURED_FORMATS else material
 
 
 def _name(text: str) -> str:
     """A name of an environment or a material, as a part of a file's name."""
     blend = _BLEND.fullmatch(text)
-    name = blend[2] if blend else text
+    name = blend[2] if blend else _PATH.sub(lambda found: f"path={Path(found[1]).name}", text)
     if not blend and ("=" not in text) and Path(text).suffix:
         name = Path(text).stem
     return re.sub(r"[^\w.]+", "-", name).strip("-")
@@ -227,4 +228,6 @@ def _filled(pattern: str, names: dict[str, str]) -> str:
             raise SchemaError(f"output names {{{found[1]}}}, which is none of {', '.join(FIELDS)}")
         return names[found[1]]
 
-    return re.sub(r"\{(\w*)\}", named, pattern)
+    filled = re.sub(r"\{(\w*)\}", named, pattern)
+    # Of a name that is empty, the sign that parts it from the one before goes too
+    return re.sub(r"[-_]+(?=\.|/|$)", "", filled) if "" in names.values() else filled

@@ -6,13 +6,12 @@ from itertools import groupby
 from os.path import relpath
 from pathlib import Path
 from string import Template
-from typing import Any
 from urllib.parse import quote
 
 from ...files.atomic import written_aside
 from ...files.map_set_facts import in_words
-from .description import BatchBake
-from .notes import Note
+from .bakes import BatchBake
+from .notes import Failure, Note
 
 TEMPLATE = Path(__file__).with_suffix(".html")
 
@@ -22,7 +21,7 @@ def write_index(
     title: str,
     bakes: Sequence[BatchBake],
     notes: Sequence[Note | None],
-    failures: Mapping[str, Mapping[str, Any]],
+    failures: Mapping[str, Failure],
 ) -> None:
     """Write the page.
 
@@ -35,8 +34,8 @@ def write_index(
         Those in the same environment behind each other.
     notes : sequence of Note or None
         Of each bake.
-    failures : mapping of str to mapping
-        Output -> its "error".
+    failures : mapping of str to Failure
+        By output.
 
     Raises
     ------
@@ -65,7 +64,7 @@ def write_index(
         aside.write_text(text, encoding="utf-8", errors="replace")  # of names that are no UTF-8
 
 
-def _figure(page: Path, bake: BatchBake, note: Note | None, failures: Mapping[str, Mapping[str, Any]]) -> str:
+def _figure(page: Path, bake: BatchBake, note: Note | None, failures: Mapping[str, Failure]) -> str:
     name, method = bake.material or bake.job.settings.LABEL, bake.job.settings.LABEL
     link = quote(relpath(bake.job.output, page.parent))
     told, picture, warnings = ["failed" if bake.job.output in failures else "not known"], "", []

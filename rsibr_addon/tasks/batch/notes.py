@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import TypedDict
 
 from ...core.errors import SchemaError
-from ...core.schema import decode, loads
+from ...core.schema import Decoded, decode, loads
 from ...files.atomic import written_aside
 from ...files.read_once import file_stamp
-from .description import BatchBake
+from .bakes import BatchBake
 
 
 class Note(TypedDict):
@@ -37,18 +37,41 @@ class Note(TypedDict):
     picture: str
 
 
-def batch_folder(path: Path) -> Path:
-    """The folder of a batch's page and notes: NAME-batch beside NAME.json."""
-    return path.with_name(f"{path.stem}-batch")
+class Failure(TypedDict):
+    """What is kept of a bake that failed, until it is done.
+
+    Attributes
+    ----------
+    error : str
+    try_again : bool
+        Whether another try may help.
+    """
+
+    error: str
+    try_again: bool
+
+
+def batch_folder(path: Path, outputs: Path) -> Path:
+    """The folder of the page and the notes of a batch NAME.json: NAME-batch among its outputs."""
+    return outputs / f"{path.stem}-batch"
 
 
 def read_note(folder: Path, bake: BatchBake) -> Note | None:
     """The note of a bake; None where there is none, or the map set has changed since."""
+    note = _read(Note, folder, bake)
+    return note if note and note["stamp"] == stamp_of(bake) else None
+
+
+def read_failure(folder: Path, bake: BatchBake) -> Failure | None:
+    """Why a bake failed last; None where it did not, or was not done."""
+    return _read(Failure, folder, bake)
+
+
+def _read(kept: type[Decoded], folder: Path, bake: BatchBake) -> Decoded | None:
     try:
-        note: Note = decode(Note, loads(_path(folder, bake).read_bytes()))
+        return decode(kept, loads(_path(folder, bake).read_bytes()))
     except (OSError, SchemaError):
         return None
-    return note if note["stamp"] == stamp_of(bake) else None
 
 
 def stamp_of(bake: BatchBake) -> str:
@@ -56,8 +79,8 @@ def stamp_of(bake: BatchBake) -> str:
     return " ".join(map(str, file_stamp(Path(bake.job.output)) or ()))
 
 
-def write_note(folder: Path, bake: BatchBake, note: Note) -> None:
-    """Keep a note.
+def write_note(folder: Path, bake: BatchBake, note: Note | Failure) -> None:
+    """Keep what has become of a bake, in place of what was known before.
 
     Raises
     ------

@@ -12,10 +12,12 @@ from ...core.threads import thread_count
 from ...files.memory import memory_left
 from ..methods.bake import METHODS
 from ..methods.method import Cost
-from .description import BatchBake
+from .bakes import BatchBake
 from .index import write_index
-from .notes import Note, batch_folder, read_note, stamp_of, write_note
+from .notes import Failure, Note, read_failure, read_note, stamp_of, write_note
 from .workers import Worker, started_workers
+
+UNKNOWN = Failure(error="It has not been done: do its part again.", try_again=True)
 
 ENDED = "Its process ended before it was done, as when memory is short: bake it alone to see why."
 
@@ -27,16 +29,17 @@ class BatchResult:
     Attributes
     ----------
     page : Path
+        Where all is shown.
     made, found : int
         Bakes that were done, and that were there already.
-    failures : dict of str to dict
-        Output -> "error" and "try_again", as `rsibr bake --json` has them.
+    failures : dict of str to Failure
+        By output.
     """
 
     page: Path
     made: int = 0
     found: int = 0
-    failures: dict[str, dict[str, Any]] = field(default_factory=dict)
+    failures: dict[str, Failure] = field(default_factory=dict)
 
     @property
     def ended(self) -> int:
@@ -52,29 +55,27 @@ def cost_of(bake: BatchBake) -> Cost | None:
         return None
 
 
-def run_batch(path: Path, bakes: Sequence[BatchBake], command: Sequence[str]) -> Steps[BatchResult]:
-    """Do the bakes that are not done, on all cores, and write the page.
+def run_bakes(folder: Path, bakes: Sequence[BatchBake], command: Sequence[str]) -> Steps[BatchResult]:
+    """Do the bakes of a batch, or of a part of it, that are not done, on all cores.
 
     Parameters
     ----------
-    path : Path
-        The batch's file; the page goes into the folder NAME-batch beside it.
+    folder : Path
+        From `batch_folder`; it keeps what becomes of each bake.
     bakes : sequence of BatchBake
-        From `read_batch`.
     command : sequence of str
         Starts a worker: see `command_line.worker`.
 
     Raises
     ------
     OutputFileError
-        A folder cannot be made, or the page not be written.
+        A folder cannot be made, or what became of a bake not be written.
 
     Notes
     -----
     A bake that fails stops no other. Each worker goes on with the environment that it has read, and takes
     another one that nobody works on, while there are such.
     """
-    folder = batch_folder(path)
     _make_folders([folder, *(Path(bake.job.output).parent for bake in bakes)])
     result, waiting = BatchResult(folder / "index.html"), list(bakes)
     count = _worker_count(bakes)
@@ -88,7 +89,7 @@ def run_batch(path: Path, bakes: Sequence[BatchBake], command: Sequence[str]) ->
                 if bake is None:
                     continue
                 if said is None:
-                    result.failures[bake.job.output] = {"error": ENDED, "try_again": True}
+                    _fail(bake, Failure(error=ENDED, try_again=True), folder, result)
                     team.remove(worker)
                     if waiting:
                         team.append(worker := workers.start())
@@ -99,8 +100,37 @@ def run_batch(path: Path, bakes: Sequence[BatchBake], command: Sequence[str]) ->
                     continue
                 _give_next(worker, team, waiting, folder)
             yield Progress(result.ended, len(bakes), _told(team))
-    yield Progress(len(bakes), len(bakes), "writing the page")
-    write_index(result.page, path.stem, bakes, [read_note(folder, bake) for bake in bakes], result.failures)
+    return result
+
+
+def write_page(folder: Path, title: str, bakes: Sequence[BatchBake]) -> BatchResult:
+    """Write the page of a batch, of what its folder keeps of the bakes.
+
+    Parameters
+    ----------
+    folder : Path
+        From `batch_folder`.
+    title : str
+    bakes : sequence of BatchBake
+        All of the batch.
+
+    Returns
+    -------
+    BatchResult
+        A bake of which nothing is kept has failed, and may be tried again.
+
+    Raises
+    ------
+    OutputFileError
+    """
+    _make_folders([folder])
+    notes, result = [read_note(folder, bake) for bake in bakes], BatchResult(folder / "index.html")
+    for bake, note in zip(bakes, notes, strict=True):
+        failure = read_failure(folder, bake) or (None if Path(bake.job.output).exists() else UNKNOWN)
+        if note is None and failure:
+            result.failures[bake.job.output] = failure
+    result.found = len(bakes) - len(result.failures)
+    write_index(result.page, title, bakes, notes, result.failures)
     return result
 
 
@@ -140,11 +170,12 @@ def _give_next(worker: Worker, team: list[Worker], waiting: list[BatchBake], fol
 def _take(bake: BatchBake, said: dict[str, Any], folder: Path, result: BatchResult) -> None:
     """Note what has become of a bake."""
     if not said["ok"]:
-        result.failures[bake.job.output] = {name: said[name] for name in ("error", "try_again")}
+        _fail(bake, Failure(error=said["error"], try_again=said["try_again"]), folder, result)
         return
     result.found += said["found"]
     result.made += not said["found"]
-    if "picture" not in said:
+    # Another machine may have made it meanwhile, and know more
+    if "picture" not in said or (said["found"] and read_note(folder, bake)):
         return
     note = Note(
         stamp=stamp_of(bake),
@@ -155,6 +186,11 @@ def _take(bake: BatchBake, said: dict[str, Any], folder: Path, result: BatchResu
         picture=said["picture"],
     )
     write_note(folder, bake, note)
+
+
+def _fail(bake: BatchBake, failure: Failure, folder: Path, result: BatchResult) -> None:
+    result.failures[bake.job.output] = failure
+    write_note(folder, bake, failure)
 
 
 def _told(team: list[Worker]) -> str:

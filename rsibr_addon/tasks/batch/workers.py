@@ -14,7 +14,7 @@ from typing import IO, Any
 from ...core.errors import SchemaError
 from ...core.schema import loads
 from ...core.threads import VARIABLE
-from .description import BatchBake
+from .bakes import BatchBake
 
 LOOK_SECONDS = 0.2
 """Longest time between two steps: so soon is an interruption noticed."""
@@ -44,7 +44,7 @@ class Worker:
     def give(self, bake: BatchBake, picture: bool) -> None:
         """Let it do a bake, and make a picture if that is wanted even of what is there already."""
         self.bake, self.environment = bake, bake.job.light.environment
-        asked = {"job": json.loads(bake.job.to_json()), "picture": picture}
+        asked = {"job": json.loads(bake.job.to_json()), "opened": bake.opened, "picture": picture}
         assert self.process.stdin is not None
         with suppress(BrokenPipeError):  # the end of its output will be heard
             self.process.stdin.write(json.dumps(asked) + "\n")

@@ -1,0 +1,47 @@
+"""One bake of a batch, and the parts that a batch falls into."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from ...job import BakeJob
+
+
+@dataclass(frozen=True)
+class BatchBake:
+    """One bake of a batch.
+
+    Attributes
+    ----------
+    environment, material : str
+        Names for people; the material's is empty where light alone is baked.
+    job : BakeJob
+    opened : str or None
+        The file of Blender that is opened before, whose world or material the job means.
+    """
+
+    environment: str
+    material: str
+    job: BakeJob[Any]
+    opened: str | None = None
+
+    @property
+    def title(self) -> str:
+        """What is baked, in words."""
+        return f"{self.material or self.job.settings.LABEL} in {self.environment}"
+
+
+def parts_of(bakes: Sequence[BatchBake]) -> dict[str, list[BatchBake]]:
+    """The bakes of each environment and method, by a name of the two, in the order of `bakes`."""
+    parts: dict[tuple[str | None, str | None, str], list[BatchBake]] = {}
+    for bake in bakes:
+        parts.setdefault((bake.job.light.environment, bake.opened, bake.job.settings.KIND), []).append(bake)
+    named: dict[str, list[BatchBake]] = {}
+    for (_, _, kind), part in parts.items():
+        name = plain = re.sub(r"[^\w.]+", "-", f"{part[0].environment}-{kind}".replace("_", "-")).strip("-")
+        number = 1
+        while name in named:
+            name = f"{plain}-{(number := number + 1)}"
+        named[name] = part
+    return named

@@ -15,6 +15,7 @@ from .parser import Parser
 COMMANDS = {
     "bake": "Make a map set: filter, capture or tabulate an environment.",
     "batch": "Bake many map sets on all cores: materials in environments, with one page of all.",
+    "submit": "Have a farm bake a batch.",
     "preview": "Draw a mesh shaded from a map set, once or as a turntable.",
     "render": "Render frames of a Blender file as viewports show them, by the engine RSIBR.",
     "compare": "Measure how far previews are from what Cycles renders, or from a BRDF's exact reflection.",
@@ -149,9 +150,10 @@ def _declare_arguments(command: Any, parser: Parser, words: Sequence[str]) -> No
     parser.add_argument("--json", action="store_true", help="print the result as one JSON object")
     parser.add_argument(
         "--progress",
-        choices=["auto", "bar", "json", "none"],
+        choices=["auto", "bar", "json", "lines", "openjd", "none"],
         default="auto",
-        help="progress on standard error: a bar, JSON lines or nothing (default: a bar on a terminal)",
+        help="progress on standard error: a bar, JSON lines, lines of text, lines for OpenJD or nothing "
+        "(default: a bar on a terminal)",
     )
     heard = parser.add_mutually_exclusive_group()
     heard.add_argument(

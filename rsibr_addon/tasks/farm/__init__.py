@@ -1,0 +1,1 @@
+"""Batches on a farm: Flamenco, or what takes bundles of OpenJD."""

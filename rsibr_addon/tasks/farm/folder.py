@@ -1,0 +1,257 @@
+"""A folder that holds a batch and all that it needs, for machines that have nothing else."""
+
+import hashlib
+import json
+import os
+import re
+import shutil
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from ...core.brdf.cycles_presets import PRESETS
+from ...core.errors import InputFileError, RangeError, SceneError, SchemaError
+from ...core.progress import Progress, Steps
+from ...core.schema import loads
+from ...core.warned import warn
+from ...files.atomic import written_aside
+from ...files.digests import digest
+from ...files.pictures import split_layer
+from ...files.reading import opened
+from ...job import BakeJob, read_job
+from ..batch.bake_list import HERE, bake_list_text
+from ..batch.bakes import BatchBake
+from ..batch.description import read_batch
+from ..light.environments import environment_file
+from ..methods.bake import METHODS
+from ..methods.method import Sources
+from ..methods.recipe import recipe_hash, recipe_of
+
+INPUTS, MAPS = "inputs", "maps"
+"""Folders within the farm's folder."""
+
+HASH_LETTERS = 10
+"""Length of a hash in a folder's name."""
+
+
+def bakes_to_send(path: Path) -> list[BatchBake]:
+    """The bakes of a batch, or the one of a job, whose outputs are relative.
+
+    Parameters
+    ----------
+    path : Path
+        BATCH.json or BATCH.csv, or JOB.json.
+
+    Raises
+    ------
+    InputFileError
+        See `read_batch`; or an output lies outside the batch's folder.
+    """
+    bake = _bake_of_job(path)
+    if bake is not None:
+        return [bake]
+    bakes = []
+    for each in read_batch(path):
+        output = os.path.relpath(each.job.output, path.parent)
+        if output.startswith(os.pardir) or os.path.isabs(output):
+            raise InputFileError(
+                f"{path} makes {each.job.output}, which other machines may not have: give outputs in the "
+                f"batch's folder."
+            )
+        bakes.append(replace(each, job=replace(each.job, output=Path(output).as_posix())))
+    return bakes
+
+
+def folder_name(title: str, bakes: Sequence[BatchBake]) -> str:
+    """A name that equal batches have in common, and no others: so what they have made is found again.
+
+    Parameters
+    ----------
+    title : str
+    bakes : sequence of BatchBake
+        From `bakes_to_send`.
+
+    Warns
+    -----
+    RsibrWarning
+        A bake will fail, and why.
+    """
+    identities = [(bake.job.output, _identity(bake)) for bake in bakes]
+    letters = hashlib.sha256(json.dumps(identities).encode()).hexdigest()[:HASH_LETTERS]
+    return f"{plain_name(title)}-{letters}"
+
+
+def plain_name(title: str) -> str:
+    """A title, of the signs that every system and every farm takes."""
+    return re.sub(r"[^\w.]+", "-", title).strip("-.") or "batch"
+
+
+def write_inputs(folder: Path, name: str, bakes: Sequence[BatchBake]) -> Steps[list[BatchBake]]:
+    """Copy all that bakes need into a folder, and list the bakes there.
+
+    Parameters
+    ----------
+    folder : Path
+        It exists. Files that are there already stay.
+    name : str
+        The list becomes NAME.json.
+    bakes : sequence of BatchBake
+        From `bakes_to_send`.
+
+    Returns
+    -------
+    list of BatchBake
+        The same, with paths of the folder, which begin with `HERE`.
+
+    Raises
+    ------
+    InputFileError, SceneError, OutputFileError
+
+    Warns
+    -----
+    RsibrWarning
+        See `host.packing.write_packed`.
+
+    Notes
+    -----
+    Files keep their names, which recipes state. Files of Blender take along what they use.
+    """
+    copied = _Copies(folder)
+    # First what means the open file, as packing another one closes it
+    order = sorted(range(len(bakes)), key=lambda number: not _means_open_file(bakes[number]))
+    found: dict[int, BatchBake] = {}
+    for done, number in enumerate(order):
+        yield Progress(done, len(bakes), f"copying what {bakes[number].title} needs")
+        found[number] = copied.placed(bakes[number])
+    placed = [found[number] for number in range(len(bakes))]
+    with written_aside(folder / f"{name}.json", force=True) as aside:
+        aside.write_text(bake_list_text(placed), encoding="utf-8")
+    return placed
+
+
+class _Copies:
+    """What was copied into a folder."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._made: dict[str, str] = {}
+
+    def placed(self, bake: BatchBake) -> BatchBake:
+        """A bake with paths of the folder; as it is, where it cannot be done anywhere."""
+        job, opened = bake.job, bake.opened
+        try:
+            sources = _sources(bake)
+            replaced = {file: self._copy(Path(file)) for file in sources.files if file}
+            if blend := _blend_file(sources.material):
+                replaced[blend] = self._packed(Path(blend))
+            light = job.light
+            if light.environment is not None:
+                file, layer = split_layer(environment_file(light.environment))
+                named = self._copy(file) + (f":{layer}" if layer else "")
+                light = replace(light, environment=named)
+        except InputFileError:
+            return bake
+        if _means_open_file(bake):
+            opened = self._open_file()
+        settings = _with_texts(job, replaced)
+        return replace(bake, job=replace(settings, light=light), opened=opened)
+
+    def _copy(self, file: Path) -> str:
+        def copy(target: Path) -> None:
+            with written_aside(target) as aside:
+                shutil.copyfile(file, aside)
+
+        return self._once(str(file), f"{digest(file)[:HASH_LETTERS]}/{file.name}", copy)
+
+    def _packed(self, file: Path) -> str:
+        def pack(target: Path) -> None:
+            from ...host.blend_files import open_blend
+
+            open_blend(file)
+            _write_packed(target)
+
+        return self._once(str(file), f"{digest(file)[:HASH_LETTERS]}/{file.name}", pack)
+
+    def _open_file(self) -> str:
+        return self._once("", "open.blend", _write_packed)
+
+    def _once(self, source: str, name: str, write: Callable[[Path], None]) -> str:
+        """The path of a copy within the list; it is written unless it is there."""
+        if source not in self._made:
+            target = self._folder / name
+            target.parent.mkdir(parents=True, exist_ok=True)
+            if not target.exists():
+                write(target)
+            self._made[source] = f"{HERE}/{name}"
+        return self._made[source]
+
+
+def _write_packed(target: Path) -> None:
+    from ...host.packing import write_packed
+
+    with written_aside(target) as aside:
+        write_packed(aside)
+
+
+def _with_texts(job: BakeJob[Any], replaced: dict[str, str]) -> BakeJob[Any]:
+    """A job whose settings name other files."""
+    plain = json.loads(job.to_json())
+    for old, new in replaced.items():
+        for name, value in plain["settings"].items():
+            if isinstance(value, str):
+                plain["settings"][name] = value.replace(old, new)
+    made = read_job(json.dumps(plain), "The job")
+    assert isinstance(made, BakeJob)
+    return made
+
+
+def _identity(bake: BatchBake) -> str:
+    try:
+        return recipe_hash(recipe_of(bake.job, METHODS[bake.job.settings.KIND].sources(bake.job.settings)))
+    except (InputFileError, RangeError, SceneError) as error:
+        warn(f"{bake.title} will fail: {error}")
+        return bake.job.to_json()
+
+
+def _means_open_file(bake: BatchBake) -> bool:
+    material = _sources(bake).material
+    return bake.job.light.environment is None or (material is not None and material.startswith(":"))
+
+
+def _sources(bake: BatchBake) -> Sources:
+    """What a bake's settings take from elsewhere; nothing where they describe no material."""
+    try:
+        return METHODS[bake.job.settings.KIND].sources(bake.job.settings)
+    except RangeError:
+        return Sources()
+
+
+def _blend_file(material: str | None) -> str:
+    """The file of Blender that a material is in; empty for a preset and the open file."""
+    if material is None or material in PRESETS:
+        return ""
+    from ...host.materials import material_file
+
+    return material_file(material)
+
+
+def _bake_of_job(path: Path) -> BatchBake | None:
+    """The bake of a job's file; None where it is another file."""
+    with opened(path) as stream:
+        data = stream.read()
+    try:
+        plain = loads(data) if path.suffix.lower() == ".json" else None
+    except SchemaError:
+        return None
+    if not isinstance(plain, dict) or "settings" not in plain:
+        return None
+    job = read_job(data.decode(), str(path))
+    if not isinstance(job, BakeJob):
+        raise InputFileError(f"{path} is no bake: send a batch, or the job of a bake.")
+    environment = job.light.environment
+    light = "world" if environment is None else split_layer(environment)[0].stem
+    material = METHODS[job.settings.KIND].material(job.settings)
+    return BatchBake(
+        light, material, replace(job, output=Path(job.output).name, force=False, if_missing=True)
+    )

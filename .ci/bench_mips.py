@@ -43,7 +43,7 @@ Filter = Callable[[Array], Chain]
 
 def ours(radiance: Array) -> Chain:
     """What we make."""
-    return [mip.faces for mip in ggx_mips(radiance, SIZE, ROUGHNESS)]
+    return [mip.faces for mip in ggx_mips(radiance, SIZE, ROUGHNESS).mips]
 
 
 def cmgen(radiance: Array) -> Chain:
@@ -123,7 +123,7 @@ def main() -> None:
     installed = shutil.which("cmgen") is not None
     world = np.eye(3)
     time = seconds(lambda: cpu_seconds(lambda: ours(radiance)))
-    whole = seconds(lambda: cpu_seconds(lambda: list(ggx_mips(radiance, SIZE, linear_roughness(9)))))
+    whole = seconds(lambda: cpu_seconds(lambda: list(ggx_mips(radiance, SIZE, linear_roughness(9)).mips)))
     own_errors, own_leans = errors(ours(radiance), radiance, world), leans(ours, world)
     other_time, other_errors, other_leans, ratio = "-", "-", "-", ""
     if installed:

@@ -32,7 +32,7 @@ def check_shown(
     `relative` is what the encoding may lose, `between` what a lookup between texels may miss of the light.
     """
     normal = from_y_up(directions())
-    mips = ggx_mips(sky(), SIZE, roughness)
+    mips = ggx_mips(sky(), SIZE, roughness).mips
     for shown, rough, mip in zip(np.array(radiance), roughness, mips, strict=True):
         for wanted, close in (
             (lookup(mip.faces, normal, representation("cube_map")), relative),

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.filtering.harmonics.analysis import analyse_environment
 from ...core.filtering.prefilter import BYTES_BESIDES, bytes_needed
@@ -78,19 +77,21 @@ def _with_lobes(light: Environment, settings: MipChainSettings) -> Steps[tuple[M
     roughness, spread = None, None
     if settings.filter == "ggx":
         roughness = settings.roughnesses
-        count, filtering = len(roughness), ggx_mips(light.radiance, settings.size, roughness)
+        count = len(roughness)
+        filtered = ggx_mips(light.radiance, settings.size, roughness, settings.degree)
     else:
         exponents = settings.phong_exponents
+        count = len(exponents)
         spread = tuple(map(phong_spread, exponents))
-        count, filtering = len(exponents), phong_mips(light.radiance, settings.size, exponents)
+        filtered = phong_mips(light.radiance, settings.size, exponents, settings.degree)
     mips, bound = [], 0.0
     for number in range(count):
         yield Progress(1 + number, count + 2, f"filtering mip {number}")
-        mip = next(filtering)
+        mip = next(filtered.mips)
         mips.append(mip.faces.astype(np.float32))
         # Black has no error
         bound = max(bound, ROUNDING + mip.bound / max(float(mip.faces.max()), 1e-300))
-    return MipChain(tuple(mips), _harmonics(light, settings), roughness, spread), bound
+    return MipChain(tuple(mips), filtered.harmonics.real(settings.degree), roughness, spread), bound
 
 
 def _texture_space(light: Environment, settings: MipChainSettings) -> MipChain:
@@ -100,11 +101,8 @@ def _texture_space(light: Environment, settings: MipChainSettings) -> MipChain:
     halved = TEXTURE_SPACE[settings.filter]
     mips = tuple(mip.astype(np.float32) for mip in filtered_mips(faces, halved))
     spread = texture_space_spread(settings.size, halved)
-    return MipChain(mips, _harmonics(light, settings), spread=spread)
-
-
-def _harmonics(light: Environment, settings: MipChainSettings) -> Array:
-    return analyse_environment(light.radiance, settings.degree).real(settings.degree)
+    harmonics = analyse_environment(light.radiance, settings.degree).real(settings.degree)
+    return MipChain(mips, harmonics, spread=spread)
 
 
 METHOD = Method(bake, cost)

@@ -1,13 +1,13 @@
 """Mips filtered with GGX lobes, wider for smaller mips: engines shade glossy surfaces from such mips."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from ...conventions import Array
 from ...filtering.radial_lobes import ggx_n_dot_l_lobe
 from .chain import check_roughness
-from .lobe_mips import LobeMip, lobe_mips
+from .lobe_mips import LobeMips, lobe_mips
 
 
 def linear_roughness(count: int) -> tuple[float, ...]:
@@ -41,7 +41,7 @@ ROUGHNESS_RULES: dict[str, Callable[[int], tuple[float, ...]]] = {
 """Name -> function from a number of mips to their roughnesses, from 0 to 1."""
 
 
-def ggx_mips(radiance: Array, size: int, roughness: Sequence[float]) -> Iterator[LobeMip]:
+def ggx_mips(radiance: Array, size: int, roughness: Sequence[float], degree: int = 0) -> LobeMips:
     """Filter an environment with the GGX lobes that engines filter with: normal = view = mirror direction.
 
     Parameters
@@ -53,11 +53,8 @@ def ggx_mips(radiance: Array, size: int, roughness: Sequence[float]) -> Iterator
     roughness : sequence of float
         Roughness of each mip, ascending or equal in [0, 1]. A mip of roughness 0 shows the environment
         itself.
-
-    Yields
-    ------
-    LobeMip
-        One mip after another.
+    degree : int
+        See `lobe_mips`.
 
     Raises
     ------
@@ -71,6 +68,5 @@ def ggx_mips(radiance: Array, size: int, roughness: Sequence[float]) -> Iterator
     """
     check_roughness(tuple(roughness), repeated=True)
     lobes = [None if r == 0.0 else ggx_n_dot_l_lobe(r**2) for r in roughness]
-    yield from lobe_mips(
-        radiance, size, lobes, [f"roughness {r:.3g}, choose a larger one" for r in roughness]
-    )
+    named = [f"roughness {r:.3g}, choose a larger one" for r in roughness]
+    return lobe_mips(radiance, size, lobes, named, degree)

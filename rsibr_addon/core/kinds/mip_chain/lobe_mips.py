@@ -1,7 +1,7 @@
 """Mips filtered with radially symmetric lobes, wider for smaller mips."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -10,6 +10,7 @@ import numpy as np
 from ...conventions import Array, texel_centres
 from ...errors import RangeError
 from ...filtering.harmonics.analysis import analyse_environment
+from ...filtering.harmonics.coefficients import EnvironmentHarmonics
 from ...filtering.prefilter import analysis_degree, prefilter, resolved_width
 from ...filtering.zonal import ZonalLobe, ZonalSeries, expand
 from ...maps.representation import representation
@@ -40,9 +41,25 @@ class LobeMip:
     bound: float
 
 
+@dataclass(frozen=True)
+class LobeMips:
+    """An environment's mips.
+
+    Attributes
+    ----------
+    harmonics : EnvironmentHarmonics
+        Of the environment itself, at least up to the degree that was asked for.
+    mips : iterator of LobeMip
+        One after another, each made when it is taken, to a relative root-mean-square error of `TOLERANCE`.
+    """
+
+    harmonics: EnvironmentHarmonics
+    mips: Iterator[LobeMip]
+
+
 def lobe_mips(
-    radiance: Array, size: int, lobes: Sequence[ZonalLobe | None], named: Sequence[str]
-) -> Iterator[LobeMip]:
+    radiance: Array, size: int, lobes: Sequence[ZonalLobe | None], named: Sequence[str], degree: int = 0
+) -> LobeMips:
     """Filter an environment with a lobe for each mip.
 
     Parameters
@@ -55,11 +72,8 @@ def lobe_mips(
         None where a mip shows the environment itself.
     named : sequence of str
         What each lobe is called in an error, with the remedy.
-
-    Yields
-    ------
-    LobeMip
-        One mip after another, to a relative root-mean-square error of `TOLERANCE`.
+    degree : int
+        Least degree of the environment's harmonics, which are analysed once for these and for the mips.
 
     Raises
     ------
@@ -76,9 +90,22 @@ def lobe_mips(
         if lobe is not None:
             with _naming(mip, named[mip]):
                 expanded[mip] = expand(lobe, TOLERANCE)
-    degree = analysis_degree([*expanded.values()]) if expanded else 0
-    harmonics = analyse_environment(_fine_enough(radiance, [*expanded.values()]), degree)
-    for mip in range(len(lobes)):
+    series = [*expanded.values()]
+    fine = _fine_enough(radiance, series)
+    harmonics = analyse_environment(fine, max(degree, analysis_degree(series) if series else 0))
+    made = _made(radiance, size, len(lobes), expanded, harmonics, named)
+    return LobeMips(harmonics if fine is radiance else analyse_environment(radiance, degree), made)
+
+
+def _made(
+    radiance: Array,
+    size: int,
+    count: int,
+    expanded: Mapping[int, ZonalSeries],
+    harmonics: EnvironmentHarmonics,
+    named: Sequence[str],
+) -> Iterator[LobeMip]:
+    for mip in range(count):
         if mip not in expanded:
             yield LobeMip(environment_faces(radiance, size >> mip), 0.0)
             continue

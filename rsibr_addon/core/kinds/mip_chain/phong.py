@@ -1,6 +1,6 @@
 """Mips filtered with Phong's lobes, which [Kautz2004] puts box filters in the place of."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -8,7 +8,7 @@ import numpy as np
 from ...conventions import Array
 from ...errors import RangeError
 from ...filtering.radial_lobes import phong_lobe
-from .lobe_mips import LobeMip, lobe_mips
+from .lobe_mips import LobeMips, lobe_mips
 from .mip_lobes import phong_exponent, texture_space_spread
 from .texture_space import box_halved
 
@@ -16,7 +16,7 @@ SHARPEST = 2e5
 """Exponent of the narrowest lobe that mips are filtered with unless told, 0.5 degrees wide."""
 
 
-def phong_mips(radiance: Array, size: int, exponents: Sequence[float]) -> Iterator[LobeMip]:
+def phong_mips(radiance: Array, size: int, exponents: Sequence[float], degree: int = 0) -> LobeMips:
     """Filter an environment with Phong's lobes: [Kautz2004] Eq. 7.
 
     Parameters
@@ -28,11 +28,8 @@ def phong_mips(radiance: Array, size: int, exponents: Sequence[float]) -> Iterat
     exponents : sequence of float
         Exponent of each mip, descending or equal, from 1. A mip whose exponent is infinite shows the
         environment itself.
-
-    Yields
-    ------
-    LobeMip
-        One mip after another: see `lobe_mips`.
+    degree : int
+        See `lobe_mips`.
 
     Raises
     ------
@@ -41,9 +38,8 @@ def phong_mips(radiance: Array, size: int, exponents: Sequence[float]) -> Iterat
     """
     check_exponents(tuple(exponents))
     lobes = [None if n == np.inf else phong_lobe(n) for n in exponents]
-    yield from lobe_mips(
-        radiance, size, lobes, [f"exponent {n:.6g}, choose a smaller one" for n in exponents]
-    )
+    named = [f"exponent {n:.6g}, choose a smaller one" for n in exponents]
+    return lobe_mips(radiance, size, lobes, named, degree)
 
 
 def check_exponents(exponents: tuple[float, ...]) -> None:

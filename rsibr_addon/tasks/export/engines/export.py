@@ -7,7 +7,6 @@ import numpy as np
 from ....core.conventions import Array
 from ....core.environment import Environment
 from ....core.errors import OutputFileError, RangeError
-from ....core.filtering.harmonics.analysis import analyse_environment
 from ....core.filtering.irradiance import turned_harmonics
 from ....core.kinds.mip_chain.ggx import ggx_mips
 from ....core.maps import cube_map
@@ -90,14 +89,14 @@ def _filtered(light: Environment, engine: CubeEngine, size: int) -> Steps[Engine
         )
     roughness = engine.roughness(size)
     mips = []
-    filtering = ggx_mips(light.radiance, size, roughness)
+    filtered = ggx_mips(light.radiance, size, roughness, degree=2)
     for number in range(len(roughness)):
         yield Progress(1 + number, len(roughness) + 2, f"filtering mip {number} for {engine.label}")
-        mips.append(_turned(next(filtering).faces, engine))
+        mips.append(_turned(next(filtered.mips).faces, engine))
     diffuse = None
     if engine.diffuse:
-        diffuse = _turned(next(ggx_mips(light.radiance, engine.diffuse, ROUGHEST)).faces, engine)
-    harmonics = turned_harmonics(analyse_environment(light.radiance, 2).real(2), engine.axes)
+        diffuse = _turned(next(ggx_mips(light.radiance, engine.diffuse, ROUGHEST).mips).faces, engine)
+    harmonics = turned_harmonics(filtered.harmonics.real(2), engine.axes)
     yield Progress(len(roughness) + 1, len(roughness) + 2, f"writing for {engine.label}")
     return EngineLight(light.name, rsibr(), tuple(mips), diffuse, roughness, harmonics)
 

@@ -12,6 +12,7 @@ from ...host.meshes import TriangleMesh
 from . import exact, references
 from .comparison import Comparison, Way, WayError
 from .references import Captured, Reference
+from .truth import Drawn
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,6 +76,21 @@ def by_cycles(
     captured = Captured(settings.material, environment, shape)
     rendered = yield from references.rendered(captured, cameras, settings)
     return ByCycles(rendered)
+
+
+def beside(
+    truth: Pictures, drawn: dict[Any, list[Array]], material: str, map_size: int, settings: Any
+) -> Drawn:
+    """Pictures that were drawn, beside the truth: arguments and result are attributes of `Drawn`."""
+    return Drawn(
+        material=material,
+        map_size=map_size,
+        settings=settings,
+        references=truth.pictures,
+        drawn=drawn,
+        errors=tuple(truth.error(way, pictures) for way, pictures in drawn.items()),
+        noise=truth.noise,
+    )
 
 
 def name(settings: Any) -> str:

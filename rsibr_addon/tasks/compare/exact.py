@@ -1,6 +1,7 @@
 """Pictures of a reflectance model itself, integrated over an environment."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from math import ceil
 from typing import Any
 
 import numpy as np
@@ -19,8 +20,16 @@ from ...host.meshes import TriangleMesh
 from ...settings.comparison import ExactComparison
 from .comparison import Comparison, Way, WayError, way_error
 
-LEAST_RINGS = 32
-"""Fewest rings of a reference, where no number is asked for."""
+LEAST_RINGS, MOST_RINGS = 32, 256
+"""Fewest and most rings of a reference, where no number is asked for."""
+
+RINGS_BY_WIDTH = 19.0
+"""Rings times a lobe's width in radians."""
+
+
+def rings_of(width: float) -> int:
+    """Rings for a lobe of a width in radians."""
+    return min(max(LEAST_RINGS, ceil(RINGS_BY_WIDTH / width)), MOST_RINGS)
 
 
 def exact_pictures(
@@ -82,7 +91,9 @@ def quality(settings: ExactComparison) -> str:
     return f"{settings.rings} rings of surface points"
 
 
-def table(comparisons: Sequence[Comparison], what: str, columns: dict[str, Any]) -> str:
+def table(
+    comparisons: Sequence[Comparison], what: str, columns: dict[str, Callable[[Comparison, Any], object]]
+) -> str:
     """Errors of several comparisons as a table in Markdown.
 
     Parameters
@@ -91,18 +102,23 @@ def table(comparisons: Sequence[Comparison], what: str, columns: dict[str, Any])
     what : str
         What a material is, as the head of its column.
     columns : mapping of str to callable
-        Head of a column -> a comparison to the number in it.
+        Head of a column -> a comparison, and a way of it, to what stands in it.
 
     Returns
     -------
     str
-        A row for each.
+        A row for each way of each.
     """
     head = [what, "environment", *columns, "all views", "median view", "worst view"]
     rows = [head, ["---"] * 2 + ["---:"] * (len(columns) + 3)]
     for comparison in comparisons:
-        (error,) = comparison.errors
-        numbers = [f"{number:.4f}" for number in (error.pooled, error.median, error.worst)]
-        told = [str(column(comparison)) for column in columns.values()]
-        rows.append([comparison.material, comparison.environment, *told, *numbers])
+        for error in comparison.errors:
+            numbers = [f"{number:.4f}" for number in (error.pooled, error.median, error.worst)]
+            told = [str(column(comparison, error.way)) for column in columns.values()]
+            rows.append([comparison.material, comparison.environment, *told, *numbers])
     return "".join(f"| {' | '.join(row)} |\n" for row in rows)
+
+
+def map_size(comparison: Comparison, way: Way) -> int:
+    """A column of `table`."""
+    return comparison.map_size

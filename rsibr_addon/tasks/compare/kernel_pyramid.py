@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import ceil
 from pathlib import Path
 from typing import Any
 
@@ -17,15 +16,10 @@ from ...files.kinds.kernel_pyramid import shipped_families
 from ...host.meshes import load_mesh
 from ...settings.kernel_pyramid import PyramidComparison
 from ..reflectance.brdfs import load_brdf
+from . import either
 from .comparison import Comparison, cameras_of
-from .exact import LEAST_RINGS, error_of, exact_pictures, made, name, notes, picture, quality, table
+from .exact import exact_pictures, made, map_size, name, notes, picture, quality, rings_of, table
 from .truth import Drawn, Truth
-
-MOST_RINGS = 256
-"""Most rings of a reference, where no number is asked for."""
-
-RINGS_BY_ALPHA = 19.0
-"""Rings times a lobe's width alpha, as lobe stacks have them."""
 
 
 @dataclass(frozen=True)
@@ -73,13 +67,9 @@ def draw(
     ours, look = GpuPyramid(pyramid, shipped_families()), PrincipledLook(own=False, **inputs)
     drawn = [picture(ours, look, mesh, camera, settings.size) for camera in cameras]
     way = PyramidWay(settings.text)
-    return Drawn(
-        material=settings.text,
-        map_size=pyramid.mirror.shape[1],
-        settings=replace(settings, rings=rings),
-        references=references,
-        drawn={way: drawn},
-        errors=(error_of(way, drawn, references),),
+    truth = either.ByModel(references)
+    return either.beside(
+        truth, {way: drawn}, settings.text, pyramid.mirror.shape[1], replace(settings, rings=rings)
     )
 
 
@@ -88,7 +78,7 @@ def _rings(settings: PyramidComparison) -> int:
     narrowest = settings.roughness
     if settings.coat_weight > 0.0:
         narrowest = min(narrowest, settings.coat_roughness)
-    return min(max(LEAST_RINGS, ceil(RINGS_BY_ALPHA / narrowest**2)), MOST_RINGS)
+    return rings_of(narrowest**2)
 
 
 def _is_look(way: PyramidWay, look: PrincipledLook) -> bool:
@@ -96,7 +86,7 @@ def _is_look(way: PyramidWay, look: PrincipledLook) -> bool:
 
 
 def _table(comparisons: Sequence[Comparison]) -> str:
-    return table(comparisons, "material", {"size": lambda each: each.map_size})
+    return table(comparisons, "material", {"size": map_size})
 
 
 TRUTH = Truth(

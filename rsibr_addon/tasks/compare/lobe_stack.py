@@ -13,8 +13,9 @@ from ...device.kinds.lobe_stack import GpuLobeStack
 from ...host.meshes import load_mesh
 from ...settings.lobe_stack import StackComparison
 from ..reflectance.brdfs import check_told_brdf, load_brdf
+from . import either
 from .comparison import Comparison, cameras_of
-from .exact import LEAST_RINGS, error_of, exact_pictures, made, name, notes, picture, quality, table
+from .exact import LEAST_RINGS, exact_pictures, made, map_size, name, notes, picture, quality, table
 from .truth import Drawn, Truth
 
 
@@ -67,20 +68,13 @@ def draw(
     ours = GpuLobeStack(stack)
     drawn = [picture(ours, StackLook(), mesh, camera, settings.size) for camera in cameras]
     way = StackWay(len(stack.maps), len(stack.mu), stack.taps.shape[2])
-    return Drawn(
-        material=spec,
-        map_size=stack.size,
-        settings=replace(settings, rings=rings),
-        references=references,
-        drawn={way: drawn},
-        errors=(error_of(way, drawn, references),),
-    )
+    truth = either.ByModel(references)
+    return either.beside(truth, {way: drawn}, spec, stack.size, replace(settings, rings=rings))
 
 
 def stack_table(comparisons: Sequence[Comparison]) -> str:
     """See `exact.table`."""
-    columns = {"lobes": lambda each: each.errors[0].way.lobes, "size": lambda each: each.map_size}
-    return table(comparisons, "BRDF", columns)
+    return table(comparisons, "BRDF", {"lobes": lambda _, way: way.lobes, "size": map_size})
 
 
 TRUTH = Truth(

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import ceil, sqrt
+from math import sqrt
 from pathlib import Path
 from typing import Any
 
@@ -16,14 +16,8 @@ from ...host.meshes import load_mesh
 from ...settings.mip_chain import MipComparison
 from . import either
 from .comparison import Comparison, cameras_of
-from .exact import LEAST_RINGS, exact_pictures, picture, table
+from .exact import exact_pictures, map_size, picture, rings_of, table
 from .truth import Drawn, Truth
-
-MOST_RINGS = 256
-"""Most rings of a reference, where no number is asked for."""
-
-RINGS_BY_WIDTH = 19.0
-"""Rings times a lobe's width in radians."""
 
 
 @dataclass(frozen=True)
@@ -67,24 +61,16 @@ def draw(
     look.level(chain.lobes)
     mesh, cameras = load_mesh(settings.mesh), cameras_of(settings)
     if settings.material is None:
-        settings = replace(settings, rings=settings.rings or _rings(settings))
+        rings = settings.rings or _rings(settings)
+        settings = replace(settings, rings=rings)
         model = glossy_model(look.f0, look.kd, look.roughness, look.exponent)
-        rings = settings.rings or LEAST_RINGS
         pictures = yield from exact_pictures(model, environment, cameras, mesh, settings.size, rings)
         truth: either.Pictures = either.ByModel(pictures)
     else:
         truth = yield from either.by_cycles(environment, mesh, cameras, settings)
     ours = GpuMipChain(chain)
     drawn = {MipWay(_lobe(look)): [picture(ours, look, mesh, camera, settings.size) for camera in cameras]}
-    return Drawn(
-        material=_lobe(look),
-        map_size=chain.size,
-        settings=settings,
-        references=truth.pictures,
-        drawn=drawn,
-        errors=tuple(truth.error(way, each) for way, each in drawn.items()),
-        noise=truth.noise,
-    )
+    return either.beside(truth, drawn, _lobe(look), chain.size, settings)
 
 
 def _look(settings: MipComparison) -> MipLook:
@@ -94,10 +80,8 @@ def _look(settings: MipComparison) -> MipLook:
 def _rings(settings: MipComparison) -> int:
     """As many as the lobe needs."""
     if settings.exponent is not None:
-        width = sqrt(2.0 / (settings.exponent + 2.0))
-    else:
-        width = max((settings.roughness or 0.0) ** 2, 1e-3)
-    return min(max(LEAST_RINGS, ceil(RINGS_BY_WIDTH / width)), MOST_RINGS)
+        return rings_of(sqrt(2.0 / (settings.exponent + 2.0)))
+    return rings_of(max((settings.roughness or 0.0) ** 2, 1e-3))
 
 
 def _lobe(look: MipLook) -> str:
@@ -113,7 +97,7 @@ def _is_look(way: MipWay, look: MipLook) -> bool:
 
 
 def _table(comparisons: Sequence[Comparison]) -> str:
-    return table(comparisons, "lobe", {"size": lambda each: each.map_size})
+    return table(comparisons, "lobe", {"size": map_size})
 
 
 TRUTH = Truth(

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import ceil, sqrt
+from math import sqrt
 from pathlib import Path
 from typing import Any
 
@@ -23,14 +23,8 @@ from ...host.meshes import TriangleMesh, load_mesh
 from ...settings.reflection_tables import TablesComparison
 from . import either
 from .comparison import Comparison, cameras_of
-from .exact import LEAST_RINGS, exact_pictures, picture
+from .exact import exact_pictures, map_size, picture, rings_of, table
 from .truth import Drawn, Truth
-
-MOST_RINGS = 256
-"""Most rings of a reference, where no number is asked for."""
-
-RINGS_BY_WIDTH = 19.0
-"""Rings times a lobe's width in radians."""
 
 FINER = 4
 """Lookups of mirrors along each side of a sample of a picture."""
@@ -76,8 +70,9 @@ def draw(
     model = material_from_texts(tables.parts, read_measured)
     mesh, cameras = load_mesh(settings.mesh), cameras_of(settings)
     if settings.material is None:
-        settings = replace(settings, rings=settings.rings or _rings(model))
-        truth: either.Pictures = yield from _by_model(model, environment, mesh, cameras, settings)
+        rings = settings.rings or _rings(model)
+        settings = replace(settings, rings=rings)
+        truth: either.Pictures = yield from _by_model(model, environment, mesh, cameras, settings.size, rings)
     else:
         truth = yield from either.by_cycles(environment, mesh, cameras, settings)
     ours = GpuReflectionTables(tables)
@@ -85,22 +80,14 @@ def draw(
         way: [picture(ours, TablesLook(fade=way.fade), mesh, camera, settings.size) for camera in cameras]
         for way in (TablesWay(True), TablesWay(False))
     }
-    return Drawn(
-        material=", ".join(f"{part} {text}" for part, text in tables.parts.items()),
-        map_size=max(each.shape[1] for each in tables.maps.values()),
-        settings=settings,
-        references=truth.pictures,
-        drawn=drawn,
-        errors=tuple(truth.error(way, pictures) for way, pictures in drawn.items()),
-        noise=truth.noise,
-    )
+    told = ", ".join(f"{part} {text}" for part, text in tables.parts.items())
+    return either.beside(truth, drawn, told, max(each.shape[1] for each in tables.maps.values()), settings)
 
 
 def _rings(model: TableMaterial) -> int:
     """As many as the narrowest lobe needs."""
     exponents = [each.n for each in model.lobes.values() if isinstance(each, PhongTable)]
-    width = sqrt(2.0 / (max(exponents, default=1.0) + 2.0))
-    return min(max(LEAST_RINGS, ceil(RINGS_BY_WIDTH / width)), MOST_RINGS)
+    return rings_of(sqrt(2.0 / (max(exponents, default=1.0) + 2.0)))
 
 
 def _by_model(
@@ -108,10 +95,10 @@ def _by_model(
     environment: Environment,
     mesh: TriangleMesh,
     cameras: Sequence[Camera],
-    settings: TablesComparison,
+    size: int,
+    rings: int,
 ) -> Steps[either.ByModel]:
     """Lobes by exact sums, and mirrors by many lookups of the environment."""
-    size, rings = settings.size, settings.rings or LEAST_RINGS
     pictures = [np.zeros((size, size, 4), dtype=np.float32) for _ in cameras]
     reflectance = lobes_reflectance(model)
     if reflectance is not None:
@@ -138,14 +125,7 @@ def _added(first: Array, second: Array) -> Array:
 
 
 def _table(comparisons: Sequence[Comparison]) -> str:
-    head = ["material", "environment", "size", "tables", "all views", "median view", "worst view"]
-    rows = [head, ["---"] * 4 + ["---:"] * 3]
-    for comparison in comparisons:
-        for error in comparison.errors:
-            numbers = [f"{number:.4f}" for number in (error.pooled, error.median, error.worst)]
-            what = [comparison.material, comparison.environment, str(comparison.map_size), error.way.name]
-            rows.append([*what, *numbers])
-    return "".join(f"| {' | '.join(row)} |\n" for row in rows)
+    return table(comparisons, "material", {"size": map_size, "tables": lambda _, way: way.name})
 
 
 def _is_look(way: TablesWay, look: TablesLook) -> bool:

@@ -1,4 +1,4 @@
-"""Show the scene of `show_render` in Blender's window, split between previews and Cycles; writes docs/images/viewport.jpg.
+"""Show the scene of `show_render` in the window, previews beside Cycles; writes docs/images/viewport.jpg.
 
 It needs the Blender that `.ci/window/blender install` makes, and the extension that `make extension` builds.
 """

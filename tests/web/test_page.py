@@ -126,7 +126,8 @@ def test_a_page_of_every_kind_is_the_preview(kind: str, tmp_path: Path) -> None:
 def test_dragging_and_sliders_change_what_the_preview_would(tmp_path: Path) -> None:
     source = light_file(tmp_path, "kernel_pyramid")
     script = """
-    const mouse = (type, x, y) => browser("Input.dispatchMouseEvent", { type, x, y, button: "left", buttons: 1 });
+    const mouse = (type, x, y) =>
+        browser("Input.dispatchMouseEvent", { type, x, y, button: "left", buttons: 1 });
     await mouse("mousePressed", 20, 20);
     const turned = settled();
     await mouse("mouseMoved", 20 + SIZE / 4, 20);
@@ -253,7 +254,8 @@ def test_a_page_goes_on_after_its_context_was_lost(tmp_path: Path) -> None:
     const again = settled();
     lose.restoreContext();
     const after = await again;
-    answer({ before: encoded(before.pixels), after: encoded(after.pixels), told: !document.querySelector("#trouble").hidden });
+    const told = !document.querySelector("#trouble").hidden;
+    answer({ before: encoded(before.pixels), after: encoded(after.pixels), told });
     """
     source = light_file(tmp_path, "mip_chain")
     said = driven(page_of(source), SET_UP + script, before="window.expectsTrouble = true;")

@@ -73,7 +73,11 @@ def lookup(image: Array, direction: ArrayLike, representation: Representation) -
     """
     height, width = image.shape[1:3]
     columns, rows, sheets, weights = texels_around(direction, representation, width, height)
-    return _weighted_sum(weights, image[sheets, rows, columns])
+    if not image.flags.c_contiguous:
+        return _weighted_sum(weights, image[sheets, rows, columns])
+    # One number for each texel is looked up four times as fast as three
+    texel = (sheets * height + rows) * width + columns
+    return _weighted_sum(weights, image.reshape(-1, image.shape[-1]).take(texel, axis=0))
 
 
 def texels_around(
@@ -94,6 +98,8 @@ def texels_around(
         columns, rows, np.broadcast_to(sheet, columns.shape), width, height
     )
     missing = sheets < 0
+    if not missing.any():
+        return columns, rows, sheets, weights
     shared = np.sum(weights * missing, axis=0) / 3.0
     return columns, rows, sheets, np.where(missing, 0.0, weights + shared)
 

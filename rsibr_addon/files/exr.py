@@ -49,6 +49,16 @@ LEAST_OF_SAMPLE = {
 Deflate makes one byte of 1032; DWA stores one number for 64 before that.
 """
 
+WIDE = 4096
+"""Width of pictures that are packed by PIZ: the fewer texels a chunk has, the less do its tables pay.
+
+At 8192 texels it packs environments 1.4 to 2 times as fast as ZIP, and a tenth to a quarter smaller; at 1024
+it takes up to 2.7 times as long.
+"""
+
+ROWS_OF_CHUNK = {OpenEXR.ZIP_COMPRESSION: 16, OpenEXR.PIZ_COMPRESSION: 32}
+"""Rows that are packed together, by the compressions that are written."""
+
 BYTES_OF_SAMPLE = 8
 """Bytes of memory for each number of a channel: a float, and as much again for the picture made of it."""
 
@@ -306,8 +316,13 @@ def _between(start: Indices, end: Indices) -> tuple[slice, slice]:
     return slice(start[1], end[1]), slice(start[0], end[0])
 
 
+def compression_of(width: int) -> Any:
+    """How a picture of some width is packed, without loss."""
+    return OpenEXR.PIZ_COMPRESSION if width >= WIDE else OpenEXR.ZIP_COMPRESSION
+
+
 def write_parts(path: Path, parts: Sequence[Part]) -> None:
-    """Write a file with ZIP compression; equal parts give equal bytes.
+    """Write a file, packed by `compression_of`; equal parts give equal bytes.
 
     Parameters
     ----------
@@ -356,7 +371,7 @@ def _described(part: Part, largest: Sequence[int]) -> Any:
     height, width = largest
     header = {
         "type": OpenEXR.scanlineimage,
-        "compression": OpenEXR.ZIP_COMPRESSION,
+        "compression": compression_of(next(iter(part.channels.values())).shape[1]),
         "displayWindow": (np.zeros(2, np.int32), np.array([width - 1, height - 1], np.int32)),
     }
     return OpenEXR.Part(

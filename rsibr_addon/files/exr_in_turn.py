@@ -13,13 +13,10 @@ from typing import BinaryIO
 import numpy as np
 
 from ..core.conventions import Array
-from .exr import MAGIC, Part, packed
+from .exr import MAGIC, ROWS_OF_CHUNK, Part, compression_of, packed
 
 _VERSION = struct.pack("<I", 2 | 1 << 12)
 """Version 2, with several parts."""
-
-_ROWS = 16
-"""Rows of a chunk with ZIP compression."""
 
 _TEXELS_AT_ONCE = 1 << 20
 """Texels that are packed at a time, in memory of their own."""
@@ -49,7 +46,7 @@ class PartsInTurn:
         # A part of one texel has a header of the same length
         texel = np.zeros((1, 1, 3), np.float32)
         headers = [self._whole(name, self._packed(name, texel)[0]) for name in shapes]
-        chunks = sum(_chunk_count(height) for height, _ in shapes.values())
+        chunks = sum(_chunk_count(*shape) for shape in shapes.values())
         stream.seek(len(_headers_as_bytes(headers)) + 8 * chunks)
 
     def add(self, name: str, pixels: Array) -> None:
@@ -67,7 +64,8 @@ class PartsInTurn:
             The disk is full.
         """
         height, width = self._shapes[name]
-        rows = max(_TEXELS_AT_ONCE // width // _ROWS, 1) * _ROWS
+        together = _rows_of_chunk(width)
+        rows = max(_TEXELS_AT_ONCE // width // together, 1) * together
         for top in range(0, height, rows):
             header, chunks = self._packed(name, pixels[max(height - top - rows, 0) : height - top], top)
             self._write(chunks)
@@ -86,13 +84,14 @@ class PartsInTurn:
             The disk is full.
         """
         height, width = self._shapes[name]
+        together = _rows_of_chunk(width)
         # Chunks of as many rows are alike but for the number of the first row, which they begin with
         alike = {
             rows: self._packed(name, np.zeros((rows, width, 3), np.float16))
-            for rows in {min(_ROWS, height), height % _ROWS} - {0}
+            for rows in {min(together, height), height % together} - {0}
         }
-        for top in range(0, height, _ROWS):
-            header, (chunk,) = alike[min(_ROWS, height - top)]
+        for top in range(0, height, together):
+            header, (chunk,) = alike[min(together, height - top)]
             self._write([struct.pack("<i", top) + chunk[4:]])
         self._headers.append(self._whole(name, header))
 
@@ -126,7 +125,7 @@ class PartsInTurn:
         height, width = self._shapes[name]
         return header | {
             b"dataWindow": b"box2i\0" + struct.pack("<5i", 16, 0, 0, width - 1, height - 1),
-            b"chunkCount": b"int\0" + struct.pack("<2i", 4, _chunk_count(height)),
+            b"chunkCount": b"int\0" + struct.pack("<2i", 4, _chunk_count(height, width)),
         }
 
     def _packed(self, name: str, pixels: Array, top: int = 0) -> tuple[dict[bytes, bytes], list[memoryview]]:
@@ -141,13 +140,17 @@ class PartsInTurn:
             end = end_of_type + 5 + int.from_bytes(file[end_of_type + 1 : end_of_type + 5], "little")
             header[file[at:end_of_name]] = file[end_of_name + 1 : end]
             at = end
-        count = _chunk_count(len(pixels))
+        count = _chunk_count(*pixels.shape[:2])
         starts = [*struct.unpack_from(f"<{count}Q", file, at + 1), len(file)]
         return header, [memoryview(file)[start:end] for start, end in itertools.pairwise(starts)]
 
 
-def _chunk_count(height: int) -> int:
-    return -(-height // _ROWS)
+def _rows_of_chunk(width: int) -> int:
+    return ROWS_OF_CHUNK[compression_of(width)]
+
+
+def _chunk_count(height: int, width: int) -> int:
+    return -(-height // _rows_of_chunk(width))
 
 
 def _headers_as_bytes(headers: list[dict[bytes, bytes]]) -> bytes:

@@ -179,9 +179,8 @@ def _rec709_picture(channels: dict[str, Array], meant: Meaning) -> Array:
         matrix = rec709_from(XYZ)
     roles = [role for role in "RGBA" if role in channels] if "R" in channels else ["Y"]
     pixels = np.empty((*channels[roles[0]].shape, len(roles)), np.float32)
-    for row in range(len(pixels)):  # one after the other, in a processor's cache
-        for number, role in enumerate(roles):
-            pixels[row, :, number] = channels[role][row]
+    for number, role in enumerate(roles):
+        pixels[..., number] = channels[role]
     if len(roles) >= 3 and not np.array_equal(matrix, np.eye(3)):
         with np.errstate(over="ignore", invalid="ignore"):  # from values that are already infinite
             for row in pixels:

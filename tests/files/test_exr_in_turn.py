@@ -15,6 +15,8 @@ MAPS = {
     "a chunk and a row": RNG.random((17, 3, 3)).astype(np.float16),
     "a name of more than thirty-two letters": RNG.random((40, 7, 3), np.float32),
     "more than is packed at once": np.tile(RNG.random((1, 70000, 3), np.float32), (37, 1, 1)),
+    "a chunk and a row of a wide one": RNG.random((33, 4096, 3), np.float32),
+    "a wide black": np.zeros((40, 4096, 3), np.float16),
     "a last black": np.zeros((32, 9, 3), np.float16),
     "a low black": np.zeros((5, 9, 3), np.float16),
 }

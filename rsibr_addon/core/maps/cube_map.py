@@ -29,15 +29,13 @@ NOWHERE = -1
 
 def direction_from_uv(uv: ArrayLike, sheet: Indices) -> Array:
     """The direction that a point of a face, 0 to 5, shows: see `core.maps`."""
-    uv = np.asarray(uv, dtype=np.float64)
-    st = 2.0 * uv - 1.0
-    sheet = np.broadcast_to(sheet, uv.shape[:-1])
-    direction = np.empty((*sheet.shape, 3))
-    for face, axes in enumerate(FACES):
-        on_face = sheet == face
-        direction[on_face] = st[on_face] @ axes[:2] + axes[2]
-    direction /= np.linalg.norm(direction, axis=-1, keepdims=True)
-    return direction
+    s, t = np.moveaxis(2.0 * np.asarray(uv, dtype=np.float64) - 1.0, -1, 0)
+    direction = np.empty((3, *np.broadcast_shapes(s.shape, np.shape(sheet))))
+    for component, of_faces in zip(direction, FACES.T, strict=True):
+        along_s, along_t, towards = of_faces[:, sheet]
+        component[...] = s * along_s + t * along_t + towards
+    direction /= np.sqrt(1.0 + s * s + t * t)
+    return np.moveaxis(direction, 0, -1)
 
 
 def uv_from_direction(direction: ArrayLike) -> tuple[Array, Indices]:

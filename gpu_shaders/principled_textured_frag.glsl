@@ -184,12 +184,21 @@ float map_spread()
 // opaque.
 const float LEAST_ALPHA = 0.5 / 255.0;
 
+// Of what covers less, normals are not told, as by Cycles.
+const float LEAST_SEEN = 0.5;
+
 void main()
 {
   evaluate_inputs();
   vec3 base_normal = shading_normal();
-  vec3 coat_normal = coat_shading_normal(base_normal);
   Seen seen = seen_surface(draw.eye, draw.model, world_position, base_normal, gl_FrontFacing);
+#ifdef NORMALS
+  if (numbers[ALPHA] < LEAST_SEEN) {
+    discard;
+  }
+  radiance = vec4(seen.normal, 1.0);
+#else
+  vec3 coat_normal = coat_shading_normal(base_normal);
   Seen seen_coat = seen_surface(draw.eye, draw.model, world_position, coat_normal, gl_FrontFacing);
   float antialiased = material.antialiasing.x;
   vec3 across, up;
@@ -230,4 +239,5 @@ void main()
                                      seen_coat.mirror_normal,
                                      seen.view_dir);
   radiance.a = alpha;
+#endif
 }

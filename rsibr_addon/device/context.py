@@ -30,6 +30,16 @@ def ensure_context() -> None:
         ) from error
 
 
+def has_driver() -> bool:
+    """Whether a background Blender can make a context: where it tries in vain, it crashes."""
+    try:
+        if sys.platform == "linux":
+            check_drivers()
+    except (DeviceError, OSError):
+        return False
+    return True
+
+
 def _limit() -> str:
     """The advice where drivers may exist but find too little memory."""
     if sys.platform == "win32":

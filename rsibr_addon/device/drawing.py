@@ -140,6 +140,14 @@ class WithInputs(Protocol):
         """What a look is drawn from; made without the GPU."""
 
 
+@runtime_checkable
+class Emissive(Protocol):
+    """A map set that knows what of its radiance is emitted."""
+
+    def draw_emission(self, mesh: GpuMesh, draw: Draw, look: Any) -> None:
+        """The same as `GpuMapSet.draw`, of emitted radiance alone."""
+
+
 class ProgramMapSet(ABC):
     """A `GpuMapSet` that one program draws from its inputs."""
 
@@ -155,7 +163,9 @@ class ProgramMapSet(ABC):
 
     def draw(self, mesh: GpuMesh, draw: Draw, look: Any) -> None:
         """See `GpuMapSet.draw`."""
-        inputs = self.inputs(look)
+        self._draw(mesh, draw, self.inputs(look))
+
+    def _draw(self, mesh: GpuMesh, draw: Draw, inputs: Inputs) -> None:
         shader = inputs.program()
         shader.bind()
         shader.uniform_block(inputs.program.block, self._block.filled(*inputs.fields))

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.conventions import Array
 from .passes import blended, screen_interface, screen_triangle
-from .shaders import build, kept_until_exit, mesh_interface
+from .shaders import build, kept_until_exit
 
 
 class Film:
@@ -77,9 +77,3 @@ def layer_shader() -> gpu.types.GPUShader:
     info.sampler(0, "FLOAT_2D", "layer")
     info.fragment_out(0, "VEC4", "colour")
     return build("layer", info, "screen_vert.glsl", "layer_frag.glsl")
-
-
-@kept_until_exit
-def normal_shader() -> gpu.types.GPUShader:
-    """Draws the normals of a mesh."""
-    return build("normal", mesh_interface(""), "mesh_vert.glsl", "normal_frag.glsl")

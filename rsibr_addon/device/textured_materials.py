@@ -61,7 +61,14 @@ _BLACK = Input(((0.0,) * 5,) * 3)
 _ZERO = Input(((0.0,) * 5,))
 
 
-def textured_program(fragment: str, samplers: Mapping[str, str], translucent: bool) -> gpu.types.GPUShader:
+TRANSLUCENT, NORMALS = "TRANSLUCENT", "NORMALS"
+"""Variants of a program. The first leaves out what covers nothing, and draws what covers all if its constant
+`whole` is 1, and the rest if that is 0; a program that leaves fragments out is a fifth slower, everywhere.
+The second draws the normals that the material is shaded with, where its alpha is a half or more.
+"""
+
+
+def textured_program(fragment: str, samplers: Mapping[str, str], variant: str = "") -> gpu.types.GPUShader:
     """Build a program that draws `GpuTexturedMesh` with one `DrawnMaterial`.
 
     Parameters
@@ -70,9 +77,8 @@ def textured_program(fragment: str, samplers: Mapping[str, str], translucent: bo
         The source, without its ending _frag.glsl.
     samplers : mapping of str to str
         Textures of what lights the material, as `MeshProgram` takes them.
-    translucent : bool
-        Whether it leaves out what covers nothing, and draws what covers all if its constant `whole` is 1, and
-        the rest if that is 0. A program that leaves fragments out is a fifth slower, everywhere.
+    variant : str, optional
+        `TRANSLUCENT` or `NORMALS`.
 
     Raises
     ------
@@ -84,8 +90,9 @@ def textured_program(fragment: str, samplers: Mapping[str, str], translucent: bo
         f"vec4 rows[{NUMBERS}]; vec4 targets[{NUMBERS}]; "
         f"vec4 ranges[{MOST_TEXTURES}]; vec4 mapping[{2 * MOST_TEXTURES}]; }};"
     )
-    if translucent:
-        info.define("TRANSLUCENT")
+    if variant:
+        info.define(variant)
+    if variant == TRANSLUCENT:
         info.push_constant("FLOAT", "whole")
     info.uniform_buf(1, "Material", "material")
     info.vertex_in(2, "VEC4", "tangent")

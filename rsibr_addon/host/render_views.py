@@ -1,5 +1,6 @@
 """The view of a scene's camera, as a render shows it."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import cast
 
@@ -9,11 +10,13 @@ from mathutils import Matrix
 
 from ..core.conventions import Array
 from ..core.errors import SceneError
-from .visible_surfaces import Side, Surface, View
+from .visible_surfaces import RENDER_ENGINE, Side, Surface, View
 from .world_light import AS_IT_IS, WorldLight, world_light
 
 CAMERAS = ("PERSP", "ORTHO")
 """Types of cameras whose rays a matrix describes."""
+
+STEREOSCOPY = "stereoscopy"
 
 NOTHING = 1e10
 """Depth of what no surface covers, as Cycles has it."""
@@ -111,7 +114,7 @@ def camera_view(
     Raises
     ------
     SceneError
-        See `checked_camera`.
+        See `checked_camera`, or the camera's scale is 0.
     """
     scene = depsgraph.scene
     seen_by = checked_camera(scene, camera)
@@ -126,7 +129,10 @@ def camera_view(
         part[axis, axis] = size / (end - begin)
         part[axis, 3] = (size - begin - end) / (end - begin)
     unscaled: Array = np.array(pose)
-    unscaled[:3, :3] /= np.linalg.norm(unscaled[:3, :3], axis=0)
+    scale = np.linalg.norm(unscaled[:3, :3], axis=0)
+    if not scale.all():
+        raise SceneError(f"Camera {seen_by.name} is scaled to 0 and sees nothing: clear its scale.")
+    unscaled[:3, :3] /= scale
     layer = scene.session_uid, depsgraph.view_layer.name
     shape, no_viewport = (right - left, top - bottom), cast(bpy.types.SpaceView3D, None)
     return CameraView(scene, layer, depsgraph, no_viewport, unscaled, part @ np.array(whole), shape)
@@ -150,14 +156,16 @@ def checked_camera(scene: bpy.types.Scene, camera: bpy.types.Object | None) -> b
     return camera
 
 
-def left_out(scene: bpy.types.Scene, camera: bpy.types.Object) -> list[str]:
+def left_out(scene: bpy.types.Scene, layer: bpy.types.ViewLayer, camera: bpy.types.Object) -> list[str]:
     """What a scene asks for that RSIBR does not render, in sentences."""
     asked = {
         "motion blur": scene.render.use_motion_blur,
         "depth of field": camera.data.dof.use_dof,
-        "stereoscopy": scene.render.use_multiview,
+        STEREOSCOPY: scene.render.use_multiview,
+        f"the material override of view layer {layer.name}": layer.material_override,
+        f"the world override of view layer {layer.name}": layer.world_override,
     }
-    told = [f"RSIBR renders without {name}, which the scene asks for." for name, on in asked.items() if on]
+    told = [without(name) for name, on in asked.items() if on]
     lamps = [each.name for each in scene.objects if each.type == "LIGHT" and not each.hide_render]
     if lamps:
         of_them = f"lamp {lamps[0]}" if len(lamps) == 1 else f"{len(lamps)} lamps"
@@ -166,6 +174,41 @@ def left_out(scene: bpy.types.Scene, camera: bpy.types.Object) -> list[str]:
             "Capture from Scene makes a picture of lamps for the world."
         )
     return told
+
+
+def scenes_of_ours(scene: bpy.types.Scene) -> list[bpy.types.Scene]:
+    """The scenes that RSIBR renders for a render of one: it, and those of its compositor and sequencer."""
+    found, left = [], [scene]
+    while left:
+        each = left.pop()
+        if each not in found:
+            found.append(each)
+            left += [*_composited(each), *_in_sequence(each)]
+    return [each for each in found if each.render.engine == RENDER_ENGINE]
+
+
+def _composited(scene: bpy.types.Scene) -> Iterator[bpy.types.Scene]:
+    trees, seen = [scene.compositing_node_group if scene.render.use_compositing else None], set()
+    while trees:
+        tree = trees.pop()
+        if tree is None or tree in seen:
+            continue
+        seen.add(tree)
+        for node in tree.nodes:
+            if node.type == "R_LAYERS" and node.scene and not node.mute:
+                yield node.scene
+            trees.append(getattr(node, "node_tree", None))
+
+
+def _in_sequence(scene: bpy.types.Scene) -> Iterator[bpy.types.Scene]:
+    editor = scene.sequence_editor if scene.render.use_sequencer else None
+    strips = editor.strips_all if editor else ()
+    yield from (strip.scene for strip in strips if strip.type == "SCENE" and strip.scene and not strip.mute)
+
+
+def without(name: str) -> str:
+    """Says that RSIBR leaves something out."""
+    return f"RSIBR renders without {name}, which the scene asks for."
 
 
 def _border(render: bpy.types.RenderSettings, resolution: tuple[int, int]) -> tuple[int, int, int, int]:

@@ -10,7 +10,6 @@ from ..core.errors import RenderError
 from ..core.threads import limited, thread_count
 from ..files.exr import read_parts
 from ..files.temporary import temporary_folder
-from .visible_surfaces import RENDER_ENGINE
 
 AXES = "RGBAXYZ"
 """Order of the channels of a pass."""
@@ -99,12 +98,13 @@ def render_passes(scene: bpy.types.Scene) -> dict[str, Array]:
 def render_frame(
     scene: bpy.types.Scene, number: int, picture_format: str, path: Path, samples: int | None
 ) -> None:
-    """Render a frame of a scene by our engine, into a file of a format of Blender's.
+    """Render a frame of a scene, which has our engine, into a file of a format of Blender's.
 
     Parameters
     ----------
     scene : bpy.types.Scene
         Its settings are changed, and the open file is at this frame afterwards.
+        The file has one picture, without stereoscopy.
     number : int
     picture_format : {"OPEN_EXR", "PNG"}
         EXR has 32-bit floats.
@@ -118,12 +118,12 @@ def render_frame(
     RenderError
         See `render_to`.
     """
-    scene.render.engine = RENDER_ENGINE
     if samples is not None:
         scene.rsibr_render.samples = samples
     image = scene.render.image_settings
     image.media_type, image.file_format = "IMAGE", picture_format
     image.color_mode = "RGBA" if scene.render.film_transparent else "RGB"
     image.color_depth = "32" if picture_format == "OPEN_EXR" else "8"
+    scene.render.use_multiview = False
     scene.frame_set(number)
     render_to(scene, path)

@@ -195,6 +195,13 @@ def objects_numbered(numbers: Collection[int]) -> list[bpy.types.Object]:
     return [each for each in bpy.data.objects if each.session_uid in numbers]
 
 
+def is_hole(surface: Surface, depsgraph: bpy.types.Depsgraph) -> bool:
+    """Whether a surface makes a hole in pictures: Blender's holdout, of an object or its collection."""
+    # A render sets keys' values in its own copies, which are `item`
+    by_layer = surface.shown_by.holdout_get(view_layer=depsgraph.view_layer)
+    return bool(surface.item.is_holdout or by_layer)
+
+
 def surfaces(depsgraph: bpy.types.Depsgraph) -> Iterator[tuple[Surface, bpy.types.Object]]:
     """Every surface that the view layer shows.
 

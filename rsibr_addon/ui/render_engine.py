@@ -11,11 +11,10 @@ from bpy.app.handlers import persistent
 from ..core.errors import RsibrError
 from ..core.progress import drain
 from ..core.warned import is_recorded, recorded_warnings, warn
-from ..device.context import ensure_context
+from ..device.context import ensure_context, has_driver
 from ..host.handlers import add_handlers
 from ..host.option_properties import options_of
 from ..host.render_views import camera_view, left_out
-from ..host.scenes import evaluated
 from ..host.visible_surfaces import RENDER_ENGINE, current_view
 from ..session.running import session
 from ..settings.render import RenderOptions
@@ -44,8 +43,8 @@ class RSIBR_RE_previews(bpy.types.RenderEngine):
     bl_label = "RSIBR"
     bl_use_preview = False
     bl_use_postprocess = True
-    # A background Blender without a driver would crash while it makes one; `ensure_context` looks first
-    bl_use_gpu_context = not bpy.app.background
+    # Where there is no driver, `ensure_context` says so
+    bl_use_gpu_context = not bpy.app.background or has_driver()
     bl_use_eevee_viewport = True
 
     def update_render_passes(self, scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> None:
@@ -124,7 +123,7 @@ class RSIBR_RE_previews(bpy.types.RenderEngine):
         view = camera_view(depsgraph, camera, pose, (self.resolution_x, self.resolution_y))
         passes, renders = _passes(depsgraph.view_layer_eval), session().renders
         picture = renders.picture(view, passes)
-        for message in renders.news(left_out(depsgraph.scene, camera)):
+        for message in renders.news(left_out(depsgraph.scene, depsgraph.view_layer, camera)):
             warn(message)
         samples = options_of(RenderOptions, depsgraph.scene.rsibr_render).samples
         since = time.monotonic()
@@ -163,10 +162,10 @@ def start(undo: ExitStack) -> None:
 @persistent
 def _prepare(scene: bpy.types.Scene, *_: object) -> None:
     """Bake what a render lacks where no window waits for it: no render can begin within another."""
-    if scene.render.engine != RENDER_ENGINE or not bpy.app.background:
+    if not bpy.app.background:
         return
     try:
-        session().renders.wish(drain(bake_for_render(scene, evaluated(scene))))
+        session().renders.wish(drain(bake_for_render(scene)))
     except (RsibrError, OSError) as error:
         session().renders.trouble = str(error)
 

@@ -70,6 +70,33 @@ def test_a_file_without_a_camera_is_told(blend: Path, capfd: pytest.CaptureFixtu
     assert not Path("one.png").exists()
 
 
+def test_a_marker_chooses_the_camera(blend: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    scene = bpy.context.scene
+    scene.timeline_markers.new("Camera", frame=2).camera = scene.camera
+    scene.camera = None
+    bpy.ops.wm.save_mainfile()
+    capfd.readouterr()
+    result = json_result(capfd, "render", str(blend), "--frames", "2", "-o", "two.exr")
+    assert [Path(path).name for path in result["pictures"]] == ["two.exr"]
+
+
+def test_stereoscopy_is_left_out_and_said(blend: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    bpy.context.scene.render.use_multiview = True
+    bpy.ops.wm.save_mainfile()
+    capfd.readouterr()
+    result = json_result(capfd, "render", str(blend), "-o", "one.exr")
+    assert "RSIBR renders without stereoscopy, which the scene asks for." in result["warnings"]
+    assert read_exr(Path("one.exr")).shape == (18, 32, 3)
+
+
+def test_a_scene_that_renders_no_layer_is_refused(blend: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    bpy.context.view_layer.use = False
+    bpy.ops.wm.save_mainfile()
+    capfd.readouterr()
+    result = json_result(capfd, "render", str(blend), "-o", "one.png")
+    assert result["error"].startswith("Scene Scene renders no view layer: ")
+
+
 @pytest.mark.slow
 def test_the_page_s_commands_do_what_they_say(blend: Path, capfd: pytest.CaptureFixture[str]) -> None:
     first, second = (json_result(capfd, *words) for words in calls("docs/render.md", "rsibr"))

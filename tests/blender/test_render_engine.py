@@ -9,63 +9,15 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.light.transfer_curve import srgb_from_linear
 from rsibr.rsibr_addon.core.threads import AtOnce
-from rsibr.rsibr_addon.files.exr import read_parts
 from rsibr.rsibr_addon.host.render_views import NOTHING
 from rsibr.rsibr_addon.host.visible_surfaces import View, layer_of
 from rsibr.rsibr_addon.tasks.light import environments
 from rsibr.rsibr_addon.tasks.methods.live_materials import LiveFits
 from rsibr.rsibr_addon.tasks.viewport.previews import Previews
+from rsibr.tests.blender.conftest import HEIGHT, WIDTH, Render
 from rsibr.tests.flat_capture import write_flat_capture
 
 pytestmark = [pytest.mark.needs("gl", "cycles"), pytest.mark.usefixtures("registered")]
-
-WIDTH, HEIGHT = 64, 40
-
-Render = Callable[..., dict[str, np.ndarray]]
-
-
-@pytest.fixture
-def scene(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> bpy.types.Scene:
-    """The factory file's cube in a world of two colours, which is baked small and beside the file."""
-    monkeypatch.setattr(environments, "WORLD_HEIGHT", 16)
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
-    scene = bpy.context.scene
-    scene.rsibr_bake.kernel_pyramid.size = "256"
-    scene.render.engine = "RSIBR"
-    scene.render.resolution_x, scene.render.resolution_y = WIDTH, HEIGHT
-    scene.view_settings.view_transform = "Standard"
-    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.2, 0.4, 0.8, 1.0)
-    bpy.data.objects.remove(bpy.data.objects["Light"])
-    return scene
-
-
-@pytest.fixture
-def render(scene: bpy.types.Scene, tmp_path: Path) -> Render:
-    """Render a frame, and read its passes: name -> pixels, shape (height, width, channels)."""
-    layer = bpy.context.view_layer
-    layer.use_pass_z = layer.use_pass_normal = layer.use_pass_emit = True
-
-    def rendered(engine: str = "RSIBR", samples: int = 1) -> dict[str, np.ndarray]:
-        scene.render.engine, scene.rsibr_render.samples = engine, samples
-        cycles, settings = scene.cycles, scene.render.image_settings
-        cycles.samples, cycles.pixel_filter_type = samples, "BOX"
-        cycles.use_adaptive_sampling = cycles.use_denoising = False
-        settings.media_type, settings.file_format = "MULTI_LAYER_IMAGE", "OPEN_EXR_MULTILAYER"
-        settings.color_depth = "32"
-        path = tmp_path / f"{engine}.exr"
-        scene.render.filepath = str(path)
-        bpy.ops.render.render(write_still=True)
-        passes: dict[str, dict[str, np.ndarray]] = {}
-        for part in read_parts(path):
-            for channel, pixels in part.channels.items():
-                _, name, axis = channel.split(".")
-                passes.setdefault(name, {})[axis] = pixels
-        return {
-            name: np.stack([axes[axis] for axis in sorted(axes, key="RGBAXYZ".index)], axis=-1)
-            for name, axes in passes.items()
-        }
-
-    return rendered
 
 
 def perspective(scene: bpy.types.Scene) -> None:
@@ -282,17 +234,24 @@ def test_what_cannot_be_shown_is_said_once(
     plain = render()["Combined"]
     cube.rsibr.map_set = str(tmp_path / "missing.rsibr.exr")
     scene.render.use_motion_blur = scene.camera.data.dof.use_dof = True
+    bpy.context.view_layer.material_override = bpy.data.materials["Material"]
     scene.collection.objects.link(bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "POINT")))
     capfd.readouterr()
     np.testing.assert_array_equal(render()["Combined"], plain)
     told = capfd.readouterr()
-    for words in ("missing.rsibr.exr", "motion blur", "depth of field", "lamp Lamp"):
+    for words in ("missing.rsibr.exr", "motion blur", "depth of field", "material override", "lamp Lamp"):
         assert len([line for line in (told.out + told.err).splitlines() if words in line]) == 1, words
 
 
 def test_a_panoramic_camera_is_refused(scene: bpy.types.Scene, render: Render) -> None:
     scene.camera.data.type = "PANO"
     with pytest.raises(RuntimeError, match="Camera Camera is panoramic, and RSIBR renders perspective"):
+        render()
+
+
+def test_a_camera_without_size_is_refused(scene: bpy.types.Scene, render: Render) -> None:
+    scene.camera.scale = (0.0, 0.0, 0.0)
+    with pytest.raises(RuntimeError, match="Camera Camera is scaled to 0"):
         render()
 
 

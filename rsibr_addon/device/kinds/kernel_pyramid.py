@@ -18,7 +18,7 @@ from ...core.lobes.family import KERNELS, Family
 from ..drawing import Draw, GpuMesh, Inputs, ProgramMapSet
 from ..own_materials import OwnMaterials
 from ..shaders import MeshProgram, kept_until_exit
-from ..textured_materials import MaterialBinding, textured_program
+from ..textured_materials import TRANSLUCENT, MaterialBinding, textured_program
 from ..textured_mesh import GpuTexturedMesh
 from ..textures import GpuTexture
 
@@ -57,13 +57,13 @@ principled_shader = MeshProgram(
 @kept_until_exit
 def opaque_shader() -> gpu.types.GPUShader:
     """Draws triangles of an opaque material whose inputs are textures."""
-    return textured_program("principled_textured", SAMPLERS, translucent=False)
+    return textured_program("principled_textured", SAMPLERS)
 
 
 @kept_until_exit
 def translucent_shader() -> gpu.types.GPUShader:
     """The same of a material that covers in part, or has holes."""
-    return textured_program("principled_textured", SAMPLERS, translucent=True)
+    return textured_program("principled_textured", SAMPLERS, TRANSLUCENT)
 
 
 class GpuPyramid(ProgramMapSet):

@@ -1,14 +1,16 @@
 """Reflection tables on the GPU [Miller1984]: a texture for each, looked up for each fragment."""
 
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 
 from ...core.conventions import Array
+from ...core.kinds.reflection_tables.changes import emitted_radiance
 from ...core.kinds.reflection_tables.shading import AVERAGED, TablesLook
 from ...core.kinds.reflection_tables.tables import ReflectionTables, Role
 from .. import buffers
-from ..drawing import Inputs, ProgramMapSet
+from ..drawing import Draw, GpuMesh, Inputs, ProgramMapSet
 from ..equirect import Sums, map_sums, map_texture, no_map, no_sums
 from ..shaders import MeshProgram
 from ..textures import GpuTexture
@@ -76,6 +78,14 @@ class GpuReflectionTables(ProgramMapSet):
         textures |= {f"{role}_sums": each.texture for role, each in sums.items()}
         summed = {f"{role}_sums": (role.value, each.unit) for role, each in sums.items() if look.antialiased}
         return Inputs(reflection_tables_shader, fields, {**textures, "weights": weights}, summed)
+
+    def draw_emission(self, mesh: GpuMesh, draw: Draw, look: TablesLook) -> None:
+        """See `Emissive`."""
+        tables, _ = self._as_looked_at(look)
+        inputs = self.inputs(look)
+        _, *others = inputs.fields[len(Role) :]
+        emitted = look.weight(Role.DIFFUSE) * emitted_radiance(tables.parts)
+        self._draw(mesh, draw, replace(inputs, fields=(*[np.zeros(3)] * len(Role), emitted, *others)))
 
     def _as_looked_at(self, look: TablesLook) -> tuple[ReflectionTables, GpuTexture]:
         """The tables as a look changes them, and their weights."""

@@ -3,16 +3,17 @@
 import re
 from pathlib import Path
 
-from ...core.errors import OutputFileError
+from ...core.errors import OutputFileError, SceneError
 from ...core.progress import Progress, Steps
 from ...core.warned import recorded_warnings, warn
 from ...device.context import ensure_context
 from ...files.atomic import check_target, written_aside
 from ...host.bake_settings import enable_extension
 from ...host.blend_files import open_blend
-from ...host.render_views import checked_camera
+from ...host.render_views import STEREOSCOPY, checked_camera, without
 from ...host.rendering import render_frame
-from ...host.scenes import evaluated, find_scene
+from ...host.scenes import find_scene
+from ...host.visible_surfaces import RENDER_ENGINE
 from ...settings.render import FramesOptions
 from .missing_bakes import bake_for_render
 
@@ -62,9 +63,15 @@ def render_frames(
     enable_extension()
     open_blend(blend)
     scene = find_scene(None)
-    checked_camera(scene, scene.camera)
-    ensure_context()
+    scene.render.engine = RENDER_ENGINE
     numbers = settings.numbers or range(scene.frame_current, scene.frame_current + 1)
+    scene.frame_set(numbers[0])  # a marker may choose the camera
+    checked_camera(scene, scene.camera)
+    if not any(layer.use for layer in scene.view_layers):
+        raise SceneError(f"Scene {scene.name} renders no view layer: switch Use for Rendering on for one.")
+    if scene.render.use_multiview:
+        warn(without(STEREOSCOPY))
+    ensure_context()
     paths = [_path(output, blend, number) for number in numbers]
     if len(set(paths)) < len(paths):
         raise OutputFileError(
@@ -73,7 +80,7 @@ def render_frames(
     for path in paths:
         path.parent.mkdir(parents=True, exist_ok=True)
         check_target(path, force, tuple(FORMATS))
-    yield from bake_for_render(scene, evaluated(scene))
+    yield from bake_for_render(scene)
     for done, (number, path) in enumerate(zip(numbers, paths, strict=True)):
         yield Progress(done, len(paths), f"rendering frame {number}")
         with written_aside(path, force) as aside, recorded_warnings() as warnings:

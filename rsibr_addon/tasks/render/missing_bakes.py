@@ -7,19 +7,19 @@ from ...core.errors import SceneError
 from ...core.progress import Steps
 from ...files.baked_inputs import is_whole
 from ...host.bake_settings import SHAPED, bakes_inputs_by_itself
+from ...host.render_views import scenes_of_ours
+from ...host.scenes import evaluated
 from ..baked_inputs import bake_inputs
 from ..queue.input_bakes import inputs_file, inputs_settings
 from ..queue.world_bakes import bake_world
 
 
-def bake_for_render(scene: Any, depsgraph: Any) -> Steps[list[tuple[Any, Path]]]:
-    """Bake a scene's world, and the inputs of its materials that have to be baked.
+def bake_for_render(scene: Any) -> Steps[list[tuple[Any, Path]]]:
+    """Bake the worlds of what is rendered with a scene, and the inputs of materials that have to be baked.
 
     Parameters
     ----------
     scene : bpy.types.Scene
-    depsgraph : bpy.types.Depsgraph
-        Of the scene as viewports show it.
 
     Returns
     -------
@@ -31,9 +31,16 @@ def bake_for_render(scene: Any, depsgraph: Any) -> Steps[list[tuple[Any, Path]]]
     RsibrError
         The world cannot be baked: see `bake_world`.
     """
-    if scene.world is not None:
-        yield from bake_world(scene)
     found = []
+    for each in scenes_of_ours(scene):
+        if each.world is not None:
+            yield from bake_world(each)
+        found += yield from _baked_inputs(each)
+    return found
+
+
+def _baked_inputs(scene: Any) -> Steps[list[tuple[Any, Path]]]:
+    found, depsgraph = [], evaluated(scene)
     for item in [each for each in scene.objects if each.type in SHAPED and not each.hide_render]:
         try:
             path = inputs_file(item, depsgraph)

@@ -9,10 +9,12 @@ import numpy as np
 
 from ...core.conventions import Array
 from ...core.geometry.pixel_samples import pixel_samples
-from ...device.drawing import GpuMapSet
-from ...device.film import Film, normal_shader
+from ...device.drawing import Emissive, GpuMapSet
+from ...device.film import Film
+from ...device.normals import Normals
 from ...device.own_materials import OwnMaterials
 from ...device.preview_stage import Sight, Stage, draw_occluder
+from ...device.textured_mesh import GpuTexturedMesh
 from ...host.render_views import CameraView
 from ...host.working_space import working_from_rec709
 from ...host.world_light import AS_IT_IS
@@ -40,9 +42,9 @@ class Picture:
 
     def __init__(self, frame: Frame, view: CameraView, passes: Collection[str], darkness: GpuMapSet) -> None:
         self._frame, self._view, self._darkness = frame, view, darkness
-        self._backdrop = None if view.scene.render.film_transparent else frame.backdrop
         self._stage = Stage()
         self._films = {name: Film(*view.size) for name in _DRAWN if name in passes}
+        self._normals = Normals()
         self._wants_depth = DEPTH in passes
         self._depths: Array = np.ones(view.size[::-1], np.float32)
         self._places = pixel_samples()
@@ -60,14 +62,14 @@ class Picture:
         frame = self._frame.seen_by(sight)
         for name, film in self._films.items():
             with film.sample():
-                if name == COMBINED and self._backdrop is not None:
-                    light = self._view.world_light
-                    self._backdrop.draw(sight, light.turn, light.strength)
+                if name == COMBINED:
+                    frame.draw_behind(self._stage, self._view, sight)
                 for strength in frame.strengths:
                     frame.set(self._stage, strength, True, partial(_DRAWN[name], self))
                     film.lay(self._stage.radiance, 1.0 if name == NORMAL else strength)
-                if self._is_first and frame.strengths:  # what is not of a stage's strength hides there
-                    self._depths, self._is_first = self._stage.depths(), False
+                if self._is_first and self._wants_depth and frame.strengths:
+                    self._depths = self._first_depths(frame)
+                self._is_first = False
 
     def read(self) -> dict[str, Array]:
         """The passes so far.
@@ -85,19 +87,35 @@ class Picture:
             found[DEPTH] = self._view.distances(self._depths)[..., None]
         return found
 
+    def _first_depths(self, frame: Frame) -> Array:
+        """Depths of what was drawn last, where all is that hides; 1 where a hole is in front."""
+        depths = self._stage.depths()
+        if frame.holes:
+            with self._stage.drawing():
+                for mesh, placed in frame.holes:
+                    draw_occluder(mesh, placed)
+            depths[depths == self._stage.depths()] = 1.0
+        return depths
+
     def _draw_combined(self, shown: Shown) -> None:
         shown.draw(other=False)
 
     def _draw_normal(self, shown: Shown) -> None:
-        shader = normal_shader()
-        shader.bind()
-        shown.drawable.mesh.draw(shader, replace(shown.placed, turn=AS_IT_IS.turn))
+        mesh, look = shown.drawable.mesh, shown.looks[False]
+        placed = replace(shown.placed, turn=AS_IT_IS.turn)
+        if isinstance(look, OwnMaterials) and isinstance(mesh, GpuTexturedMesh):
+            self._normals.draw_shading(mesh, placed, look)
+        else:
+            self._normals.draw(mesh, placed)
 
     def _draw_emission(self, shown: Shown) -> None:
-        """Only own materials tell what of their light is their own."""
+        """What does not tell what of its light is its own emits none."""
         mesh, placed, look = shown.drawable.mesh, shown.placed, shown.looks[False]
+        map_set = shown.map_set.gpu_map_set
         if isinstance(look, OwnMaterials):
             self._darkness.draw(mesh, placed, look)
+        elif isinstance(map_set, Emissive) and look is not None:
+            map_set.draw_emission(mesh, placed, look)
         else:
             draw_occluder(mesh, placed)
 

@@ -85,7 +85,7 @@ class Renders:
     def _frame(self, view: CameraView) -> Frame:
         with self._previews.faults.guarded():
             return self._previews.frame(view, Sight.by(*view.matrices))
-        return Frame([], [], None, self._previews.faults)
+        return Frame([], [], [], None, self._previews.faults)
 
     def _messages(self, item: Any) -> list[str]:
         live = item.rsibr.show and item.rsibr.live.on

@@ -1,12 +1,22 @@
 """What view layers show: surfaces with a preview, and those that may hide them."""
 
 from collections.abc import Callable, Collection
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 from ...device.drawing import GpuMesh
 from ...host.live_light import is_live_name
 from ...host.textured_meshes import MeshNeeds
-from ...host.visible_surfaces import Layer, Surface, View, is_wanted, map_set_of, shown_layers, surfaces
+from ...host.visible_surfaces import (
+    Layer,
+    Surface,
+    View,
+    is_hole,
+    is_wanted,
+    map_set_of,
+    shown_layers,
+    surfaces,
+)
 from .baked_inputs import InputBakes
 from .faults import Faults
 from .meshes import UploadedMeshes
@@ -51,6 +61,8 @@ class Contents:
         Surfaces with a preview.
     others : list of Drawable or None
         Surfaces without a preview, if they were asked for.
+    holes : list of Drawable
+        Surfaces that make holes in the picture, where all are shaded.
     world : str
         What surfaces without a map set of their own are shaded from; empty where they are left to Blender.
     changed : bool
@@ -59,8 +71,14 @@ class Contents:
 
     previews: list[Drawable]
     others: list[Drawable] | None
+    holes: list[Drawable] = field(default_factory=list)
     world: str = ""
     changed: bool = False
+
+    @property
+    def all(self) -> list[Drawable]:
+        """Everything that is on the GPU."""
+        return [*self.previews, *(self.others or ()), *self.holes]
 
     def serves(self, with_others: bool) -> bool:
         """Whether it is still right. Blender sends no notice of a map set that was packed or moved."""
@@ -115,7 +133,7 @@ class LayerContents:
     def collect(self, view: View, with_others: bool, faults: Faults) -> Contents:
         """Find what a view layer shows, upload the meshes that are new, and let go of what nobody shows."""
         world = self._worlds.of(view.scene) if view.shades_all else ""
-        contents = Contents([], [] if with_others else None, world)
+        contents = Contents([], [] if with_others else None, world=world)
         if view.shades_all or is_wanted():
             self._fill(contents, view, faults)
         else:
@@ -123,7 +141,7 @@ class LayerContents:
         self.layers[view.content] = contents  # at last: what fails above is tried again
         layers = {view.layer, *shown_layers()}
         self.layers = {content: each for content, each in self.layers.items() if content[0] in layers}
-        shown = [each for layer in self.layers.values() for each in (*layer.previews, *(layer.others or ()))]
+        shown = [each for layer in self.layers.values() for each in layer.all]
         self.meshes.keep({(each.surface.mesh, each.needs) for each in shown})
         return contents
 
@@ -135,6 +153,9 @@ class LayerContents:
     def _fill(self, contents: Contents, view: View, faults: Faults) -> None:
         for surface, evaluated in surfaces(view.depsgraph):
             lit = bool(surface.path) and not is_live_name(surface.path) and not faults.stands(surface.item)
+            if contents.world and is_hole(surface, view.depsgraph):
+                self._add(contents.holes, surface, evaluated, view)
+                continue
             if contents.world and not lit:
                 surface = replace(surface, path=contents.world, in_world=True)
             if not surface.path:
@@ -142,9 +163,17 @@ class LayerContents:
             found = contents.previews if surface.path else contents.others
             if found is None:
                 continue
-            materials = None
-            if surface.path and self._shows_own(surface):
-                materials = self._materials.of(evaluated)
-            mesh = self.meshes.of(surface, evaluated, view.depsgraph, materials)
-            if mesh is not None:
-                found.append(Drawable(surface, mesh, materials))
+            own = surface.path and self._shows_own(surface)
+            self._add(found, surface, evaluated, view, self._materials.of(evaluated) if own else None)
+
+    def _add(
+        self,
+        found: list[Drawable],
+        surface: Surface,
+        evaluated: Any,
+        view: View,
+        materials: ShownMaterials | None = None,
+    ) -> None:
+        mesh = self.meshes.of(surface, evaluated, view.depsgraph, materials)
+        if mesh is not None:
+            found.append(Drawable(surface, mesh, materials))

@@ -1,13 +1,16 @@
 """What one frame shows, with all that it is drawn with."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
 from ...device.backdrop import Backdrop
 from ...device.drawing import Draw, GpuMesh
+from ...device.matte_layer import draw_hole, lay_matte
 from ...device.own_materials import OwnMaterials
 from ...device.preview_stage import Sight, Stage, draw_occluder
+from ...host.visible_surfaces import View
+from ...host.world_light import AS_IT_IS
 from .contents import Drawable
 from .faults import Faults
 from .map_sets import ViewportMapSet
@@ -51,6 +54,8 @@ class Frame:
     shown : list of Shown
     hiding : list of (GpuMesh, Draw)
         What may hide it, where the frame buffer does not have its depths.
+    holes : list of (GpuMesh, Draw)
+        What makes holes in the picture.
     backdrop : Backdrop or None
         The world behind all that, where all objects are shaded.
     faults : Faults
@@ -59,6 +64,7 @@ class Frame:
 
     shown: list[Shown]
     hiding: list[tuple[GpuMesh, Draw]]
+    holes: list[tuple[GpuMesh, Draw]]
     backdrop: Backdrop | None
     faults: Faults
 
@@ -77,7 +83,20 @@ class Frame:
             self,
             shown=[replace(each, placed=placed(each.placed)) for each in self.shown],
             hiding=[(mesh, placed(draw)) for mesh, draw in self.hiding],
+            holes=[(mesh, placed(draw)) for mesh, draw in self.holes],
         )
+
+    def draw_behind(self, stage: Stage, view: View, sight: Sight) -> None:
+        """Fill the active frame buffer, which is empty, with the radiance of what lies behind all objects."""
+        is_transparent = self.backdrop is None or view.scene.render.film_transparent
+        if self.backdrop is not None and not is_transparent:
+            light = view.world_light
+            self.backdrop.draw(sight, light.turn, light.strength)
+        if self.holes:
+            with stage.drawing():
+                for mesh, draw in self.holes:
+                    draw_hole(mesh, draw)
+            lay_matte(stage.radiance, is_transparent)
 
     def set(
         self, stage: Stage, strength: float, hidden: bool, draw: Callable[[Shown], None], other: bool = False
@@ -98,7 +117,7 @@ class Frame:
         """
         group = [each for each in self.shown if each.placed.strength == strength]
         others = [each for each in self.shown if each.placed.strength != strength]
-        hiding = [*self.hiding, *((each.drawable.mesh, each.placed) for each in others)]
+        hiding = [*self.hiding, *self.holes, *((each.drawable.mesh, each.placed) for each in others)]
         with stage.drawing():
             for mesh, placed in hiding if hidden else ():
                 draw_occluder(mesh, placed)
@@ -107,3 +126,10 @@ class Frame:
                     draw(each)
                 except Exception as error:
                     self.faults.note(each.drawable.surface.item, error)
+
+
+def placed(drawables: Iterable[Drawable], view: View, sight: Sight) -> list[tuple[GpuMesh, Draw]]:
+    """Those that a view shows, with their places."""
+    return [
+        (each.mesh, sight.on(each.surface.matrix, AS_IT_IS.turn)) for each in drawables if each.is_seen(view)
+    ]

@@ -2,6 +2,7 @@
 
 from collections.abc import Collection
 from concurrent.futures import Executor
+from dataclasses import replace
 from itertools import product
 from typing import Any
 
@@ -18,7 +19,6 @@ from ...host.bake_settings import bakes_inputs_by_itself
 from ...host.display import surface_display
 from ...host.live_light import is_readable, shows_surroundings
 from ...host.visible_surfaces import Layer, Side, Surface, View, map_set_of, objects_numbered
-from ...host.world_light import AS_IT_IS
 from ..methods.kinds import KINDS
 from ..methods.live_materials import LiveFits
 from .baked_inputs import InputBakes
@@ -26,7 +26,7 @@ from .blender_pictures import BlenderPictures
 from .contents import Contents, Drawable, LayerContents
 from .displays import Displays
 from .faults import Faults
-from .frame import Frame, Shown
+from .frame import Frame, Shown, placed
 from .looks import Looks, own_look, wants_own
 from .map_sets import MapSets, ViewportMapSet
 from .worlds import Worlds
@@ -197,13 +197,8 @@ class Previews:
         wanted : collection of bool
             Which looks: the first, as False, or the other one.
         """
-        if self.inputs.upload():
-            self._layers.scene_changed(materials=False)
-        contents = self._layers.layers.get(view.content)
-        if contents is None or not contents.serves(not view.has_depth):
-            contents = self._collected(view)
+        contents = self._contents(view)
         self._map_sets.begin_frame()
-        world = self._world(view)
         seen = self._seen(contents, view)
         lacking = [each.surface for each, map_set in seen if KINDS[map_set.kind].own and not each.materials]
         if any(map(self._shows_own, lacking)) or contents.has_faulty(self.faults):
@@ -215,23 +210,18 @@ class Previews:
             if (looks := self._looks_of(each, map_set, wanted))
         ]
         lights = view.lights_of([each.surface for each, *_ in looked])
-        hiding = [
-            (each.mesh, sight.on(each.surface.matrix, AS_IT_IS.turn))
-            for each in contents.others or ()
-            if each.is_seen(view)
-        ]
         shown = [
             Shown(each, map_set, sight.on(each.surface.matrix, light.turn, light.strength), looks)
             for (each, map_set, looks), light in zip(looked, lights, strict=True)
         ]
-        return Frame(shown, hiding, world.backdrop if world else None, self.faults)
+        hiding = placed(contents.others or [], view, sight)
+        return replace(self._behind(contents, view, sight), shown=shown, hiding=hiding)
 
     def draw_backdrop(self, view: View) -> None:
         """Fill the active frame buffer with the world, in linear radiance, where all objects are shaded."""
-        world = self._world(view)
-        if world and world.backdrop and not view.scene.render.film_transparent:
-            light = view.world_light
-            world.backdrop.draw(Sight.by(*view.matrices), light.turn, light.strength)
+        if view.shades_all:
+            sight = Sight.by(*view.matrices)
+            self._behind(self._contents(view), view, sight).draw_behind(self._stage, view, sight)
 
     def render_surroundings(self, view: View) -> bool:
         """Render the light around objects that are in live light, as far as the scene has changed.
@@ -295,6 +285,20 @@ class Previews:
     def _numbers_with_baked_inputs(self, layers: Collection[Layer] | None = None) -> set[int]:
         previewed = self._layers.previewed(layers)
         return {each.surface.number for each in previewed if each.materials and each.materials.has_baked}
+
+    def _behind(self, contents: Contents, view: View, sight: Sight) -> Frame:
+        """A frame of what lies behind all objects."""
+        world = self._world(view)
+        holes = placed(contents.holes, view, sight)
+        return Frame([], [], holes, world.backdrop if world else None, self.faults)
+
+    def _contents(self, view: View) -> Contents:
+        """What a view layer shows, looked at anew if it may have changed."""
+        if self.inputs.upload():
+            self._layers.scene_changed(materials=False)
+        contents = self._layers.layers.get(view.content)
+        served = contents is not None and contents.serves(not view.has_depth)
+        return contents if contents and served else self._collected(view)
 
     def _collected(self, view: View) -> Contents:
         """What a view layer shows, looked at anew; what is used no more is let go."""

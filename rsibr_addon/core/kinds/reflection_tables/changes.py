@@ -54,6 +54,12 @@ def changed_tables(tables: ReflectionTables, parts: Mapping[str, str], fade: boo
     return replace(tables, maps=maps, weights=weights, eta=now.eta, parts=parts, gains=gains, added=added)
 
 
+def emitted_radiance(parts: Mapping[str, str]) -> Array:
+    """What a material of these parts emits, shape (3,): 0 where it has no emission."""
+    there = {part: text for part, text in parts.items() if part == "emission"}
+    return _radiance(material_from_texts(there, _none_measured)) if there else np.zeros(3)
+
+
 def _none_measured(kind: str, path: str) -> Brdf:
     raise RangeError("Weights by a measured material are baked: bake the tables again.")
 

@@ -1,0 +1,48 @@
+"""What objects take from what lies behind them all: holes."""
+
+import gpu
+
+from .drawing import Draw, GpuMesh
+from .passes import blended, screen_interface, screen_triangle
+from .shaders import build, kept_until_exit, mesh_interface
+
+
+def draw_hole(mesh: GpuMesh, draw: Draw) -> None:
+    """Draw a surface that takes all light, and all coverage."""
+    shader = hole_shader()
+    shader.bind()
+    mesh.draw(shader, draw)
+
+
+def lay_matte(layer: gpu.types.GPUTexture, on_nothing: bool) -> None:
+    """Take a layer's shares from the active frame buffer.
+
+    Parameters
+    ----------
+    layer : GPUTexture
+        Shares of light, and of coverage, that are taken, of the frame buffer's pixels.
+    on_nothing : bool
+        Whether the frame buffer is empty, and not filled by what lies behind.
+    """
+    shader = matte_layer_shader()
+    shader.bind()
+    shader.uniform_float("on_nothing", float(on_nothing))
+    shader.uniform_sampler("layer", layer)
+    with blended("ALPHA_PREMULT" if on_nothing else "MULTIPLY"):
+        screen_triangle(shader).draw(shader)
+
+
+@kept_until_exit
+def hole_shader() -> gpu.types.GPUShader:
+    """Draws a mesh that makes a hole."""
+    return build("hole", mesh_interface(""), "mesh_vert.glsl", "hole_frag.glsl")
+
+
+@kept_until_exit
+def matte_layer_shader() -> gpu.types.GPUShader:
+    """Takes shares from what is there."""
+    info = screen_interface()
+    info.push_constant("FLOAT", "on_nothing")
+    info.sampler(0, "FLOAT_2D", "layer")
+    info.fragment_out(0, "VEC4", "colour")
+    return build("matte_layer", info, "screen_vert.glsl", "matte_layer_frag.glsl")

@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from ..core.errors import OutputFileError
 from ..core.options import Options
 from ..core.progress import Steps
 from ..files.kinds.registry import look_types
@@ -35,8 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help=f"engine to write for, exactly what it loads, and what to do there: {uses} (default: none)",
     )
     options.add_options_of(parser, _owners())
-    suffixes = [*(each.suffix for each in FORMATS.values()), PAGE_ENDING]
-    endings = dict.fromkeys([*suffixes, *(name for each in ENGINES.values() for name in each.endings)])
+    endings = dict.fromkeys([*_own_endings(), *_engine_endings()])
     names = "|".join(f"OUT{ending}" for ending in endings)
     options.add_output(
         parser,
@@ -65,6 +65,11 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     if not engine and output.suffix.lower() == PAGE_ENDING:
         textures = console.steps(_page(arguments))
     else:
+        if not engine and output.suffix.lower() not in _own_endings():
+            raise OutputFileError(
+                f"{output} does not end in {' or '.join(_own_endings())}, nor, with --for ENGINE, in "
+                f"{' or '.join(_engine_endings())}: give a name that does."
+            )
         settings = options.given_of(arguments, _owners(), engine or format_of(output))
         if engine:
             steps = export_for_engine(source, output, engine, settings, arguments.force)
@@ -74,6 +79,16 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     for texture in textures:
         console.say(f"{texture}")
     return {"textures": [str(texture) for texture in textures]}
+
+
+def _own_endings() -> list[str]:
+    """Endings of names that are taken without an engine."""
+    return [*(each.suffix for each in FORMATS.values()), PAGE_ENDING]
+
+
+def _engine_endings() -> list[str]:
+    """Endings of names that engines take."""
+    return list(dict.fromkeys(ending for each in ENGINES.values() for ending in each.endings))
 
 
 def _page(arguments: argparse.Namespace) -> Steps[list[Path]]:

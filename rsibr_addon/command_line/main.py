@@ -19,7 +19,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
-from ..core.errors import NotNowError, RenderError, RsibrError
+from ..core.errors import MemoryShortageError, NotNowError, RenderError, RsibrError
 from ..files.locks import held
 from ..files.outputs import MAY_PASS
 from ..files.staging import remove_own
@@ -135,7 +135,7 @@ def may_pass(error: Exception) -> bool:
     """Whether the same work may succeed another time, as its error tells of the machine alone."""
     if isinstance(error, OSError):
         return error.errno in MAY_PASS
-    return isinstance(error, NotNowError | RenderError | MemoryError)
+    return isinstance(error, NotNowError | RenderError | MemoryShortageError | MemoryError)
 
 
 def sentence_of(error: Exception, command: str) -> str:

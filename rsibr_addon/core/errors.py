@@ -41,6 +41,10 @@ class NotNowError(OutputFileError):
     """A file cannot be written now, but perhaps later: its disk is full, or does not answer."""
 
 
+class MemoryShortageError(RangeError):
+    """Work takes more memory than is left now: a smaller size fits, or the same one at another time."""
+
+
 class SceneError(RsibrError):
     """Something in the Blender file (scene, world, material, mesh) cannot be used."""
 

@@ -119,6 +119,6 @@ class AtOnce(Executor):
         done = Future[Result]()
         try:
             done.set_result(function(*given, **named))
-        except Exception as error:
+        except Exception as error:  # Raised where the result is asked for, as a thread's own would be
             done.set_exception(error)
         return done

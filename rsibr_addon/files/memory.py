@@ -6,7 +6,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from ..core.errors import RangeError
+from ..core.errors import MemoryShortageError
 
 ROOT = Path("/")
 """Root of the file system in which Linux describes itself."""
@@ -32,13 +32,13 @@ def check_memory(
 
     Raises
     ------
-    RangeError
+    MemoryShortageError
         It does not fit; the message names a size that does, if there is one.
     """
     whole = memory_left()
     left = whole - besides
     if left <= needed / (size[0] * size[1]):
-        raise RangeError(
+        raise MemoryShortageError(
             f"{what} takes {besides / 1e9:.1f} GB of memory at any size, and {whole / 1e9:.1f} GB are left: "
             f"close other programs, or raise the limit."
         )
@@ -47,7 +47,7 @@ def check_memory(
         if powers:
             scale = 2.0 ** math.floor(math.log2(scale))
         fitting = "x".join(str(max(1, math.floor(side * scale))) for side in size)
-        raise RangeError(
+        raise MemoryShortageError(
             f"{what} takes {needed / 1e9:.1f} GB of memory at {size[0]}x{size[1]}, and {left / 1e9:.1f} GB "
             f"are left: shrink it to {fitting} at most."
         )

@@ -129,7 +129,6 @@ def test_a_missing_file_is_1_and_one_sentence_that_names_it(
         (["bake", "kernel-bank"], ".rsibr.exr or .exr"),
         (["fit", "--brdf", "ggx:alpha=0.3,f0=1"], ".json"),
         (["report", "missing.exr"], ".html"),
-        (["export", "missing.exr"], ".ktx2"),
         (["convert", "missing.exr", "--from", "equirect", "--to", "equirect", "--size", "2"], ".exr or .hdr"),
         (["illuminate", "painted", "missing.png", "--white", "9"], ".exr or .hdr"),
     ],

@@ -1,10 +1,15 @@
 """Wrong usage: what is told of it, to people and to programs."""
 
 import json
+from pathlib import Path
 
+import numpy as np
 import pytest
 from rsibr.rsibr_addon.command_line.main import run
+from rsibr.rsibr_addon.files import memory
+from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.files.version import rsibr
+from rsibr.rsibr_addon.tasks.export.engines.engines import ENGINES
 
 
 @pytest.mark.parametrize(
@@ -30,6 +35,26 @@ def test_all_commands_are_listed_and_all_kinds(capfd: pytest.CaptureFixture[str]
 def test_the_version_is_told(capfd: pytest.CaptureFixture[str]) -> None:
     assert run(["--version"]) == 0
     assert capfd.readouterr().out == f"{rsibr()}\n"
+
+
+def test_an_export_names_every_ending_that_it_would_take(capfd: pytest.CaptureFixture[str]) -> None:
+    assert run(["export", "missing.exr", "-o", "out.foo"]) == 1
+    said = capfd.readouterr().err
+    assert "out.foo does not end in .ktx2 or .html, nor, with --for ENGINE, in .dds or" in said
+    assert {ending for each in ENGINES.values() for ending in each.endings} <= set(
+        said.replace(":", "").split()
+    )
+
+
+def test_what_lacks_memory_may_succeed_another_time(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(memory, "memory_left", lambda: 1e6)
+    light, output = tmp_path / "light.exr", tmp_path / "out.rsibr.exr"
+    write_radiance(light, np.ones((8, 16, 3), np.float32), "light")
+    argv = ["bake", "mip-chain", "--environment", str(light), "-o", str(output), "--json"]
+    assert run(argv) == 75
+    assert json.loads(capfd.readouterr().out)["try_again"]
 
 
 @pytest.mark.parametrize("word", ["0", "-2", "many", "1025", "9" * 5000])

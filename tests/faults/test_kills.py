@@ -50,6 +50,9 @@ SLOW = {
 SOURCES = ("convert", "bake")
 """Commands whose outputs others read."""
 
+PATIENCE = 120.0
+"""[s] How long a killed command's processes may take to end before the test gives up."""
+
 MOMENTS = int(os.environ.get("RSIBR_MOMENTS", len(QUICK)))
 COMMANDS = QUICK if len(QUICK) >= MOMENTS else QUICK | SLOW
 
@@ -225,12 +228,14 @@ def test_a_kill_of_the_panels_bake_or_of_its_blender(
 
 def wait_for_group(group: int) -> None:
     """Wait until no process of a command lives: its worker ends when it does, a moment later."""
-    while True:
+    deadline = time.monotonic() + PATIENCE
+    while time.monotonic() < deadline:
         try:
             os.killpg(group, 0)
         except ProcessLookupError:
             return
         time.sleep(0.01)
+    pytest.fail(f"processes of the killed command still live after {PATIENCE} s")
 
 
 def finished_views(told: str) -> int:

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from rsibr.rsibr_addon.core.errors import RangeError
+from rsibr.rsibr_addon.core.errors import MemoryShortageError
 from rsibr.rsibr_addon.files import memory
 
 GIB = 2**30
@@ -88,7 +88,9 @@ class TestLinux:
 @pytest.mark.parametrize("left", [0.0, 1e9, 1e9 + 1.0])
 def test_what_fits_at_no_size_says_so(left: float, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(memory, "memory_left", lambda: left)
-    with pytest.raises(RangeError, match=r"^out.exr takes 1\.0 GB of memory at any size, .* close other"):
+    with pytest.raises(
+        MemoryShortageError, match=r"^out.exr takes 1\.0 GB of memory at any size, .* close other"
+    ):
         memory.check_memory(3e9, "out.exr", (1000, 1000), besides=1e9)
 
 
@@ -97,7 +99,7 @@ def test_sizes_that_are_powers_of_two_are_offered_where_no_others_will_do(
     left: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(memory, "memory_left", lambda: left)
-    with pytest.raises(RangeError) as caught:
+    with pytest.raises(MemoryShortageError) as caught:
         memory.check_memory(3e9, "out.exr", (1024, 1024), powers=True)
     size = int(str(caught.value).split("shrink it to ")[1].split("x")[0])
     assert math.log2(size) % 1.0 == 0.0

@@ -206,7 +206,7 @@ class MapSets:
         path, item = surface.path, surface.number
         try:
             self._fetch(path, None if surface.in_world else surface.item)
-        except Exception:
+        except Exception:  # Whatever it was, told by the caller: a stale picture must not stay
             self._shown.pop(item, None)
             raise
         if path in self.used and self._is_lit(path):
@@ -255,7 +255,7 @@ class MapSets:
             return
         try:
             self._come_nearer(path, item)
-        except Exception:
+        except Exception:  # Whatever it was, told by the caller: half an upload must not stay
             self._drop(path)
             raise
 

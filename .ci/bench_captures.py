@@ -18,8 +18,9 @@ from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.geometry.geodesic import geodesic_sphere
 from rsibr.rsibr_addon.core.geometry.lit_sphere import lit_spheres
 from rsibr.rsibr_addon.core.kinds.kernel_bank.filtered_bank import FilteredBank
-from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Warping, views_fragment
+from rsibr.rsibr_addon.core.kinds.radiance_views.shading import views_fragment
 from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
+from rsibr.rsibr_addon.core.kinds.radiance_views.warping import Warping
 from rsibr.rsibr_addon.core.lobes.captured_texels import captured_texels, seen_functions
 from rsibr.rsibr_addon.core.lobes.captures import fit_captures
 from rsibr.rsibr_addon.core.lobes.fit import Fit

@@ -23,8 +23,9 @@ from rsibr.rsibr_addon.core.geometry.geodesic import geodesic_sphere
 from rsibr.rsibr_addon.core.geometry.lit_sphere import environment_about, lit_spheres, ring_radiance
 from rsibr.rsibr_addon.core.kinds.lobe_stack.shading import StackLook
 from rsibr.rsibr_addon.core.kinds.lobe_stack.stack import LAYOUTS, LobeStack
-from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Warping, views_fragment
+from rsibr.rsibr_addon.core.kinds.radiance_views.shading import views_fragment
 from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
+from rsibr.rsibr_addon.core.kinds.radiance_views.warping import Warping
 from rsibr.rsibr_addon.core.lobes.bake import bake_stack
 from rsibr.rsibr_addon.core.lobes.fit import Fit, lobe_axes
 from rsibr.rsibr_addon.core.lobes.layers import layered_fit

@@ -14,12 +14,12 @@ from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
 from rsibr.rsibr_addon.core.kinds.mip_chain.shading import Borders, glossy_mean
 from rsibr.rsibr_addon.core.kinds.mip_chain.texture_space import filtered_mips, tent_halved
 from rsibr.rsibr_addon.core.kinds.radiance_views.shading import (
-    Warping,
     destination_by_texel,
     destination_lookup,
     views_fragment,
 )
 from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
+from rsibr.rsibr_addon.core.kinds.radiance_views.warping import Warping
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.maps.representation import representation
 from rsibr.tests.bumpy_sphere import EYE, footprints, supersampled

@@ -84,6 +84,20 @@ def property_name(declared: Declared) -> str:
     return declared.option.stored or declared.name
 
 
+def model_property(options: type[Options]) -> str:
+    """The name of the property that has a material's model as a text.
+
+    Parameters
+    ----------
+    options : type
+        With an option whose `Materials` can be models.
+    """
+    (declared,) = (
+        each for each in declared_options(options) if each.option.materials and each.option.materials.model
+    )
+    return property_name(declared)
+
+
 def options_of(options: type[Given], group: Any, own: str = "") -> Given:
     """The options that properties say.
 
@@ -225,7 +239,7 @@ def _of_materials(declared: Declared, materials: Materials, common: dict[str, An
         name="Material",
         description="Where the material is taken from",
         items=items,
-        default=MODEL if materials.model else OWN,
+        default=MODEL if materials.model and not materials.presets else OWN,
         **common,
     )
     return {"source": source, **found}

@@ -1,10 +1,12 @@
-"""How a material is rendered from all around: [Cabral1999]."""
+"""How a material is captured from all around: [Cabral1999]."""
 
 from dataclasses import dataclass
 from typing import ClassVar
 
 from ..core.brdf.cycles_presets import PRESETS, preset_title
-from ..core.kinds.radiance_views.shading import Mode, Warping
+from ..core.brdf.gallery import GALLERY
+from ..core.kinds.radiance_views.shading import Mode
+from ..core.kinds.radiance_views.warping import Warping
 from ..core.options import Choice, Materials, option
 from .comparison import ComparisonOptions, samples_option
 from .method import MethodSettings
@@ -16,16 +18,21 @@ class RadianceViewsSettings(MethodSettings):
 
     KIND: ClassVar = "radiance_views"
     LABEL: ClassVar = "Radiance Views"
-    SUMMARY: ClassVar = "Any material, rendered by Cycles from all around"
+    SUMMARY: ClassVar = "Any material, rendered by Cycles or integrated from all around"
 
     material: str = option(
         label="Material",
-        help=f"a preset ({', '.join(PRESETS)}), FILE.blend:NAME, or :NAME of the open file",
+        help=(
+            f"a preset ({', '.join(PRESETS)}), FILE.blend:NAME, or :NAME of the open file, which Cycles "
+            "renders; or a reflectance model or measurement, as ward:alpha=0.1,ks=0.8 or merl:path=FILE, "
+            "which is integrated exactly, without samples and noise"
+        ),
         metavar="MATERIAL",
         materials=Materials(
             own=":{}",
             presets={name: Choice(preset_title(name), preset.summary) for name, preset in PRESETS.items()},
             preset="copper",
+            model=GALLERY["Plastics"]["Red plastic"],
         ),
     )
     views: int = option(
@@ -66,6 +73,10 @@ class RadianceViewsSettings(MethodSettings):
     seed: int = option(
         0, label="Seed", help="Seed of Cycles' noise", least=0, most=(1 << 31) - 1, advanced=True
     )
+
+
+RENDERING = ("samples", "denoise", "seed")
+"""Settings that count for a material that is rendered, not for a model."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,7 +7,7 @@ import bpy
 from ..core.brdf.gallery import gallery_name
 from ..core.options import Declared, declared_options
 from ..files.kinds.registry import STORED
-from ..host.option_properties import property_name
+from ..host.option_properties import model_property, property_name
 from .model_options import draw_model
 from .sentences import tell
 from .sidebar import InSidebar
@@ -28,7 +28,7 @@ class RSIBR_PT_advanced(InSidebar, bpy.types.Panel):
         chosen, settings = getattr(scene, scene.kind), STORED[scene.kind].settings
         if settings.REMARK:
             tell(layout, settings.REMARK, width, icon="INFO")
-        _draw_material(layout, chosen, context.object)
+        _draw_material(layout, settings, chosen, context.object)
         _draw_options(layout, chosen, [each for each in _shown(settings) if not each.option.advanced])
 
 
@@ -50,7 +50,9 @@ class RSIBR_PT_method_advanced(InSidebar, bpy.types.Panel):
         _draw_options(self.layout, getattr(context.scene.rsibr_bake, kind), _advanced(kind))
 
 
-def _draw_material(layout: bpy.types.UILayout, chosen: Any, item: bpy.types.Object | None) -> None:
+def _draw_material(
+    layout: bpy.types.UILayout, settings: type, chosen: Any, item: bpy.types.Object | None
+) -> None:
     """Show where a method's material comes from; there are methods of light alone."""
     if hasattr(chosen, "source"):
         layout.row().prop(chosen, "source", expand=True)
@@ -63,8 +65,9 @@ def _draw_material(layout: bpy.types.UILayout, chosen: Any, item: bpy.types.Obje
         case "PRESET":
             layout.prop(chosen, "preset", text="")
         case "MODEL":
-            layout.menu("RSIBR_MT_models", text=gallery_name(chosen.brdf), icon="MATERIAL")
-            layout.prop(chosen, "brdf", text="")
+            model = model_property(settings)
+            layout.menu("RSIBR_MT_models", text=gallery_name(getattr(chosen, model)), icon="MATERIAL")
+            layout.prop(chosen, model, text="")
         case "FILE":
             layout.prop(chosen, "path", text="")
         case instead:

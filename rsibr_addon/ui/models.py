@@ -3,6 +3,8 @@
 import bpy
 
 from ..core.brdf.gallery import GALLERY
+from ..files.kinds.registry import STORED
+from ..host.option_properties import model_property
 from ..tasks.methods.kinds import KINDS
 
 
@@ -25,7 +27,8 @@ class RSIBR_MT_models(bpy.types.Menu):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Show the models, for the method that is chosen."""
-        _draw_models(self.layout, f"scene.rsibr_bake.{context.scene.rsibr_bake.kind}.brdf")
+        kind = context.scene.rsibr_bake.kind
+        _draw_models(self.layout, f"scene.rsibr_bake.{kind}.{model_property(STORED[kind].settings)}")
 
 
 class RSIBR_MT_live_models(bpy.types.Menu):

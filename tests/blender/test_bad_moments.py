@@ -44,7 +44,7 @@ def test_choices_of_a_newer_version_are_named(spoil: str, sentence: str) -> None
     ("kind", "name", "sentence"),
     [
         ("radiance_views", "mode", "Mode cannot be '': choose one of fragment, texel, paper"),
-        ("radiance_views", "warping", "Warp cannot be '': choose one of albedo"),
+        ("radiance_views", "warping", "Warp cannot be '': choose one of auto"),
         ("mip_chain", "borders", "Borders cannot be '': choose one of"),
     ],
 )

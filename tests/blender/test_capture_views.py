@@ -10,6 +10,7 @@ from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.job import BakeJob
 from rsibr.rsibr_addon.settings.radiance_views import RadianceViewsSettings
 from rsibr.rsibr_addon.tasks.methods.bake import bake
+from rsibr.rsibr_addon.tasks.queue.bake_request import request_for
 from rsibr.tests.open_file import open_file_state
 
 pytestmark = pytest.mark.needs("cycles")
@@ -67,3 +68,20 @@ def test_warnings_are_reports_too(tmp_path: Path, capfd: pytest.CaptureFixture[s
     bsdf.inputs["Anisotropic"].default_value = 0.5
     bpy.ops.rsibr.bake_radiance_views(filepath=str(tmp_path / "out.exr"), size=8, samples=2)
     assert "No radiance map can hold :Material" in "".join(capfd.readouterr())
+
+
+def test_the_panel_takes_a_model_or_a_measurement_for_radiance_views(tmp_path: Path) -> None:
+    chosen = bpy.context.scene.rsibr_bake
+    chosen.kind, group = "radiance_views", chosen.radiance_views
+    assert group.source == "OWN"
+
+    def material() -> str:
+        return request_for(chosen, bpy.context.scene, bpy.context.object).settings.material
+
+    assert material() == ":Material"
+    group.source, group.material = "MODEL", "ward:alpha=0.1,ks=0.8"
+    assert material() == "ward:alpha=0.1,ks=0.8"
+    measured = tmp_path / "paint.binary"
+    measured.touch()
+    group.source, group.path = "FILE", str(measured)
+    assert material() == f"merl:path={measured}"

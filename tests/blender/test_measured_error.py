@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, ViewsLook, Warping
+from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, ViewsLook
+from rsibr.rsibr_addon.core.kinds.radiance_views.warping import Warping
 from rsibr.rsibr_addon.settings.radiance_views import ViewsComparison
 from rsibr.rsibr_addon.tasks.compare import comparison as comparisons
 from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, WayError

@@ -11,7 +11,8 @@ from rsibr.rsibr_addon.core.errors import InputFileError, MapSetError, OutputFil
 from rsibr.rsibr_addon.core.geometry.camera import Camera
 from rsibr.rsibr_addon.core.geometry.directions import reflect, turn_about_z
 from rsibr.rsibr_addon.core.kinds.environment import EnvironmentLook
-from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, ViewsLook, Warping
+from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, ViewsLook
+from rsibr.rsibr_addon.core.kinds.radiance_views.warping import Warping
 from rsibr.rsibr_addon.core.light.transfer_curve import srgb_from_linear
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.maps.representation import representation

@@ -10,15 +10,14 @@ from rsibr.rsibr_addon.core.geometry.camera import Camera
 from rsibr.rsibr_addon.core.geometry.directions import camera_frame, dot, normalize
 from rsibr.rsibr_addon.core.geometry.geodesic import find_triangle
 from rsibr.rsibr_addon.core.kinds.radiance_views.shading import (
-    LEAST_ALBEDO,
     Destination,
-    Warping,
     destination_by_mesh,
     destination_by_texel,
     destination_lookup,
     views_fragment,
 )
 from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
+from rsibr.rsibr_addon.core.kinds.radiance_views.warping import LEAST_ALBEDO, Warping
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.tests.synthetic_views import (
     random_views,

@@ -13,13 +13,13 @@ from rsibr.rsibr_addon.core.geometry.geodesic import barycentric_weights, find_t
 from rsibr.rsibr_addon.core.geometry.reflection_warp import Warp, confidence, source_cosine, source_uv
 from rsibr.rsibr_addon.core.kinds.radiance_views.shading import (
     Destination,
-    Warping,
     destination_by_mesh,
     destination_by_texel,
     destination_lookup,
     views_fragment,
 )
 from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
+from rsibr.rsibr_addon.core.kinds.radiance_views.warping import Warping
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.resample import bilinear
 from rsibr.tests.synthetic_views import (

@@ -32,7 +32,7 @@ from rsibr.rsibr_addon.job import BakeJob
 from rsibr.rsibr_addon.settings.light import Light
 from rsibr.rsibr_addon.settings.radiance_views import RadianceViewsSettings
 from rsibr.rsibr_addon.tasks.light import environments
-from rsibr.rsibr_addon.tasks.methods import radiance_views as task
+from rsibr.rsibr_addon.tasks.methods import views_by_cycles as task
 from rsibr.rsibr_addon.tasks.methods.bake import bake
 from rsibr.rsibr_addon.tasks.methods.kinds import open_map_set
 from rsibr.tests.open_file import open_file_state

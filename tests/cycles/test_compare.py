@@ -10,7 +10,8 @@ import bpy
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import InputFileError, MapSetError, OutputFileError, RangeError
-from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, Warping
+from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode
+from rsibr.rsibr_addon.core.kinds.radiance_views.warping import Warping
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.host.materials import fingerprint, load_material

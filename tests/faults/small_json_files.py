@@ -3,7 +3,8 @@
 import json
 from pathlib import Path
 
-from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, Warping
+from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode
+from rsibr.rsibr_addon.core.kinds.radiance_views.warping import Warping
 from rsibr.rsibr_addon.core.lobes.bank import KernelBank
 from rsibr.rsibr_addon.files.fits import write_fit
 from rsibr.rsibr_addon.job import CommandJob

@@ -8,8 +8,9 @@ import pytest
 from rsibr.rsibr_addon.core.geometry import directions, geodesic
 from rsibr.rsibr_addon.core.geometry.directions import camera_frame, dot, normalize
 from rsibr.rsibr_addon.core.geometry.reflection_warp import Warp, confidence, source_cosine, source_uv
-from rsibr.rsibr_addon.core.kinds.radiance_views.shading import LEAST_ALBEDO, Warping, views_fragment
+from rsibr.rsibr_addon.core.kinds.radiance_views.shading import views_fragment
 from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
+from rsibr.rsibr_addon.core.kinds.radiance_views.warping import LEAST_ALBEDO, Warping
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.resample import bilinear
 from rsibr.rsibr_addon.device import buffers

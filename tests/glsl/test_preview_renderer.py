@@ -10,8 +10,9 @@ from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.geometry.camera import Camera
 from rsibr.rsibr_addon.core.geometry.directions import dot, normalize, reflect
 from rsibr.rsibr_addon.core.kinds.radiance_views import shading as shading
-from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, ViewsLook, Warping
+from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, ViewsLook
 from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
+from rsibr.rsibr_addon.core.kinds.radiance_views.warping import Warping
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.device.kinds.radiance_views import GpuRadianceViews
 from rsibr.rsibr_addon.device.preview import SAMPLES_PER_AXIS, PreviewRenderer

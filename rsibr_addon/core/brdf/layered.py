@@ -9,6 +9,7 @@ import numpy as np
 from ..conventions import Array
 from ..errors import RangeError
 from .albedo import directional_albedo
+from .lambert import Lambert
 from .model import Brdf, Geometry
 
 COAT_ELEVATIONS = np.linspace(0.0, 1.0, 33) ** 2
@@ -91,3 +92,15 @@ class Layered(Brdf):
     def layers(self) -> tuple[Brdf, ...]:
         """The coat's layers, then the base's, seen through the coat."""
         return (*self.coat.layers, *(Beneath(self.coat, layer) for layer in self.base.layers))
+
+
+def is_diffuse(layer: Brdf) -> bool:
+    """Whether a layer, beneath all its coats, is a Lambert surface."""
+    return isinstance(uncoated(layer), Lambert)
+
+
+def uncoated(layer: Brdf) -> Brdf:
+    """A layer's own model, beneath its coats."""
+    while isinstance(layer, Beneath):
+        layer = layer.base
+    return layer

@@ -98,6 +98,11 @@ def brdf_from_spec(spec: str, read_measured: ReadMeasured) -> Brdf:
         raise RangeError(f"{name}: {error}") from error
 
 
+def is_model(text: str) -> bool:
+    """Whether a text begins as one of a model does: with its name and a colon, or with that alone."""
+    return text.partition(":")[0].strip() in (*MODELS, *MEASURED)
+
+
 def spec_from_brdf(brdf: Brdf) -> str:
     """The text that describes a model, the same for the same model.
 

@@ -12,8 +12,9 @@ import numpy as np
 from ...core.conventions import Array
 from ...core.geometry.disk_mesh import disk_mesh
 from ...core.geometry.geodesic import GeodesicSphere
-from ...core.kinds.radiance_views.shading import LEAST_ALBEDO, Mode, ViewsLook, Warping
+from ...core.kinds.radiance_views.shading import Mode, ViewsLook
 from ...core.kinds.radiance_views.views import RadianceViews
+from ...core.kinds.radiance_views.warping import Warping, albedo_table, chosen_warping
 from .. import buffers, shaders
 from ..drawing import Draw, GpuMesh, Inputs, ProgramMapSet
 from ..passes import screen_triangle
@@ -26,7 +27,7 @@ class GpuRadianceViews(ProgramMapSet):
     """A map set's radiance views."""
 
     def __init__(self, views: RadianceViews) -> None:
-        self._size = views.size
+        self._size, self._left_out = views.size, views.left_out
         self._views = GpuTexture("stack of radiance views", _layers(views))
         self._albedo = GpuTexture("table of albedo", _albedo_texels(views))
         self._geodesic = GpuTexture("geodesic sphere", _geodesic_texels(views.sphere))
@@ -61,7 +62,8 @@ class GpuRadianceViews(ProgramMapSet):
 
     def _numbers(self, look: ViewsLook) -> Array:
         """The block `mode`."""
-        return np.array([_WARPINGS.index(look.warping), self._last_level, look.antialiased], dtype=float)
+        warping = chosen_warping(look.warping, self._left_out)
+        return np.array([_WARPINGS.index(warping), self._last_level, look.antialiased], dtype=float)
 
     def _make_destination(
         self, destination: gpu.types.GPUUniformBuf, mode: gpu.types.GPUUniformBuf, look: ViewsLook
@@ -106,7 +108,7 @@ def _layers(views: RadianceViews) -> Array:
 def _albedo_texels(views: RadianceViews) -> Array:
     """The table that radiance is divided and multiplied by; alpha is 1."""
     texels = np.ones((*views.albedo.shape[:2], 4), dtype=np.float32)
-    texels[..., :3] = views.albedo + LEAST_ALBEDO
+    texels[..., :3] = albedo_table(views.albedo, Warping.ALBEDO)
     return texels
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, Any, TypedDict
+from typing import Annotated, Any, NotRequired, TypedDict
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from ...core.errors import MapSetError, RangeError, ShapeError
 from ...core.geometry.geodesic import VERTEX_COUNTS
 from ...core.kinds.radiance_views.shading import ViewsLook
 from ...core.kinds.radiance_views.views import RadianceViews
+from ...core.kinds.radiance_views.warping import WarpChoice, Warping, chosen_warping
 from ...core.schema import between
 from ...settings.radiance_views import RadianceViewsSettings, ViewsComparison
 from ..map_set_data import MapSet
@@ -18,11 +19,14 @@ from ..map_set_header import Direction, Model, StoredKind, role_in_words
 
 KIND = "radiance_views"
 
+LEFT_OUT = "left_out_"
+"""Field of the errors in a description, with a warp: see `RadianceViews.left_out`."""
+
 
 class _Material(TypedDict):
     spec: Model
     name: str
-    fingerprint: str
+    fingerprint: NotRequired[str]
 
 
 class _View(TypedDict):
@@ -45,7 +49,9 @@ def from_map_set(path: Path, map_set: MapSet) -> RadianceViews:
     if len(albedo) > 1:
         raise MapSetError(f"{path} holds two tables of albedo: capture it again.")
     try:
-        views = RadianceViews(_stack(map_set, "diffuse"), _stack(map_set, "glossy"), *albedo)
+        diffuse, glossy = _stack(map_set, "diffuse"), _stack(map_set, "glossy")
+        known = {"albedo": albedo[0]} if albedo else {}
+        views = RadianceViews(diffuse, glossy, **known, left_out=left_out(map_set.header))
     except (RangeError, ShapeError) as error:
         raise MapSetError(f"{path} holds {len(directions)} views. {error}") from error
     # Files may round directions to six digits.
@@ -53,6 +59,12 @@ def from_map_set(path: Path, map_set: MapSet) -> RadianceViews:
     if np.abs(written - views.sphere.vertices).max() > 1e-5:
         raise MapSetError(f"{path} was captured from other directions than RSIBR's own: capture it again.")
     return views
+
+
+def left_out(header: dict[str, Any]) -> dict[Warping, float]:
+    """The errors of predicted views that a description states: see `RadianceViews.left_out`."""
+    stated = header["error_bound"] or {}
+    return {warping: stated[LEFT_OUT + warping] for warping in Warping if LEFT_OUT + warping in stated}
 
 
 def _stack(map_set: MapSet, role: str) -> Array:
@@ -80,7 +92,11 @@ def _problems(header: dict[str, Any]) -> Iterator[str]:
 
 def _facts(header: dict[str, Any]) -> dict[str, str]:
     views = sum(part["role"] == "glossy" for part in header["parts"])
-    return {"Material from": header["material"]["spec"], "Views": f"{views}"}
+    stated = left_out(header)
+    best = {"Best warp": chosen_warping(WarpChoice.AUTO, stated).value} if stated else {}
+    material = header["material"]
+    source = {} if material["spec"] == material["name"] else {"Material from": material["spec"]}
+    return {**source, "Views": f"{views}", **best}
 
 
 def _part_title(part: dict[str, Any]) -> str:

@@ -1,34 +1,29 @@
-"""Radiance views against Cycles."""
+"""Radiance views against Cycles; those of a model against the model."""
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from ...core.brdf.spec import is_model
 from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.errors import InputFileError
 from ...core.geometry.camera import Camera
-from ...core.kinds.radiance_views.shading import Mode, ViewsLook, Warping
+from ...core.kinds.radiance_views.exact import ring_count
+from ...core.kinds.radiance_views.shading import Mode, ViewsLook
 from ...core.kinds.radiance_views.views import RadianceViews
-from ...core.progress import Progress, Steps
+from ...core.kinds.radiance_views.warping import WarpChoice, Warping
+from ...core.progress import Steps
 from ...device.kinds.radiance_views import GpuRadianceViews
 from ...device.preview import PreviewRenderer
 from ...host.materials import names_other_file
 from ...host.meshes import load_mesh
 from ...settings.radiance_views import ViewsComparison
+from ..reflectance.brdfs import load_brdf, told_brdf
+from . import either, exact, references
 from .comparison import Comparison, cameras_of
-from .references import (
-    Captured,
-    Reference,
-    check_material,
-    error_beyond_noise,
-    noise_of,
-    notes,
-    quality,
-    render_reference,
-)
 from .truth import Drawn, Truth
 
 
@@ -72,25 +67,27 @@ def draw(
     -----
     Cycles' noise is not counted: see `core.metrics.relative_rmse_beyond_noise`.
     """
-    captured = _captured(map_set, environment, material, settings)
+    settings = replace(settings, material=_material(map_set, material, settings))
+    mesh, cameras = load_mesh(settings.mesh), cameras_of(settings)
+    truth: either.Pictures
+    if _by_model(settings):
+        model = yield from load_brdf(settings.material or "")
+        rings = ring_count(views.size, len(environment.radiance))
+        pictures = yield from exact.exact_pictures(model, environment, cameras, mesh, settings.size, rings)
+        truth = either.ByModel(pictures)
+    else:
+        references.check_material(settings.material or "", material.get("fingerprint", ""))
+        truth = yield from either.by_cycles(environment, mesh, cameras, settings)
     easel = _Easel(views, settings)
-    references: list[Reference] = []
-    drawn: dict[ViewsWay, list[Array]] = {way: [] for way in easel.ways}
-    for number, camera in enumerate(cameras_of(settings)):
-        what = f"rendering reference {number + 1} of {settings.views}"
-        yield Progress(number + 1, settings.views + 2, what)
-        seed = settings.seed + 2 * number
-        references.append(render_reference(captured, camera, settings.size, settings.samples, seed))
-        for way, pictures in drawn.items():
-            pictures.append(easel.draw(way, camera))
+    drawn = {way: [easel.draw(way, camera) for camera in cameras] for way in easel.ways}
     return Drawn(
-        material=captured.material,
+        material=settings.material or "",
         map_size=views.size,
         settings=settings,
-        references=[reference.rgba for reference in references],
+        references=truth.pictures,
         drawn=drawn,
-        errors=tuple(error_beyond_noise(way, pictures, references) for way, pictures in drawn.items()),
-        noise=noise_of(references),
+        errors=tuple(truth.error(way, ours) for way, ours in drawn.items()),
+        noise=truth.noise,
     )
 
 
@@ -113,22 +110,27 @@ class _Easel:
         """A picture of radiance times coverage, and coverage, shape (size, size, 4)."""
         mesh = self._mesh.positions, self._mesh.normals, self._mesh.triangles
         return self._renderers[way.captured_views].draw(
-            *mesh, camera, self._size, ViewsLook(way.mode, way.warping)
+            *mesh, camera, self._size, ViewsLook(way.mode, WarpChoice(way.warping))
         )
 
 
-def _captured(
-    map_set: Path, environment: Environment, told: dict[str, Any], settings: ViewsComparison
-) -> Captured:
-    material = settings.material or told["spec"]
-    if settings.material is None and names_other_file(material):
+def _material(map_set: Path, told: dict[str, Any], settings: ViewsComparison) -> str:
+    """The material that was captured; a file is opened only if settings name it."""
+    if settings.material is not None:
+        return settings.material
+    spec = str(told["spec"])
+    if is_model(spec):
+        told_brdf(spec, "--material")
+    elif names_other_file(spec):
         raise InputFileError(
-            f"{map_set} names the material {material}, in a file that is opened only if you name it: "
+            f"{map_set} names the material {spec}, in a file that is opened only if you name it: "
             f"do so with --material."
         )
-    check_material(material, told["fingerprint"])
-    mesh = None if settings.mesh == "sphere" else load_mesh(settings.mesh)
-    return Captured(material, environment, mesh)
+    return spec
+
+
+def _by_model(settings: ViewsComparison) -> bool:
+    return is_model(settings.material or "")
 
 
 def views_table(comparisons: Sequence[Comparison]) -> str:
@@ -157,13 +159,18 @@ def views_table(comparisons: Sequence[Comparison]) -> str:
     return "".join(f"| {' | '.join(row)} |\n" for row in rows)
 
 
+def _is_look(way: ViewsWay, look: ViewsLook) -> bool:
+    """Whether a way is a look's, or may be: which warp is the best is not told here."""
+    return way.mode is look.mode and look.warping in (WarpChoice.AUTO, way.warping)
+
+
 TRUTH = Truth(
     way=ViewsWay,
     draw=draw,
-    name=lambda settings: "Cycles",
-    made=lambda settings: "rendered by Cycles",
-    notes=notes,
-    quality=quality,
+    name=lambda settings: exact.name(settings) if _by_model(settings) else "Cycles",
+    made=lambda settings: exact.made(settings) if _by_model(settings) else "rendered by Cycles",
+    notes=lambda each: exact.notes(each) if _by_model(each.settings) else references.notes(each),
+    quality=lambda each: "sums over rings of points" if _by_model(each) else references.quality(each),
     table=views_table,
-    is_look=lambda way, look: (way.mode, way.warping) == (look.mode, look.warping),
+    is_look=_is_look,
 )

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ...core.brdf.spec import is_model
 from ...core.conventions import Array
 from ...core.kinds.kernel_bank.filtered_bank import FilteredBank
 from ...core.lobes.bake import filter_environment, sharpest_resolved
@@ -104,8 +105,9 @@ def fit_to_captures(
     started = time.process_time()
     yield Progress(0, 1, "filtering the environment")
     light = filtered_light(radiance)
-    spec = f"{MATERIAL}:{map_set.header['material']['spec']}"
-    captured = yield from fit_captures(views, light, shipped_families(), spec, count)
-    result = CapturedResult(captured, time.process_time() - started)
-    write_fit(output, captured.fit, result.report(), force)
+    captured = map_set.header["material"]["spec"]
+    spec = captured if is_model(captured) else f"{MATERIAL}:{captured}"
+    found = yield from fit_captures(views, light, shipped_families(), spec, count)
+    result = CapturedResult(found, time.process_time() - started)
+    write_fit(output, found.fit, result.report(), force)
     return result

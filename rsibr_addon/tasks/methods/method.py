@@ -24,8 +24,11 @@ BLENDER_MEMORY = 350e6
 BLENDER_SECONDS = 3.0
 """Processor time that its start takes."""
 
-ENVIRONMENT_TEXELS = 1024 * 512
-"""Texels of an environment that comes with Blender, and of a world."""
+ENVIRONMENT_ROWS = 512
+"""Rows of an environment that comes with Blender, and of a world."""
+
+ENVIRONMENT_TEXELS = 2 * ENVIRONMENT_ROWS**2
+"""Texels of such an environment."""
 
 STORED = 0.7
 """Share of a float of radiance that remains when it is compressed, measured on captures of ours."""

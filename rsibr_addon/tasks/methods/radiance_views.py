@@ -1,39 +1,33 @@
-"""Radiance views of a material, rendered by Cycles into a map set."""
+"""Radiance views of a material, rendered or integrated, into a map set."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...core.brdf.gallery import gallery_name
+from ...core.brdf.spec import brdf_from_spec, is_model
 from ...core.conventions import Array
 from ...core.environment import Environment
-from ...core.errors import InputFileError, SceneError
-from ...core.geometry.camera import Camera
+from ...core.errors import InputFileError
 from ...core.geometry.geodesic import geodesic_sphere
-from ...core.maps.sphere_map import fill_rim
+from ...core.kinds.radiance_views.exact import bytes_needed, ring_count
+from ...core.kinds.radiance_views.left_out import LeftOut
 from ...core.options import to_plain
 from ...core.progress import Progress, Steps, drain
-from ...core.warned import warn
 from ...files.atomic import written_aside
 from ...files.exr import Part, read_attributes, read_parts, write_parts
+from ...files.kinds.radiance_views import LEFT_OUT
 from ...files.map_set_data import ENVIRONMENT, MapsInTurn
 from ...files.map_set_header import Origin, Recipe, make_header
-from ...files.memory import check_memory
 from ...files.work_folder import kept_parts, work_folder_beside
-from ...host.cameras import add_camera
-from ...host.cycles import BYTES_BESIDES, RenderedView, RenderSettings, bytes_needed, render_view
-from ...host.furnace import directional_albedo
-from ...host.materials import fingerprint, lasting_spec, load_material, material_name
-from ...host.scenes import temporary_scene
-from ...host.shape_dependence import shape_dependence
-from ...host.spheres import add_sphere
-from ...host.version import software
-from ...host.worlds import LIGHT_OF_TEXEL, light_with
 from ...job import BakeJob
-from ...settings.radiance_views import RadianceViewsSettings
+from ...settings.radiance_views import RENDERING, RadianceViewsSettings
 from .method import (
     ENVIRONMENT_MEMORY,
+    ENVIRONMENT_ROWS,
     RGB,
     STORED,
     Baked,
@@ -41,9 +35,15 @@ from .method import (
     Method,
     Sources,
     cost_in_blender,
+    measured_files,
     read_light,
+    software_of,
     written,
 )
+from .views_by_model import TOGETHER, ViewsByModel
+
+if TYPE_CHECKING:
+    from .views_by_cycles import ViewsByCycles
 
 ALBEDO = "albedo"
 """Name and role of the part that holds the material's directional albedo."""
@@ -54,19 +54,25 @@ NOISE = "noise"
 
 def material(settings: RadianceViewsSettings) -> str:
     """See `Method`."""
-    return settings.material.removeprefix(":")
+    return gallery_name(settings.material).removeprefix(":")
 
 
 def sources(settings: RadianceViewsSettings) -> Sources:
     """See `Method`."""
+    if is_model(settings.material):
+        return Sources(measured_files(partial(brdf_from_spec, settings.material)))
     return Sources(material=settings.material)
 
 
 def cost(settings: RadianceViewsSettings) -> Cost:
     """See `Method`; measured on a sphere in Blender's `forest`."""
     texels = settings.views * settings.size**2
-    rendering = settings.views * (0.5 + 1.5 * settings.denoise) + 2.5e-6 * texels * settings.samples
     maps = 2 * texels * RGB
+    if is_model(settings.material):
+        rings = ring_count(settings.size, ENVIRONMENT_ROWS)
+        integrating = 2.0 * rings * settings.views / TOGETHER + 4e-5 * texels
+        return Cost(integrating, bytes_needed(ENVIRONMENT_ROWS, TOGETHER, settings.size), STORED * maps)
+    rendering = settings.views * (0.5 + 1.5 * settings.denoise) + 2.5e-6 * texels * settings.samples
     albedo = 4.0
     return cost_in_blender(albedo + rendering, 2 * maps + 8 * ENVIRONMENT_MEMORY, STORED * maps)
 
@@ -94,79 +100,36 @@ def bake(job: BakeJob[RadianceViewsSettings], recipe: Recipe) -> Steps[Baked]:
     one view is in memory.
     """
     asked = job.settings
-    settings = [
-        RenderSettings(asked.size, asked.samples, asked.denoise, asked.seed + view)
-        for view in range(asked.views)
-    ]
     # Its own steps would be of another total than the views
     yield Progress(0, asked.views, "reading the environment")
-    captured = _Captured(asked, drain(read_light(job)))
+    light = drain(read_light(job))
+    captured = _captured(asked, light)
     captured.check_memory(job.output)
     folder = work_folder_beside(Path(job.output))
     with kept_parts(folder, {**recipe}):
         paths = [folder / f"view{view:03d}.exr" for view in range(asked.views)]
-        for view, path in enumerate(paths):
-            yield Progress(view, asked.views, f"rendering view {view + 1} of {asked.views}")
-            if not _is_finished(path):
-                _write_view(path, captured.render(view, settings[view]))
-        path = drain(written(job, recipe, _map_set(captured, paths)))
+        missing = [view for view, path in enumerate(paths) if not _is_finished(path)]
+        yield from captured.capture(missing, partial(_keep_view, paths))
+        software = software_of(job, measured=not is_model(asked.material))
+        path = drain(written(job, recipe, _map_set(captured, asked, light, paths, software)))
     figures = {"views": asked.views, "size": asked.size}
     return Baked(path, f"{asked.views} views of {asked.size}x{asked.size}", figures)
 
 
-class _Captured:
-    """A material in an environment, from the vertices of a geodesic sphere."""
+def _captured(settings: RadianceViewsSettings, light: Environment) -> "ViewsByModel | ViewsByCycles":
+    if is_model(settings.material):
+        return ViewsByModel(settings, light)
+    from .views_by_cycles import ViewsByCycles
 
-    def __init__(self, settings: RadianceViewsSettings, light: Environment) -> None:
-        self.settings, self.environment = settings, light
-        with temporary_scene():
-            material = load_material(settings.material)
-            self.fingerprint = fingerprint(material)
-            reasons = shape_dependence(material)
-        if reasons:
-            warn(
-                f"No radiance map can hold {settings.material}, so it is captured as it looks on a sphere: "
-                f"{'; '.join(reasons)}."
-            )
-        self.view_dirs = geodesic_sphere(settings.views).vertices
-
-    def check_memory(self, output: str) -> None:
-        height, width = self.environment.radiance.shape[:2]
-        light, size = LIGHT_OF_TEXEL * height * width, self.settings.size
-        check_memory(light, self.environment.name, (width, height), BYTES_BESIDES)
-        view = bytes_needed(size**2, self.settings.denoise)
-        check_memory(view, output, (size, size), BYTES_BESIDES + light)
-
-    def render(self, view: int, settings: RenderSettings) -> RenderedView:
-        with temporary_scene() as scene:
-            material = self._material()
-            light_with(scene, self.environment)
-            add_sphere(scene, material)
-            add_camera(scene, Camera(tuple(self.view_dirs[view])))
-            return render_view(scene, settings)
-
-    def albedo(self) -> Array:
-        with temporary_scene() as scene:
-            return directional_albedo(scene, self._material(), self.settings.seed)
-
-    def _material(self) -> Any:
-        """The material in Blender, if it has not changed."""
-        material = load_material(self.settings.material)
-        if fingerprint(material) != self.fingerprint:
-            raise SceneError(
-                f"Material {self.settings.material} was changed while it was captured: capture it again."
-            )
-        return material
+    return ViewsByCycles(settings, light)
 
 
-def _write_view(path: Path, view: RenderedView) -> None:
-    maps = {"diffuse": view.diffuse, "glossy": view.glossy}
+def _keep_view(paths: Sequence[Path], view: int, diffuse: Array, glossy: Array, noise: float) -> None:
     parts = []
-    for name, radiance in maps.items():
-        filled = fill_rim(radiance, view.coverage)
-        channels = {channel: filled[..., i] for i, channel in enumerate("RGB")}
-        parts.append(Part(name, channels, {NOISE: repr(view.noise)}))
-    with written_aside(path, force=True) as aside:
+    for name, radiance in {"diffuse": diffuse, "glossy": glossy}.items():
+        channels = {channel: radiance[..., i] for i, channel in enumerate("RGB")}
+        parts.append(Part(name, channels, {NOISE: repr(noise)}))
+    with written_aside(paths[view], force=True) as aside:
         write_parts(aside, parts)
 
 
@@ -177,43 +140,45 @@ def _is_finished(path: Path) -> bool:
         return False
 
 
-def _map_set(captured: _Captured, paths: list[Path]) -> MapsInTurn:
-    environment, albedo = captured.environment.radiance, captured.albedo()
-    shapes = {ENVIRONMENT: environment.shape[:2], ALBEDO: albedo.shape[:2]}
+def _map_set(
+    captured: "ViewsByModel | ViewsByCycles",
+    settings: RadianceViewsSettings,
+    light: Environment,
+    paths: list[Path],
+    software: str,
+) -> MapsInTurn:
+    albedo = captured.albedo()
+    shapes = {ENVIRONMENT: light.radiance.shape[:2], ALBEDO: albedo.shape[:2]}
     parts: list[dict[str, Any]] = [{"name": name, "role": name} for name in shapes]
     variance = 0.0
+    left_out = LeftOut(len(paths), settings.size, albedo)
     for view, path in enumerate(paths):
-        view_dir = captured.view_dirs[view].tolist()
+        view_dir = geodesic_sphere(settings.views).vertices[view].tolist()
         for attributes in read_attributes(path):
             role = attributes["name"]
             name = f"view{view:03d}.{role}"
-            shapes[name] = (captured.settings.size,) * 2
+            shapes[name] = (settings.size,) * 2
             parts.append({"name": name, "role": role, "view": view, "view_dir": view_dir})
         variance += float(attributes[NOISE]) ** 2 / len(paths)
+        left_out.add(view, *_maps(path))
+    errors = {"relative_noise": variance**0.5}
+    errors |= {f"{LEFT_OUT}{warping}": error for warping, error in left_out.errors().items()}
 
     def maps() -> Iterator[Array]:
-        yield from (environment, albedo)
+        yield from (light.radiance, albedo)
         for path in paths:
-            for part in read_parts(path):
-                yield np.stack([part.channels[channel] for channel in "RGB"], axis=-1)
+            yield from _maps(path)
 
-    return MapsInTurn("radiance_views", shapes, maps(), _header(captured, parts, variance**0.5))
+    untold = ("material", *(RENDERING if is_model(settings.material) else ()))
+    stated = {name: value for name, value in to_plain(settings).items() if name not in untold}
+    origin = Origin(light, stated, software, captured.material, errors)
+    header = make_header("sphere_map", (settings.size, settings.size), parts, origin)
+    return MapsInTurn("radiance_views", shapes, maps(), header)
 
 
-def _header(captured: _Captured, parts: list[dict[str, Any]], noise: float) -> dict[str, Any]:
-    settings = captured.settings
-    origin = Origin(
-        captured.environment,
-        {name: value for name, value in to_plain(settings).items() if name != "material"},
-        software(),
-        {
-            "spec": lasting_spec(settings.material),
-            "name": material_name(settings.material),
-            "fingerprint": captured.fingerprint,
-        },
-        {"relative_noise": noise},
-    )
-    return make_header("sphere_map", (settings.size, settings.size), parts, origin)
+def _maps(path: Path) -> list[Array]:
+    """The parts of a finished view."""
+    return [np.stack([part.channels[channel] for channel in "RGB"], axis=-1) for part in read_parts(path)]
 
 
 METHOD = Method(bake, cost, material, sources)

@@ -1,5 +1,6 @@
 """Reflectance models by their text, materials of Blender files included: those are measured."""
 
+from functools import partial
 from typing import NoReturn
 
 from ...core.brdf.model import Brdf
@@ -44,13 +45,15 @@ def load_brdf(spec: str) -> Steps[Brdf]:
     return (yield from measure_material(material_of(spec)))
 
 
-def told_brdf(spec: str) -> Brdf:
+def told_brdf(spec: str, flag: str = "--brdf") -> Brdf:
     """The model that a map set's text describes; unlike `load_brdf`, it opens no file and measures nothing.
 
     Parameters
     ----------
     spec : str
         Text of a file that may come from anywhere.
+    flag : str
+        The option by which a user can name the model, for messages.
 
     Raises
     ------
@@ -60,8 +63,8 @@ def told_brdf(spec: str) -> Brdf:
         The model is in another file, or is a material of Blender.
     """
     if is_material(spec):
-        raise InputFileError(f"{spec} is a material of Blender: name it with --brdf to have it measured.")
-    return spec_without_files(spec, _refuse_file)
+        raise InputFileError(f"{spec} is a material of Blender: name it with {flag} to have it measured.")
+    return spec_without_files(spec, partial(_refuse_file, flag))
 
 
 def check_told_brdf(spec: str) -> None:
@@ -80,7 +83,7 @@ def check_told_brdf(spec: str) -> None:
     from ...host.materials import names_other_file
 
     if names_other_file(material_of(spec)):
-        _refuse_file(MATERIAL, material_of(spec))
+        _refuse_file("--brdf", MATERIAL, material_of(spec))
 
 
 def is_material(spec: str) -> bool:
@@ -93,8 +96,8 @@ def material_of(spec: str) -> str:
     return spec.partition(":")[2].strip()
 
 
-def _refuse_file(name: str, path: str) -> NoReturn:
+def _refuse_file(flag: str, name: str, path: str) -> NoReturn:
     raise InputFileError(
         f"The map set names a model in {path}, a file that is opened only if you name it: do so "
-        f"with --brdf {name}:..."
+        f"with {flag} {name}:..."
     )

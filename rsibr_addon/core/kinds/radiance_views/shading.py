@@ -5,7 +5,7 @@ view, texel by texel (`destination_by_texel`) or over a tessellated disk as the 
 (`destination_by_mesh`), and `destination_lookup` shades from it.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -25,6 +25,7 @@ from ...options import Choice, Options, option
 from ...resample import bilinear
 from ..look_options import antialiased_option
 from .views import RadianceViews
+from .warping import WarpChoice, Warping, albedo_at, albedo_table, carried
 
 
 class Mode(StrEnum):
@@ -33,20 +34,6 @@ class Mode(StrEnum):
     PAPER = "paper"
     TEXEL = "texel"
     FRAGMENT = "fragment"
-
-
-class Warping(StrEnum):
-    """The warp of each part of radiance.
-
-    SINGLE warps the whole radiance by the mirror direction. SPLIT warps diffuse radiance by the normal and
-    glossy by the mirror direction. ALBEDO is SPLIT of radiance divided by directional albedo: a source saw a
-    direction at another angle than the fragment does, and albedo tells the effect of Fresnel's equations
-    without a picture.
-    """
-
-    SINGLE = "single"
-    SPLIT = "split"
-    ALBEDO = "albedo"
 
 
 @dataclass(frozen=True)
@@ -63,22 +50,21 @@ class ViewsLook(Options):
             Mode.PAPER: Choice("Paper", "once a frame, on a tessellated disk, as in the paper of 1999"),
         },
     )
-    warping: Warping = option(
-        Warping.ALBEDO,
+    warping: WarpChoice = option(
+        WarpChoice.AUTO,
         label="Warp",
         help="How the views' light is warped",
         choices={
-            Warping.ALBEDO: Choice("Albedo", "as by parts, over the material's directional albedo"),
-            Warping.SPLIT: Choice("By Parts", "diffuse light by the normal, glossy by the mirror direction"),
-            Warping.SINGLE: Choice("Single", "all light by the mirror direction, as in the paper of 1999"),
+            WarpChoice.AUTO: Choice("Automatic", "as predicts captured views best from their neighbours"),
+            WarpChoice.ALBEDO: Choice("Albedo", "as by parts, over the material's directional albedo"),
+            WarpChoice.SPLIT: Choice(
+                "By Parts", "diffuse light by the normal, glossy by the mirror direction"
+            ),
+            WarpChoice.SINGLE: Choice("Single", "all light by the mirror direction, as in the paper of 1999"),
         },
         flag="--warp",
     )
     antialiased: bool = antialiased_option("glossy light")
-
-
-LEAST_ALBEDO = 1e-3
-"""Added to albedo before it divides, so that black from everywhere stays black, with its noise."""
 
 
 @dataclass(frozen=True)
@@ -132,7 +118,7 @@ def views_fragment(
             own_view = view_dir[chosen]
             shown = _warp_and_blend(views, mirror_normal(own_view, direction), own_view, warping)[1]
             by_mirror[chosen] += weight * shown
-    return _coloured(_albedo(views, warping), seen, view_dir, by_normal, by_mirror)
+    return _coloured(albedo_table(views.albedo, warping), seen, view_dir, by_normal, by_mirror)
 
 
 def destination_by_texel(
@@ -156,7 +142,9 @@ def destination_by_texel(
     frame = camera_frame(view_dir)
     normal = sphere_map.normal_from_uv(texel_centres(size, size)) @ frame.T
     direction = np.broadcast_to(frame[:, 2], normal.shape)
-    return Destination(frame, *_warp_and_blend(views, normal, direction, warping), _albedo(views, warping))
+    return Destination(
+        frame, *_warp_and_blend(views, normal, direction, warping), albedo_table(views.albedo, warping)
+    )
 
 
 def destination_by_mesh(
@@ -178,17 +166,14 @@ def destination_by_mesh(
     points = 2.0 * texel_centres(size, size) - 1.0
     # The corners of the map, outside the mesh's margin, are never looked up.
     points /= np.maximum(np.linalg.norm(points, axis=-1, keepdims=True) / (0.99 * MARGIN), 1.0)
-    table = _albedo(views, warping)
+    table = albedo_table(views.albedo, warping)
 
     def blend(maps: Array, warp: Warp) -> Array:
         at_vertices = _seen(views, warp, vertex_normal, frame[:, 2], sources)
         seen = np.stack([interpolate(points, at_vertices[..., i, :]) for i in range(3)], axis=-2)
         return _blend(maps, warp, table, sources, seen, weights)
 
-    if warping is Warping.SINGLE:
-        whole = blend(views.combined, Warp.MIRROR)
-        return Destination(frame, np.zeros_like(whole), whole, table)
-    return Destination(frame, blend(views.diffuse, Warp.NORMAL), blend(views.glossy, Warp.MIRROR), table)
+    return Destination(frame, *_by_both_warps(views, warping, blend), table)
 
 
 def destination_lookup(
@@ -234,15 +219,23 @@ def _warp_and_blend(
     """Radiance of the three views around each view direction, by normal and by mirror, over albedo."""
     sources = find_triangle(views.sphere, view_dir)
     weights = barycentric_weights(view_dir, views.sphere.vertices[sources])
-    table = _albedo(views, warping)
+    table = albedo_table(views.albedo, warping)
 
     def blend(maps: Array, warp: Warp) -> Array:
         return _blend(maps, warp, table, sources, _seen(views, warp, normal, view_dir, sources), weights)
 
-    if warping is Warping.SINGLE:
-        whole = blend(views.combined, Warp.MIRROR)
-        return np.zeros_like(whole), whole
-    return blend(views.diffuse, Warp.NORMAL), blend(views.glossy, Warp.MIRROR)
+    return _by_both_warps(views, warping, blend)
+
+
+def _by_both_warps(
+    views: RadianceViews, warping: Warping, blend: Callable[[Array, Warp], Array]
+) -> tuple[Array, Array]:
+    """What is blended by the normal, 0 where nothing is carried, and by the mirror direction."""
+    blended = {
+        warp: blend(maps, warp) for warp, maps in carried(views.diffuse, views.glossy, warping).items()
+    }
+    by_mirror = blended[Warp.MIRROR]
+    return blended.get(Warp.NORMAL, np.zeros_like(by_mirror)), by_mirror
 
 
 def _seen(views: RadianceViews, warp: Warp, normal: Array, view_dir: Array, sources: Indices) -> Array:
@@ -260,23 +253,12 @@ def _blend(maps: Array, warp: Warp, table: Array, sources: Indices, seen: Array,
     shares = weights * confidence(cosine)
     shares = shares / shares.sum(axis=-1, keepdims=True)
     radiance = bilinear(maps, seen[..., :2], sphere_map.wrap, layer=sources)
-    blended: Array = np.sum(shares[..., None] * radiance / _at(table, warp, cosine), axis=-2)
+    blended: Array = np.sum(shares[..., None] * radiance / albedo_at(table, warp, cosine), axis=-2)
     return blended
-
-
-def _albedo(views: RadianceViews, warping: Warping) -> Array:
-    """The table to divide and multiply by; ones without albedo."""
-    return views.albedo + LEAST_ALBEDO if warping is Warping.ALBEDO else np.ones((2, 1, 3))
 
 
 def _coloured(table: Array, seen: Seen, view_dir: Array, by_normal: Array, by_mirror: Array) -> Array:
     """The sum of both parts, each times its albedo, shape (..., 3)."""
-    diffuse = by_normal * _at(table, Warp.NORMAL, dot(seen.normal, view_dir))
-    glossy: Array = by_mirror * _at(table, Warp.MIRROR, dot(seen.mirror_normal, view_dir))
+    diffuse = by_normal * albedo_at(table, Warp.NORMAL, dot(seen.normal, view_dir))
+    glossy: Array = by_mirror * albedo_at(table, Warp.MIRROR, dot(seen.mirror_normal, view_dir))
     return diffuse + glossy
-
-
-def _at(table: Array, warp: Warp, cosine: Array) -> Array:
-    """A row of the table of albedo, interpolated at cosines, shape (..., 3)."""
-    row = 0.25 if warp is Warp.NORMAL else 0.75
-    return bilinear(table, np.stack([cosine, np.full_like(cosine, row)], axis=-1), sphere_map.wrap)

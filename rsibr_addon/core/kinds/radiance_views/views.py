@@ -1,5 +1,6 @@
 """Radiance sphere maps of one material in one environment, seen from around it."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -8,6 +9,7 @@ from ...conventions import Array
 from ...errors import RangeError, ShapeError
 from ...geometry.directions import camera_frame
 from ...geometry.geodesic import GeodesicSphere, geodesic_sphere
+from .warping import Warping
 
 
 def _constant_albedo() -> Array:
@@ -26,6 +28,9 @@ class RadianceViews:
     albedo : ndarray, shape (2, M, 3), float32
         Directional albedo of the material, diffuse part in row 0 and glossy in row 1; column k is
         for n.v = (k + 0.5) / M. By default the same for every view direction.
+    left_out : mapping of Warping to float
+        Relative root-mean-square error of captured views that were predicted from their neighbours, by warp;
+        empty where it is not known.
 
     Raises
     ------
@@ -38,6 +43,7 @@ class RadianceViews:
     diffuse: Array
     glossy: Array
     albedo: Array = field(default_factory=_constant_albedo)
+    left_out: Mapping[Warping, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         count, height, width, channels = self.diffuse.shape

@@ -5,7 +5,7 @@ import numpy as np
 from ...brdf.albedo import TOLERATED_GAIN, directional_albedo
 from ...brdf.fresnel import fresnel_conductor
 from ...brdf.lambert import Lambert
-from ...brdf.layered import Beneath
+from ...brdf.layered import uncoated
 from ...brdf.model import Brdf
 from ...brdf.retroreflective import Retroreflective
 from ...conventions import Array
@@ -159,8 +159,7 @@ def _albedo_shares(brdf: Brdf, roles: tuple[Role, ...], mu: Array) -> dict[Role,
 
 def _role_of(layer: Brdf) -> Role:
     """The table of a layer's light, by the layer's model beneath its coats."""
-    while isinstance(layer, Beneath):
-        layer = layer.base
+    layer = uncoated(layer)
     if isinstance(layer, Lambert):
         return Role.DIFFUSE
     return Role.RETRO if isinstance(layer, Retroreflective) else Role.SPECULAR

@@ -3,7 +3,7 @@ VENV := .venv
 PYTHON := $(VENV)/bin/python
 READY := $(VENV)/.ready
 
-.PHONY: help demo test test-quick test-package test-gui test-web test-faults lint docs extension bench clean
+.PHONY: help demo test test-quick test-package test-gui test-web test-farm test-faults lint docs extension bench clean
 
 help:
 	@echo "make demo        capture two materials, preview them and compare with Cycles; pictures under demo/"
@@ -14,6 +14,7 @@ help:
 	@echo "make extension   build dist/rsibr-*.zip: drop it on Blender's window"
 	@echo "make test-gui    test the extension in Blender's window; .ci/window/blender installs a Blender for it (root on Debian)"
 	@echo "make test-web    load exported light in engines in a browser; .ci/web/engines installs them (root on Debian, npm)"
+	@echo "make test-farm   send batches to a manager of Flamenco with two workers; FLAMENCO=FOLDER has their programs"
 	@echo "make test-faults kill commands at 300 moments and read 100,000 damaged files; takes hours"
 	@echo "make bench       measure whole commands, captures, previews and filtering on this machine; prints the docs' tables"
 	@echo "make clean       remove everything that these targets made"
@@ -43,6 +44,9 @@ test-gui: $(READY)
 test-web: $(READY)
 	.ci/web/engines install
 	RSIBR_REQUIRE=web $(PYTHON) -m pytest tests/web
+
+test-farm: $(READY)
+	RSIBR_REQUIRE=farm FLAMENCO="$(FLAMENCO)" $(PYTHON) -m pytest tests/farm
 
 test-faults: $(READY)
 	RSIBR_MOMENTS=300 RSIBR_FAULT_CASES=35000 RSIBR_REQUIRE=gl,bpy,cycles $(PYTHON) -m pytest --timeout 0 tests/faults tests/glsl/test_faulty_draws.py tests/glsl/test_load.py

@@ -25,6 +25,7 @@ from .pack import RSIBR_OT_pack
 from .preview_scene import RSIBR_OT_preview_scene
 from .rebake import RSIBR_OT_rebake
 from .reload_map_sets import RSIBR_OT_reload_map_sets
+from .send_to_farm import RSIBR_OT_send_to_farm
 from .unpack import RSIBR_OT_unpack
 from .unwrap_ball import RSIBR_OT_unwrap_ball
 
@@ -41,6 +42,7 @@ CLASSES: tuple[type, ...] = (
     RSIBR_OT_apply_quality,
     RSIBR_OT_bake,
     RSIBR_OT_preview_scene,
+    RSIBR_OT_send_to_farm,
     RSIBR_OT_bake_again,
     RSIBR_OT_bake_inputs,
     RSIBR_OT_bake_look,

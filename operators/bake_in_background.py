@@ -8,6 +8,7 @@ from ..rsibr_addon.core.errors import RsibrError
 from ..rsibr_addon.core.warned import warn
 from ..rsibr_addon.host.bake_settings import SHAPED, assign
 from ..rsibr_addon.session.running import session
+from ..rsibr_addon.tasks.queue.background import Farm
 from ..rsibr_addon.tasks.queue.bake_request import (
     BakeRequest,
     bake_of,
@@ -39,12 +40,18 @@ class RSIBR_OT_bake(Undoable, bpy.types.Operator):
 
     def work(self, context: bpy.types.Context) -> None:
         """Queue the bakes; where the same was baked before, its file is taken at once."""
-        selected = [each for each in context.selected_objects if each.type in SHAPED]
-        items = list(dict.fromkeys((context.object, *selected)))
-        self.report({"INFO"}, queue_bakes(context.scene, items))
+        self.report({"INFO"}, queue_bakes(context.scene, chosen_objects(context)))
 
 
-def queue_bakes(scene: bpy.types.Scene, items: Sequence[bpy.types.Object], kind: str = "") -> str:
+def chosen_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """The active object, and the others that are selected and can be shaded."""
+    selected = [each for each in context.selected_objects if each.type in SHAPED]
+    return list(dict.fromkeys((context.object, *selected)))
+
+
+def queue_bakes(
+    scene: bpy.types.Scene, items: Sequence[bpy.types.Object], kind: str = "", farm: Farm | None = None
+) -> str:
     """Bake for objects by a scene's settings, once for all that ask for the same.
 
     Parameters
@@ -54,6 +61,8 @@ def queue_bakes(scene: bpy.types.Scene, items: Sequence[bpy.types.Object], kind:
         At least one.
     kind : str
         See `request_for`.
+    farm : Farm, optional
+        Does the bakes.
 
     Returns
     -------
@@ -79,7 +88,7 @@ def queue_bakes(scene: bpy.types.Scene, items: Sequence[bpy.types.Object], kind:
             warn(str(error))
             continue
         alike.setdefault((request.own_material, request.light), (request, []))[1].append(item)
-    return "; ".join(queue_bake(scene, request, shaded) for request, shaded in alike.values())
+    return "; ".join(queue_bake(scene, request, shaded, farm=farm) for request, shaded in alike.values())
 
 
 def queue_bake(
@@ -88,6 +97,7 @@ def queue_bake(
     items: Sequence[bpy.types.Object],
     content: str = "",
     by_itself: bool = False,
+    farm: Farm | None = None,
 ) -> str:
     """Bake for objects, unless the same is being baked or was before.
 
@@ -101,6 +111,8 @@ def queue_bake(
         Hash of what a file that was baked before has to hold; empty if anything will do.
     by_itself : bool
         Whether nobody asked for it.
+    farm : Farm, optional
+        Does the bake.
 
     Returns
     -------
@@ -121,7 +133,7 @@ def queue_bake(
     if is_baked(output) and content in ("", map_set_content(output)):
         assign(numbers, output, request.shown)
         return f"Baked before: {plain_name(output)}"
-    bake = bake_of(request, scene, items, output)
+    bake = bake_of(request, scene, items, output, farm)
     bake.by_itself = by_itself
     background.submit(bake)
-    return f"Baking {plain_name(output)}"
+    return f"{'Sending' if farm else 'Baking'} {plain_name(output)}"

@@ -1,7 +1,7 @@
 """What tests need: a test's folder says it, and here it is looked for and prepared.
 
 A dependency that is missing skips its tests, and the run's summary says which and why. Named in the
-environment variable RSIBR_REQUIRE (comma-separated: gl, bpy, cycles, gui, web), it fails them instead.
+environment variable RSIBR_REQUIRE (comma-separated: gl, bpy, cycles, farm, gui, web), it fails them instead.
 Named in RSIBR_WITHOUT, it is not looked for, and its tests are not collected.
 """
 
@@ -21,7 +21,14 @@ BLENDER_WINDOW = TESTS.parent / ".ci" / "window" / "blender"
 WEB_ENGINES = TESTS.parent / ".ci" / "web" / "engines"
 """A browser, and engines to load in it."""
 
-NEEDS = {"glsl": ("gl",), "blender": ("bpy",), "cycles": ("bpy", "cycles"), "gui": ("gui",), "web": ("web",)}
+NEEDS = {
+    "glsl": ("gl",),
+    "blender": ("bpy",),
+    "cycles": ("bpy", "cycles"),
+    "farm": ("bpy", "cycles", "farm"),
+    "gui": ("gui",),
+    "web": ("web",),
+}
 """Folder of tests -> what its tests need; the other folders need numpy and OpenEXR only."""
 
 
@@ -39,6 +46,15 @@ def _start_cycles() -> None:
     import bpy
 
     bpy.context.scene.render.engine = "CYCLES"
+
+
+def _start_farm() -> None:
+    folder = os.environ.get("FLAMENCO")
+    if not folder:
+        raise LookupError("FLAMENCO names no folder of flamenco-manager and flamenco-worker")
+    for name in ("flamenco-manager", "flamenco-worker"):
+        if not os.access(Path(folder) / name, os.X_OK):
+            raise LookupError(f"FLAMENCO={folder} has no program {name}")
 
 
 def _start_gui() -> None:
@@ -64,6 +80,7 @@ START: dict[str, Callable[[], None]] = {
     "bpy": _start_bpy,
     "gl": _start_gl,
     "cycles": _start_cycles,
+    "farm": _start_farm,
     "gui": _start_gui,
     "web": _start_web,
 }

@@ -82,15 +82,27 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     if not arguments.page:
         result = console.steps(run_bakes(folder, bakes, _worker_command()))
     page = write_page(folder, arguments.batch.stem, bakes)
-    _warn_of(page.failures)
-    if page.failures:
-        names = ", ".join(sorted(page.failures))
-        raise _failed(
-            page.failures, f"{len(page.failures)} of {len(bakes)} bakes failed ({names}): see {page.page}."
-        )
+    check_failures(page.failures, len(bakes), str(page.page))
     made = result.made if result else 0
     console.say(f"{page.page}: {counted(len(bakes), 'bake')}, {len(bakes) - made} of them there already")
     return {"page": str(page.page), "made": made, "found": len(bakes) - made}
+
+
+def check_failures(failures: Mapping[str, "Failure"], total: int, page: str) -> None:
+    """Tell of bakes that failed, of so many.
+
+    Raises
+    ------
+    RsibrError
+        There are such; a NotNowError, where another try may help with all.
+    """
+    if total == 1:
+        for failure in failures.values():
+            raise _failed(failures, failure["error"])
+    _warn_of(failures)
+    if failures:
+        names = ", ".join(sorted(failures))
+        raise _failed(failures, f"{len(failures)} of {total} bakes failed ({names}): see {page}.")
 
 
 def _run_part(name: str, bakes: Sequence["BatchBake"], folder: Path, console: Console) -> dict[str, Any]:

@@ -17,7 +17,7 @@ Result = TypeVar("Result")
 BAR_WIDTH = 24
 
 QUIET_SECONDS = 1.0
-"""Shortest time between two lines for a farm, which keeps them all; what is done is told at once."""
+"""Shortest time between two lines for a farm, which keeps them all; an end is told at once."""
 
 BEAT_SECONDS = 60.0
 """Longest time between two lines for a farm, which takes what is silent for minutes for dead."""
@@ -120,7 +120,8 @@ class Console:
         since, last = self._beat
         now, total = time.monotonic(), max(progress.total, 1)
         wait = QUIET_SECONDS if progress != last else BEAT_SECONDS
-        if progress.done == last.done and now - since < wait:
+        is_end = progress.done >= total and progress != last
+        if now - since < wait and not is_end:
             return
         self._beat = (now, progress)
         what = progress.what or "done"

@@ -64,16 +64,18 @@ def _result(asked: dict[str, Any], told: Outlet) -> dict[str, Any]:
     return result | times | {"warnings": list(dict.fromkeys(warnings))}
 
 
-def _open(file: str | None) -> None:
+def _open(opened: dict[str, str] | None) -> None:
     """Open the file of Blender that a job means, once for all jobs that follow and mean the same."""
-    if file is None:
+    if opened is None:
         return
     from ..host.bake_settings import enable_extension
     from ..host.blend_files import is_open, open_blend
+    from ..host.materials import ORIGINAL
 
-    if not is_open(Path(file)):
+    if not is_open(Path(opened["file"])):
         enable_extension()
-        open_blend(Path(file))
+        open_blend(Path(opened["file"]))
+        os.environ[ORIGINAL] = opened["original"]
 
 
 def _baked(job: BakeJob[Any], told: Outlet) -> dict[str, Any]:

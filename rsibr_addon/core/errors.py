@@ -53,6 +53,10 @@ class RenderError(RsibrError):
     """Cycles did not deliver the picture that was asked for."""
 
 
+class FarmError(RsibrError):
+    """What manages a farm refuses, or is none."""
+
+
 class DeviceError(RsibrError):
     """The graphics device is missing, or refuses a shader or a texture."""
 

@@ -200,6 +200,31 @@ def bakes_inputs_by_itself() -> bool:
     return chosen is None or bool(chosen.bake_inputs)
 
 
+def farm_address() -> str:
+    """The address of the farm's manager in the user's preferences; empty for none."""
+    chosen = _preferences()
+    return str(chosen.farm_manager).strip() if chosen else ""
+
+
+def farm_folder() -> str:
+    """The farm's shared folder in the user's preferences; empty for the one that the manager says."""
+    chosen = _preferences()
+    return bpy.path.abspath(chosen.farm_folder) if chosen else ""
+
+
+def check_online() -> None:
+    """Refuse to use the network where Blender may not.
+
+    Raises
+    ------
+    SceneError
+    """
+    if blender_program() and not bpy.app.online_access:
+        raise SceneError(
+            "Blender may not use the network: switch on Allow Online Access in its preferences, below System."
+        )
+
+
 def _preferences() -> Any:
     """`ui.preferences.RSIBR_AP_preferences`."""
     addon = bpy.context.preferences.addons.get(EXTENSION)

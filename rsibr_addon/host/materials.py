@@ -132,7 +132,12 @@ def names_other_file(spec: str) -> bool:
 
 def lasting_spec(spec: str) -> str:
     """A text that names the same material also when another file is open, if this file has a name."""
-    return f"{_open_path()}{spec}" if spec.startswith(":") else spec
+    return f"{open_path()}{spec}" if spec.startswith(":") else spec
+
+
+def open_path() -> str:
+    """Path of the open file, or of the one of which it is a copy; empty if that has no name."""
+    return os.environ.get(ORIGINAL, bpy.data.filepath)
 
 
 def fingerprint(material: bpy.types.Material | bpy.types.World) -> str:
@@ -191,11 +196,7 @@ def _parsed(spec: str) -> tuple[str | None, str]:
 
 
 def _is_open(path: Path) -> bool:
-    return bool(_open_path()) and path.exists() and path.samefile(_open_path())
-
-
-def _open_path() -> str:
-    return os.environ.get(ORIGINAL, bpy.data.filepath)
+    return bool(open_path()) and path.exists() and path.samefile(open_path())
 
 
 def _appended(path: Path, name: str) -> bpy.types.Material:
@@ -286,8 +287,9 @@ def _pixels_content(image: bpy.types.Image) -> Any:
     """What an image's pixels are made of, so that they need not be read; themselves if nothing else is."""
     if image.is_dirty:
         return _pixels_digest(image)
-    if packed := [each.packed_file.data for each in image.packed_files]:
-        return [hashlib.sha256(data).hexdigest() for data in packed]
+    # As of tiles in files, so that a bake stays up to date when its images are packed
+    if packed := [(each.tile_number, each.packed_file.data) for each in image.packed_files]:
+        return [[number, hashlib.sha256(data).hexdigest()] for number, data in packed]
     tiles = [_tile_content(image, tile) for tile in image.tiles]
     return _pixels_digest(image) if None in tiles else tiles
 

@@ -28,6 +28,8 @@ def draw_progress(layout: bpy.types.UILayout, bake: Bake, width: int) -> None:
         layout.label(text="Waits for other bakes", icon=_ICONS[bake.state])
         return
     what = "starting Blender" if bake.progress is None else bake.progress.what
+    if bake.elsewhere:
+        what = f"farm: {what}"
     left = "" if bake.seconds_left is None else f"{duration(bake.seconds_left)} left"
     layout.progress(factor=bake.fraction, text=capital(left))
     tell(layout, capital(what), width, icon="NONE")

@@ -31,6 +31,16 @@ class RSIBR_AP_preferences(bpy.types.AddonPreferences):
         "background, a second after the last edit",
         default=True,
     )
+    farm_manager = bpy.props.StringProperty(
+        name="Flamenco Manager",
+        description="Address of the manager of a farm in the local network, such as http://192.168.0.10:8080",
+    )
+    farm_folder = bpy.props.StringProperty(
+        name="Shared Folder",
+        description="The farm's shared storage, by its path on this machine; empty for the one that the "
+        "manager says",
+        subtype="DIR_PATH",
+    )
     inputs = bpy.props.PointerProperty(type=INPUTS_GROUP)
 
     def draw(self, context: bpy.types.Context) -> None:
@@ -40,3 +50,5 @@ class RSIBR_AP_preferences(bpy.types.AddonPreferences):
         self.layout.prop(self, "bake_inputs")
         for declared in declared_options(BakedInputsSettings):
             self.layout.prop(self.inputs, declared.name)
+        self.layout.prop(self, "farm_manager")
+        self.layout.prop(self, "farm_folder")

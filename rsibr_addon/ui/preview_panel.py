@@ -4,7 +4,7 @@ import bpy
 
 from ..core.errors import RsibrError
 from ..files.kinds.registry import STORED
-from ..host.bake_settings import bakes_inputs_by_itself
+from ..host.bake_settings import bakes_inputs_by_itself, farm_address
 from ..host.map_sets import written_path
 from ..session.running import session
 from ..tasks.methods.kinds import KINDS
@@ -44,6 +44,8 @@ class RSIBR_PT_preview(InSidebar, bpy.types.Panel):
         row.scale_y = 1.5
         row.operator("rsibr.bake", text="Preview", icon="SHADING_RENDERED")
         row.operator("rsibr.preview_scene", text="Preview Scene", icon="SCENE_DATA")
+        if farm_address():
+            layout.operator("rsibr.send_to_farm", icon="NETWORK_DRIVE")
         _draw_request(layout, context)
         if context.object is not None:
             if context.object.rsibr.map_set:

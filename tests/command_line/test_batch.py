@@ -79,6 +79,15 @@ def test_methods_of_light_alone_take_no_material_and_sizes_multiply() -> None:
     assert sorted(outputs(path)) == sorted(f"{light}-{size}.exr" for light in ENVIRONMENTS for size in (4, 8))
 
 
+def test_map_sets_beside_environments_are_none() -> None:
+    path = write_batch(
+        methods=["mip-chain"], environments=["light/*.exr"], output="light/{environment}.rsibr.exr"
+    )
+    before = outputs(path)
+    Path("light/dawn.rsibr.exr").touch()
+    assert outputs(path) == before
+
+
 def test_what_a_batch_names_is_beside_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = write_batch(environments=["light/dawn.exr", "light/noon.exr:Sky", "forest"]).resolve()
     (tmp_path / "elsewhere").mkdir()

@@ -11,7 +11,7 @@ from types import SimpleNamespace
 import pytest
 from rsibr.rsibr_addon.core.progress import Progress
 from rsibr.rsibr_addon.tasks.queue import background
-from rsibr.rsibr_addon.tasks.queue.background import Bake, BakeQueue, State, blender_command
+from rsibr.rsibr_addon.tasks.queue.background import Bake, BakeQueue, Farm, State, blender_command
 
 
 def bake(script: str, title: str = "bake") -> Bake:
@@ -155,6 +155,40 @@ def test_the_command_is_blenders() -> None:
         "--disable-autoexec",
         "--addons",
     ]
+
+
+def test_the_command_of_a_farm_is_allowed_the_network_and_waits() -> None:
+    farm = Farm("http://farm:8080", "/mnt/farm")
+    command = blender_command("/opt/blender", "ours", None, Path("job.json"), farm)
+    assert command[:6] == [
+        *blender_command("/opt/blender", "ours", None, Path("j"))[:3],
+        "--online-mode",
+        *command[4:6],
+    ]
+    assert command[command.index("rsibr") + 1 :] == [
+        *("submit", "job.json", "--flamenco", "http://farm:8080", "--shared", "/mnt/farm", "--wait"),
+        *("--json", "--progress", "json"),
+    ]
+    assert "--shared" not in Farm("http://farm:8080").words
+
+
+def test_a_bake_elsewhere_waits_for_none_and_is_left_to_go_on(tmp_path: Path) -> None:
+    queue = BakeQueue()
+    here, other = bake(held(tmp_path / "go") + result(ok=True)), bake("")
+    told_of_end = (
+        "import pathlib, signal\n"
+        f"signal.signal(signal.SIGTERM, lambda *told: pathlib.Path({str(tmp_path / 'ended')!r}).touch())\n"
+    )
+    away = bake(told_of_end + told(done=0, total=1, what="ready") + held(tmp_path / "never"))
+    away.elsewhere = True
+    for each in (here, other, away):
+        queue.add(each)
+    assert [each.state for each in (here, other, away)] == [State.RUNNING, State.WAITING, State.RUNNING]
+    wait(queue, lambda: away.progress is not None)
+    assert away._process is not None
+    queue.close()
+    assert away._process.poll() is not None
+    assert not (tmp_path / "ended").exists()
 
 
 def test_a_process_gets_variables_beside_our_own() -> None:

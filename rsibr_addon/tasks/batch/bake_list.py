@@ -2,14 +2,14 @@
 
 import json
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
 
 from ...core.errors import InputFileError, SchemaError
 from ...core.schema import decode
 from ...job import BakeJob, read_job
-from .bakes import BatchBake
+from .bakes import BatchBake, Opened
 
 HERE = "{folder}"
 """What stands for the list's folder within its texts."""
@@ -20,7 +20,7 @@ class _Entry:
     environment: str
     material: str
     job: dict[str, Any]
-    opened: str | None = None
+    opened: Opened | None = None
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ def bake_list_text(bakes: Sequence[BatchBake]) -> str:
             "environment": bake.environment,
             "material": bake.material,
             "job": json.loads(bake.job.to_json()),
-            "opened": bake.opened,
+            "opened": asdict(bake.opened) if bake.opened else None,
         }
         for bake in bakes
     ]

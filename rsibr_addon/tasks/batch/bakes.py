@@ -9,6 +9,21 @@ from ...job import BakeJob
 
 
 @dataclass(frozen=True)
+class Opened:
+    """A file of Blender that is open while a bake is done.
+
+    Attributes
+    ----------
+    file : str
+    original : str
+        The file of which it is a copy, for what the map set says of its material; empty if that has no name.
+    """
+
+    file: str
+    original: str
+
+
+@dataclass(frozen=True)
 class BatchBake:
     """One bake of a batch.
 
@@ -17,14 +32,14 @@ class BatchBake:
     environment, material : str
         Names for people; the material's is empty where light alone is baked.
     job : BakeJob
-    opened : str or None
-        The file of Blender that is opened before, whose world or material the job means.
+    opened : Opened or None
+        What is opened before, whose world or material the job means.
     """
 
     environment: str
     material: str
     job: BakeJob[Any]
-    opened: str | None = None
+    opened: Opened | None = None
 
     @property
     def title(self) -> str:
@@ -34,7 +49,7 @@ class BatchBake:
 
 def parts_of(bakes: Sequence[BatchBake]) -> dict[str, list[BatchBake]]:
     """The bakes of each environment and method, by a name of the two, in the order of `bakes`."""
-    parts: dict[tuple[str | None, str | None, str], list[BatchBake]] = {}
+    parts: dict[tuple[str | None, Opened | None, str], list[BatchBake]] = {}
     for bake in bakes:
         parts.setdefault((bake.job.light.environment, bake.opened, bake.job.settings.KIND), []).append(bake)
     named: dict[str, list[BatchBake]] = {}

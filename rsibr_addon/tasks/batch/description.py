@@ -146,7 +146,8 @@ def _with_files_beside(given: dict[str, Any], kind: str, folder: Path) -> dict[s
 def _environments(text: str, folder: Path) -> Sequence[str]:
     """What a text names: pictures beside the batch, all that a pattern finds, or one of Blender's own."""
     if _is_pattern(text):
-        return [str(path) for path in _files(text, folder)]
+        # Map sets may lie beside environments, and are none
+        return [str(path) for path in _files(text, folder) if not path.name.endswith(".rsibr.exr")]
     is_file = split_layer(folder / text)[0].is_file() or Path(split_layer(text)[0]).suffix
     return [str(folder / text) if is_file else text]
 

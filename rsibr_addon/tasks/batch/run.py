@@ -124,13 +124,26 @@ def write_page(folder: Path, title: str, bakes: Sequence[BatchBake]) -> BatchRes
     OutputFileError
     """
     _make_folders([folder])
-    notes, result = [read_note(folder, bake) for bake in bakes], BatchResult(folder / "index.html")
-    for bake, note in zip(bakes, notes, strict=True):
+    result = kept_result(folder, bakes)
+    write_index(result.page, title, bakes, [read_note(folder, bake) for bake in bakes], result.failures)
+    return result
+
+
+def kept_result(folder: Path, bakes: Sequence[BatchBake]) -> BatchResult:
+    """What has become of a batch, by what its folder keeps.
+
+    Parameters
+    ----------
+    folder : Path
+        From `batch_folder`.
+    bakes : sequence of BatchBake
+    """
+    result = BatchResult(folder / "index.html")
+    for bake in bakes:
         failure = read_failure(folder, bake) or (None if Path(bake.job.output).exists() else UNKNOWN)
-        if note is None and failure:
+        if failure and read_note(folder, bake) is None:
             result.failures[bake.job.output] = failure
     result.found = len(bakes) - len(result.failures)
-    write_index(result.page, title, bakes, notes, result.failures)
     return result
 
 

@@ -8,7 +8,7 @@ import sys
 import threading
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import IO, Any
 
 from ...core.errors import SchemaError
@@ -44,7 +44,8 @@ class Worker:
     def give(self, bake: BatchBake, picture: bool) -> None:
         """Let it do a bake, and make a picture if that is wanted even of what is there already."""
         self.bake, self.environment = bake, bake.job.light.environment
-        asked = {"job": json.loads(bake.job.to_json()), "opened": bake.opened, "picture": picture}
+        opened = asdict(bake.opened) if bake.opened else None
+        asked = {"job": json.loads(bake.job.to_json()), "opened": opened, "picture": picture}
         assert self.process.stdin is not None
         with suppress(BrokenPipeError):  # the end of its output will be heard
             self.process.stdin.write(json.dumps(asked) + "\n")

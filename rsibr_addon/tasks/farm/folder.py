@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ...core.brdf.cycles_presets import PRESETS
-from ...core.errors import InputFileError, RangeError, SceneError, SchemaError
+from ...core.errors import InputFileError, OutputFileError, RangeError, SceneError, SchemaError
 from ...core.progress import Progress, Steps
 from ...core.schema import loads
 from ...core.warned import warn
@@ -21,7 +21,7 @@ from ...files.pictures import split_layer
 from ...files.reading import opened
 from ...job import BakeJob, read_job
 from ..batch.bake_list import HERE, bake_list_text
-from ..batch.bakes import BatchBake
+from ..batch.bakes import BatchBake, Opened
 from ..batch.description import read_batch
 from ..light.environments import environment_file
 from ..methods.bake import METHODS
@@ -35,22 +35,32 @@ HASH_LETTERS = 10
 """Length of a hash in a folder's name."""
 
 
-def bakes_to_send(path: Path) -> list[BatchBake]:
-    """The bakes of a batch, or the one of a job, whose outputs are relative.
+def bakes_to_send(path: Path) -> tuple[str, Path, list[BatchBake]]:
+    """The bakes of a batch, or the one of a job.
 
     Parameters
     ----------
     path : Path
         BATCH.json or BATCH.csv, or JOB.json.
 
+    Returns
+    -------
+    title : str
+        What is sent, for people.
+    folder : Path
+        Where their outputs are meant to be.
+    bakes : list of BatchBake
+        With outputs relative to it.
+
     Raises
     ------
     InputFileError
         See `read_batch`; or an output lies outside the batch's folder.
     """
-    bake = _bake_of_job(path)
-    if bake is not None:
-        return [bake]
+    job = _read_job(path)
+    if job is not None:
+        bake = _bake_of(job)
+        return bake.title, Path(job.output).parent, [bake]
     bakes = []
     for each in read_batch(path):
         output = os.path.relpath(each.job.output, path.parent)
@@ -60,7 +70,7 @@ def bakes_to_send(path: Path) -> list[BatchBake]:
                 f"batch's folder."
             )
         bakes.append(replace(each, job=replace(each.job, output=Path(output).as_posix())))
-    return bakes
+    return path.stem, path.parent, bakes
 
 
 def folder_name(title: str, bakes: Sequence[BatchBake]) -> str:
@@ -130,6 +140,19 @@ def write_inputs(folder: Path, name: str, bakes: Sequence[BatchBake]) -> Steps[l
     return placed
 
 
+def make_folder(folder: Path) -> None:
+    """Make a folder, unless it is there.
+
+    Raises
+    ------
+    OutputFileError
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputFileError(f"{folder} cannot be made ({error.strerror}): give another folder.") from error
+
+
 class _Copies:
     """What was copied into a folder."""
 
@@ -153,7 +176,7 @@ class _Copies:
         except InputFileError:
             return bake
         if _means_open_file(bake):
-            opened = self._open_file()
+            opened = Opened(self._once("", "open.blend", _write_packed), _open_path())
         settings = _with_texts(job, replaced)
         return replace(bake, job=replace(settings, light=light), opened=opened)
 
@@ -173,18 +196,21 @@ class _Copies:
 
         return self._once(str(file), f"{digest(file)[:HASH_LETTERS]}/{file.name}", pack)
 
-    def _open_file(self) -> str:
-        return self._once("", "open.blend", _write_packed)
-
     def _once(self, source: str, name: str, write: Callable[[Path], None]) -> str:
         """The path of a copy within the list; it is written unless it is there."""
         if source not in self._made:
             target = self._folder / name
-            target.parent.mkdir(parents=True, exist_ok=True)
+            make_folder(target.parent)
             if not target.exists():
                 write(target)
             self._made[source] = f"{HERE}/{name}"
         return self._made[source]
+
+
+def _open_path() -> str:
+    from ...host.materials import open_path
+
+    return open_path()
 
 
 def _write_packed(target: Path) -> None:
@@ -236,8 +262,8 @@ def _blend_file(material: str | None) -> str:
     return material_file(material)
 
 
-def _bake_of_job(path: Path) -> BatchBake | None:
-    """The bake of a job's file; None where it is another file."""
+def _read_job(path: Path) -> BakeJob[Any] | None:
+    """The job in a file; None where it is another file."""
     with opened(path) as stream:
         data = stream.read()
     try:
@@ -249,6 +275,10 @@ def _bake_of_job(path: Path) -> BatchBake | None:
     job = read_job(data.decode(), str(path))
     if not isinstance(job, BakeJob):
         raise InputFileError(f"{path} is no bake: send a batch, or the job of a bake.")
+    return job
+
+
+def _bake_of(job: BakeJob[Any]) -> BatchBake:
     environment = job.light.environment
     light = "world" if environment is None else split_layer(environment)[0].stem
     material = METHODS[job.settings.KIND].material(job.settings)

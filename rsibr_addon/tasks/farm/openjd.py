@@ -5,11 +5,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from string import Template
 
-from ...core.errors import OutputFileError, RangeError
+from ...core.errors import RangeError
 from ...core.progress import Steps
 from ...files.atomic import written_aside
 from ..batch.bakes import BatchBake, parts_of
-from .folder import INPUTS, MAPS, plain_name, write_inputs
+from .folder import INPUTS, MAPS, make_folder, plain_name, write_inputs
 
 TEMPLATE = Path(__file__).with_suffix(".yaml")
 
@@ -50,8 +50,8 @@ def write_bundle(folder: Path, title: str, bakes: Sequence[BatchBake], program: 
     A step for the bakes has a task for each environment and method: bakes of one environment share its
     reading, and the start of Python and Blender. YAML takes each value as JSON.
     """
-    _make(folder / INPUTS)
-    _make(folder / MAPS)
+    make_folder(folder / INPUTS)
+    make_folder(folder / MAPS)
     name = plain_name(title)[:LONGEST_NAME]
     placed = yield from write_inputs(folder / INPUTS, name, bakes)
     parts = list(parts_of(placed))
@@ -76,13 +76,6 @@ def write_bundle(folder: Path, title: str, bakes: Sequence[BatchBake], program: 
     given = [{"name": "Inputs", "value": INPUTS}, {"name": "Maps", "value": MAPS}]
     _write(folder / "parameter_values.json", json.dumps({"parameterValues": given}, indent=1) + "\n")
     return template
-
-
-def _make(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputFileError(f"{folder} cannot be made ({error.strerror}): give another folder.") from error
 
 
 def _write(path: Path, text: str) -> None:

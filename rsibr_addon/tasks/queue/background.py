@@ -40,7 +40,30 @@ class State(StrEnum):
     CANCELLED = "cancelled"
 
 
-def blender_command(blender: str, extension: str, opened: tuple[Path, str] | None, job: Path) -> list[str]:
+@dataclass(frozen=True)
+class Farm:
+    """A manager of Flamenco, which the artist has allowed to be asked.
+
+    Attributes
+    ----------
+    url : str
+        Its address.
+    shared : str
+        The shared folder, as it is called here; empty for the one that the manager says.
+    """
+
+    url: str
+    shared: str = ""
+
+    @property
+    def words(self) -> list[str]:
+        """The options of `rsibr submit` that say this."""
+        return ["--flamenco", self.url, *(("--shared", self.shared) if self.shared else ()), "--wait"]
+
+
+def blender_command(
+    blender: str, extension: str, opened: tuple[Path, str] | None, job: Path, farm: Farm | None = None
+) -> list[str]:
     """What starts a job in a background Blender.
 
     Parameters
@@ -53,13 +76,17 @@ def blender_command(blender: str, extension: str, opened: tuple[Path, str] | Non
         The file that is opened first and its scene's name, where the job's world or material are its own.
     job : Path
         The job's JSON.
+    farm : Farm or None
+        Has other machines do the job.
     """
+    words = ["bake", str(job)] if farm is None else ["submit", str(job), *farm.words]
     return [
         # First of all, as it forbids only what is opened after it
         *(blender, "--background", "--disable-autoexec"),
         *(() if opened is None else (str(opened[0]), "--scene", opened[1])),
+        *(() if farm is None else ("--online-mode",)),
         *("--addons", extension, "--command", "rsibr"),
-        *("bake", str(job), "--json", "--progress", "json"),
+        *(*words, "--json", "--progress", "json"),
     ]
 
 
@@ -94,6 +121,8 @@ class Bake:
     message : str
         Why a bake failed, in one sentence.
     warnings : list of str
+    elsewhere : bool
+        Whether other machines do it, so that it waits for no bake here, and outlives this queue.
     """
 
     title: str
@@ -104,6 +133,7 @@ class Bake:
     progress: Progress | None = None
     message: str = ""
     warnings: list[str] = field(default_factory=list)
+    elsewhere: bool = False
     _process: subprocess.Popen[str] | None = field(default=None, repr=False)
     _readers: list[threading.Thread] = field(default_factory=list, repr=False)
     _said: deque[str] = field(default_factory=lambda: deque(maxlen=LAST_LINES), repr=False)
@@ -195,6 +225,12 @@ class Bake:
         if not self.ended:
             self.state = State.CANCELLED
 
+    def leave(self) -> None:
+        """End its process alone, and not what that has asked other machines to do."""
+        if self._process is not None:
+            self._process.kill()
+            self._process.wait()
+
     def _read_progress(self, stderr: TextIO) -> None:
         with stderr:
             for line in stderr:
@@ -223,7 +259,7 @@ B = TypeVar("B", bound=Bake)
 
 
 class BakeQueue(Generic[B]):
-    """Bakes in the order in which they were added, one at a time."""
+    """Bakes in the order in which they were added, one at a time; those of other machines go on beside."""
 
     def __init__(self) -> None:
         self.bakes: list[B] = []
@@ -245,8 +281,10 @@ class BakeQueue(Generic[B]):
         for bake in running:
             bake.update()
         active = [bake for bake in self.bakes if not bake.ended]
-        if active and active[0].state is State.WAITING:
-            active[0].start()
+        here = [bake for bake in active if not bake.elsewhere]
+        for bake in (*here[:1], *(bake for bake in active if bake.elsewhere)):
+            if bake.state is State.WAITING:
+                bake.start()
         return [bake for bake in running if bake.ended]
 
     def unfinished(self, output: Path) -> B | None:
@@ -263,7 +301,10 @@ class BakeQueue(Generic[B]):
         self.bakes = [bake for bake in self.bakes if not bake.ended]
 
     def close(self) -> None:
-        """Cancel all."""
+        """Cancel all that is done here."""
         for bake in reversed(self.bakes):
-            bake.cancel()
+            if bake.elsewhere:
+                bake.leave()
+            else:
+                bake.cancel()
         self.bakes.clear()

@@ -40,7 +40,7 @@ from ..methods.kinds import KINDS
 from ..methods.method import Cost
 from ..methods.recipe import light_hash, make_recipe, recipe_hash
 from ..report.facts import map_set_header
-from .background import Bake, blender_command
+from .background import Bake, Farm, blender_command
 
 HASH_LETTERS = 10
 """Length of the hash in a file's name; it tells a million bakes apart."""
@@ -216,8 +216,10 @@ def is_baked(output: Path) -> bool:
     return True
 
 
-def bake_of(request: BakeRequest, scene: Any, items: Sequence[Any], output: Path) -> ObjectBake:
-    """Make everything ready that a background Blender needs to bake.
+def bake_of(
+    request: BakeRequest, scene: Any, items: Sequence[Any], output: Path, farm: Farm | None = None
+) -> ObjectBake:
+    """Make everything ready that a background Blender needs to bake, or to have a farm bake.
 
     Parameters
     ----------
@@ -227,6 +229,7 @@ def bake_of(request: BakeRequest, scene: Any, items: Sequence[Any], output: Path
     items : sequence of bpy.types.Object
         The objects that the map set will shade.
     output : Path
+    farm : Farm, optional
 
     Returns
     -------
@@ -242,8 +245,9 @@ def bake_of(request: BakeRequest, scene: Any, items: Sequence[Any], output: Path
     """
     shaded = items[0].name if len(items) == 1 else f"{len(items)} objects"
     title = f"{shaded}: {request.title}"
-    bake = in_background(title, request.job(output), scene, items, output, request.needs_file, ObjectBake)
-    bake.settings = request.shown
+    job = request.job(output)
+    bake = in_background(title, job, scene, items, output, request.needs_file, ObjectBake, farm)
+    bake.settings, bake.elsewhere = request.shown, farm is not None
     return bake
 
 
@@ -324,6 +328,7 @@ def in_background(
     output: Path,
     needs_file: bool,
     made: type[Made],
+    farm: Farm | None = None,
 ) -> Made:
     """Make everything ready for a job in a background Blender.
 
@@ -340,6 +345,8 @@ def in_background(
         Whether it needs the scene.
     made : type
         Of the bake that is returned.
+    farm : Farm, optional
+        Does the job.
 
     Raises
     ------
@@ -362,7 +369,7 @@ def in_background(
     return made(
         title=title,
         output=output,
-        command=blender_command(program, EXTENSION, opened, path),
+        command=blender_command(program, EXTENSION, opened, path, farm),
         # What a Blender leaves that is ended while it starts goes with the folder
         variables={ORIGINAL: open_file(), "TMPDIR": str(folder)},
         items=[item.session_uid for item in items],

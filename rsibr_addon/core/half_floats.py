@@ -33,6 +33,21 @@ def half_holds(maps: Sequence[Array]) -> bool:
     return all(_held(pixels, DARKNESS * mean) for pixels in maps)
 
 
+def half_states(pixels: Array) -> bool:
+    """Whether half floats hold every value of a map to the last bit.
+
+    They do of pictures that were half floats, and mostly of Radiance HDR, whose mantissas have 8 bits.
+
+    Parameters
+    ----------
+    pixels : ndarray, shape (height, ...), float32
+        Finite.
+    """
+    with np.errstate(over="ignore"):
+        # Row by row, because the first is enough where they do not
+        return all(np.array_equal(row.astype(np.float16), row) for row in pixels)
+
+
 def _held(pixels: Array, floor: float) -> bool:
     # Suns are clipped to the largest, 65504: with the last bit of a mean a value may be a little above
     with np.errstate(over="ignore"):

@@ -17,7 +17,7 @@ from ..core.errors import (
     SchemaError,
     ShapeError,
 )
-from ..core.half_floats import half_holds
+from ..core.half_floats import half_holds, half_states
 from ..core.schema import loads
 from ..core.threads import in_order
 from ..core.warned import warn
@@ -77,7 +77,7 @@ def write_map_set(
         Whether an existing file is replaced.
     half : bool
         Store 16-bit floats, in half the space, for each map that they can hold: see `half_holds`. All other
-        maps are read back bit by bit.
+        maps are read back bit by bit, as without it; 16-bit floats are stored of them where these suffice.
 
     Raises
     ------
@@ -222,7 +222,7 @@ def _stored(name: str, pixels: Array, half: bool) -> Array:
         stored: Array = np.ascontiguousarray(pixels, dtype="<f4")
     if unusable := int(np.count_nonzero(~np.isfinite(stored))):
         raise RangeError(f"Map {name} holds {unusable} values that are NaN or infinite: make it again.")
-    return stored.astype("<f2") if half and half_holds([stored]) else stored
+    return stored.astype("<f2") if half_states(stored) or (half and half_holds([stored])) else stored
 
 
 def _derived(stored: Array) -> dict[str, Any]:

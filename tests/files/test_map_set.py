@@ -53,6 +53,24 @@ def test_half_maps_come_back_rounded(tmp_path: Path, make_views: MakeViews) -> N
         assert np.all(np.abs(pixels - views.maps[name]) <= tolerance)
 
 
+@pytest.mark.parametrize(
+    ("last", "half"), [(2.0**-24, True), (2.0**-25, False), (1.0 + 2.0**-11, False), (65520.0, False)]
+)
+def test_maps_that_half_floats_state_exactly_are_half(
+    tmp_path: Path, make_views: MakeViews, last: float, half: bool
+) -> None:
+    path, views = tmp_path / "a.rsibr.exr", make_views()
+    for pixels in views.maps.values():
+        pixels[...] = pixels.astype(np.float16)
+    views.maps["view000.glossy"][-1, -1] = (-0.0, 65504.0, last)
+    write_map_set(path, views)
+    with OpenEXR.File(str(path)) as file:
+        stored = {part.name(): part.channels["RGB"].pixels.dtype for part in file.parts}
+    assert stored == dict.fromkeys(stored, np.float16) | ({} if half else {"view000.glossy": np.float32})
+    for name, pixels in read_map_set(path).maps.items():
+        np.testing.assert_array_equal(pixels.view(np.uint32), views.maps[name].view(np.uint32))
+
+
 @pytest.mark.parametrize("scale", [1e6, 1e-5, 1e-7])
 def test_maps_that_half_floats_cannot_hold_are_told_and_kept(
     tmp_path: Path, make_views: MakeViews, scale: float

@@ -150,7 +150,7 @@ def resample(
         return made
     splat = Splat(target, size, image.shape[-1])
     splat.lay_down(image, source)
-    got, after = splat.solid_angle > 0.0, target.texel_solid_angle(size)
+    got, after = splat.solid_angle > 0.0, splat.texel_solid_angle
     made = (splat.power / np.where(got, splat.solid_angle, 1.0)).T.reshape(*shape, -1)
     _fill(made, ~got.reshape(shape), image, source, target)
     if source.blind_angle == target.blind_angle == 0.0:

@@ -80,12 +80,15 @@ class Splat:
         for the difference between its neighbours' true outlines and parallelograms.
     power : ndarray, shape (channels, sheets * height * width)
         Radiance times solid angle.
+    texel_solid_angle : ndarray, shape (sheets, height, width)
+        The texels' own [sr].
     """
 
     def __init__(self, target: Representation, size: int, channels: int) -> None:
         self._target = target
         _, self._height, self._width = target.shape(size)
-        self._counts = target.texel_solid_angle(size).ravel() > 0.0
+        self.texel_solid_angle = target.texel_solid_angle(size)
+        self._counts = self.texel_solid_angle.ravel() > 0.0
         self.solid_angle = np.zeros(self._counts.size)
         self.power = np.zeros((channels, self._counts.size))
 

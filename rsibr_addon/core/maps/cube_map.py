@@ -31,9 +31,9 @@ def direction_from_uv(uv: ArrayLike, sheet: Indices) -> Array:
     """The direction that a point of a face, 0 to 5, shows: see `core.maps`."""
     s, t = np.moveaxis(2.0 * np.asarray(uv, dtype=np.float64) - 1.0, -1, 0)
     direction = np.empty((3, *np.broadcast_shapes(s.shape, np.shape(sheet))))
-    for component, of_faces in zip(direction, FACES.T, strict=True):
+    for component, of_faces in enumerate(FACES.T):
         along_s, along_t, towards = of_faces[:, sheet]
-        component[...] = s * along_s + t * along_t + towards
+        direction[component] = s * along_s + t * along_t + towards
     direction /= np.sqrt(1.0 + s * s + t * t)
     return np.moveaxis(direction, 0, -1)
 

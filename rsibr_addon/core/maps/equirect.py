@@ -7,11 +7,10 @@ from ..conventions import Array, ArrayLike, Indices
 
 def direction_from_uv(uv: ArrayLike) -> Array:
     """The direction that a point shows: u goes around the horizon, +X in the middle, v from -Z to +Z."""
-    uv = np.asarray(uv, dtype=np.float64)
-    azimuth = np.pi * (1.0 - 2.0 * uv[..., 0])
-    polar = np.pi * (1.0 - uv[..., 1])
+    u, v = np.moveaxis(np.asarray(uv, dtype=np.float64), -1, 0)
+    azimuth, polar = np.pi * (1.0 - 2.0 * u), np.pi * (1.0 - v)
     sine = np.sin(polar)
-    return np.stack([sine * np.cos(azimuth), sine * np.sin(azimuth), np.cos(polar)], axis=-1)
+    return np.moveaxis(np.stack([sine * np.cos(azimuth), sine * np.sin(azimuth), np.cos(polar)]), 0, -1)
 
 
 def direction_of_grid(u: Array, v: Array) -> Array:
@@ -35,7 +34,7 @@ def uv_from_direction(direction: ArrayLike) -> Array:
     u = 0.5 - np.arctan2(y, x) / (2.0 * np.pi)
     # atan2 keeps its digits near the poles, where acos(z) loses half of them.
     v = 1.0 - np.arctan2(np.hypot(x, y), z) / np.pi
-    return np.stack([u, v], axis=-1)
+    return np.moveaxis(np.stack([u, v]), 0, -1)
 
 
 def texel_solid_angle(width: int, height: int) -> Array:

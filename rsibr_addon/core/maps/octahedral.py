@@ -12,19 +12,20 @@ from ..geometry.directions import dot
 
 def direction_from_uv(uv: ArrayLike) -> Array:
     """The direction that a point of the map shows: see `core.maps`."""
-    xy = 2.0 * np.asarray(uv, dtype=np.float64) - 1.0
-    z = 1.0 - np.sum(np.abs(xy), axis=-1, keepdims=True)
-    direction = np.concatenate([np.where(z < 0.0, _folded(xy), xy), z], axis=-1)
-    direction /= np.linalg.norm(direction, axis=-1, keepdims=True)
-    return direction
+    x, y = np.moveaxis(2.0 * np.asarray(uv, dtype=np.float64) - 1.0, -1, 0)
+    direction = np.empty((3, *x.shape))
+    direction[2] = 1.0 - np.abs(x) - np.abs(y)
+    direction[:2] = _below_folded(x, y, direction[2])
+    direction /= np.sqrt(np.sum(direction**2, axis=0))
+    return np.moveaxis(direction, 0, -1)
 
 
 def uv_from_direction(direction: ArrayLike) -> Array:
     """The inverse of `direction_from_uv`, of any positive length; -z is taken to the corner (1, 1)."""
-    direction = np.asarray(direction, dtype=np.float64)
-    on_octahedron = direction / np.sum(np.abs(direction), axis=-1, keepdims=True)
-    xy, z = on_octahedron[..., :2], on_octahedron[..., 2:]
-    return 0.5 * np.where(z < 0.0, _folded(xy), xy) + 0.5
+    x, y, z = np.moveaxis(np.asarray(direction, dtype=np.float64), -1, 0)
+    distance = np.abs(x) + np.abs(y) + np.abs(z)
+    uv = _below_folded(x / distance, y / distance, z)
+    return np.moveaxis(0.5 * uv + 0.5, 0, -1)
 
 
 def texel_solid_angle(size: int) -> Array:
@@ -62,10 +63,11 @@ def _mirrored(index: Indices, size: int) -> Indices:
     return np.where(index < 0, -1 - index, np.where(index >= size, 2 * size - 1 - index, index))
 
 
-def _folded(xy: Array) -> Array:
-    """Mirror points about the fold |x| + |y| = 1 of their quadrant."""
-    folded: Array = (1.0 - np.abs(xy[..., ::-1])) * np.where(xy < 0.0, -1.0, 1.0)
-    return folded
+def _below_folded(x: Array, y: Array, z: Array) -> Array:
+    """Points, shape (2, ...), mirrored about the fold |x| + |y| = 1 of their quadrant where z is negative."""
+    below = z < 0.0
+    folded = [(1.0 - np.abs(b)) * np.where(a < 0.0, -1.0, 1.0) for a, b in ((x, y), (y, x))]
+    return np.where(below, folded, [x, y])
 
 
 def _triangle(a: Array, b: Array, c: Array) -> Array:

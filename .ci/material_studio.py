@@ -19,6 +19,7 @@ from rsibr.rsibr_addon.core.geometry.camera import Camera
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import bake_pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import Pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import Families
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.split_sum import split_families
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.core.threads import AtOnce
 from rsibr.rsibr_addon.device import buffers
@@ -36,7 +37,6 @@ from rsibr.rsibr_addon.host.worlds import light_with
 from rsibr.rsibr_addon.settings.kernel_pyramid import KernelPyramidSettings
 from rsibr.rsibr_addon.tasks.methods.live_materials import LiveFits
 from rsibr.rsibr_addon.tasks.viewport.previews import Previews
-from split_family import split_families
 
 CAMERA = Camera((0.3, -1.0, 0.25))
 FINE = 4

@@ -124,12 +124,16 @@ class Inputs:
         Its samplers -> what they look up.
     sums : mapping of str to (str, ndarray of shape (3,))
         Samplers of summed tables -> the sampler of the map that each sums, and the unit of its sums.
+    exact_from : mapping of str to int
+        Samplers -> the row of their texture from which on none may be rounded, as kernels of opposite signs,
+        which are shown by their difference, would magnify that.
     """
 
     program: shaders.MeshProgram
     fields: tuple[Array, ...]
     textures: Mapping[str, GpuTexture]
     sums: Mapping[str, tuple[str, Array]] = field(default_factory=dict)
+    exact_from: Mapping[str, int] = field(default_factory=dict)
 
 
 @runtime_checkable
@@ -146,6 +150,14 @@ class Emissive(Protocol):
 
     def draw_emission(self, mesh: GpuMesh, draw: Draw, look: Any) -> None:
         """The same as `GpuMapSet.draw`, of emitted radiance alone."""
+
+
+@runtime_checkable
+class WithSplitSum(WithInputs, Protocol):
+    """A map set whose program also shades by the split sum of engines."""
+
+    def split_sum(self) -> Mapping[str, GpuTexture]:
+        """Samplers -> what they look up for it in the place of their textures; made without the GPU."""
 
 
 class ProgramMapSet(ABC):

@@ -81,21 +81,30 @@ def test_a_chain_without_roughness_has_a_slider_of_mips() -> None:
     assert mip["sets"][0]["at"][-1] == 3.0  # no slider beyond the last of four
 
 
+def codes_of(part: dict[str, Any], width: int) -> np.ndarray:
+    codes = unpacked(part["codes"], signed=True).reshape(3, -1, width)
+    if part["relative"]:
+        codes[[0, 2]] += codes[1]
+    return codes
+
+
 def test_texels_are_rounded_as_promised(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(contents, "EXACT", 0)
     texture = GpuMipChain(CHAIN).textures[0]
+    wanted = np.moveaxis(texture.values[..., :3], -1, 0)
     packed, error = packed_texture(texture)
     width, height, layers = packed["size"]
-    codes = unpacked(packed["codes"], signed=True).reshape(3, height, width)
-    if packed["relative"]:
-        codes[[0, 2]] += codes[1]
-    values = packed["unit"] * np.sinh(codes / 512.0)
-    wanted = np.moveaxis(texture.values[..., :3], -1, 0)
-    assert layers == 0
-    assert np.all(np.abs(values - wanted) <= 1.01 * (wanted + packed["unit"]) / 1024.0)
+    (part,) = packed["parts"]
+    values = part["unit"] * np.sinh(codes_of(part, width) / 512.0)
+    assert (height, layers) == (wanted.shape[1], 0)
+    assert np.all(np.abs(values - wanted) <= 1.01 * (wanted + part["unit"]) / 1024.0)
     relative = np.sqrt(np.mean((values - wanted) ** 2) / np.mean(wanted**2))
     assert np.isclose(relative, error, rtol=1e-3)
     assert 1e-4 < error < 1e-3
+    rounded, exact = packed_texture(texture, exact_from=5)[0]["parts"]
+    assert codes_of(rounded, width).shape[1] == 5
+    bits = codes_of(exact, width).astype(np.int16)
+    assert np.array_equal(bits.view(np.float16), wanted[:, 5:].astype(np.float16))
 
 
 def test_a_mesh_that_is_too_large_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:

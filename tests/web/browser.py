@@ -101,9 +101,9 @@ def driven(page: Path, script: str, before: str = "") -> dict[str, Any]:
 
 
 DRIVER = """<script type="module">
-const answer = (said) => fetch("HOST", {method: "POST", mode: "no-cors", body: JSON.stringify(said)});
-const browser = (...command) =>
-    fetch("HOST/browser", {method: "POST", mode: "no-cors", body: JSON.stringify(command)});
+const post = (address, said) => fetch(address, {method: "POST", mode: "no-cors", body: JSON.stringify(said)});
+const browser = (...command) => post("HOST/browser", command);
+const answer = (said) => post("HOST", said);
 const failed = (error) => answer({error: String(error)});
 const trouble = document.querySelector("#trouble");
 const look = () => trouble.hidden || window.expectsTrouble || failed(trouble.textContent);

@@ -7,10 +7,14 @@ from typing import Any
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.command_line.main import run
+from rsibr.rsibr_addon.core.kinds.kernel_bank.shading import BankLook
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.look import PrincipledLook
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.split_sum import split_families
 from rsibr.rsibr_addon.core.pictures.display import displayed, table_radiance
 from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.device.kinds.kernel_pyramid import GpuPyramid
 from rsibr.rsibr_addon.device.preview import PreviewRenderer
+from rsibr.rsibr_addon.files.kinds.kernel_pyramid import shipped_families
 from rsibr.rsibr_addon.files.kinds.registry import look_types
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.host.display import displayed_colours
@@ -36,6 +40,9 @@ BAKES = {
     "kernel_pyramid": ("kernel-pyramid", "--size", "64"),
 }
 """Kind -> what bakes it."""
+
+LOOKS = {"kernel_bank": BankLook(brdf="ggx:alpha=0.4,metal=copper")}
+"""Kind -> what is shown of it, where that is not the default."""
 
 SET_UP = f"""
 const canvas = document.querySelector("canvas");
@@ -87,8 +94,9 @@ def light_file(folder: Path, kind: str) -> Path:
     return path
 
 
-def page_of(source: Path) -> Path:
-    (page,) = drain(export_page(source, source.with_name("page.html"), SETTINGS, load_mesh("sphere")))
+def page_of(source: Path, look: Any = None) -> Path:
+    made = export_page(source, source.with_name("page.html"), SETTINGS, load_mesh("sphere"), look)
+    (page,) = drain(made)
     return page
 
 
@@ -118,8 +126,20 @@ def check_alike(got: np.ndarray, wanted: np.ndarray) -> None:
 @pytest.mark.parametrize("kind", [*BAKES, "radiance_views", "environment"])
 def test_a_page_of_every_kind_is_the_preview(kind: str, tmp_path: Path) -> None:
     source = light_file(tmp_path, kind)
-    said = driven(page_of(source), SET_UP + "answer({pixels: encoded(first.pixels)});")
-    check_alike(radiance(said["pixels"]), preview(source))
+    look = LOOKS.get(kind)
+    said = driven(page_of(source, look), SET_UP + "answer({pixels: encoded(first.pixels)});")
+    check_alike(radiance(said["pixels"]), preview(source, look))
+
+
+@pytest.mark.slow
+def test_a_kernel_banks_page_has_sliders_of_its_material(tmp_path: Path) -> None:
+    """They take lobes of the families, as a pyramid of the bank's light does; a model's text has a fit."""
+    source = light_file(tmp_path, "kernel_bank")
+    said = driven(page_of(source), SET_UP + 'answer({pixels: encoded((await set("metallic", 1)).pixels)});')
+    other = tmp_path / "other"
+    other.mkdir()
+    pyramid = light_file(other, "kernel_pyramid")
+    check_alike(radiance(said["pixels"]), preview(pyramid, PrincipledLook(metallic=1.0)))
 
 
 @pytest.mark.slow
@@ -127,7 +147,7 @@ def test_dragging_and_sliders_change_what_the_preview_would(tmp_path: Path) -> N
     source = light_file(tmp_path, "kernel_pyramid")
     script = """
     const mouse = (type, x, y) =>
-        browser("Input.dispatchMouseEvent", { type, x, y, button: "left", buttons: 1 });
+      browser("Input.dispatchMouseEvent", { type, x, y, button: "left", buttons: 1 });
     await mouse("mousePressed", 20, 20);
     const turned = settled();
     await mouse("mouseMoved", 20 + SIZE / 4, 20);
@@ -149,6 +169,31 @@ def test_dragging_and_sliders_change_what_the_preview_would(tmp_path: Path) -> N
     # Light that turns with the eye looks as before; turned alone by as much, as an eye that turned back
     turned_eye = (half * (view[0] + view[1]), half * (view[1] - view[0]), z)
     check_alike(radiance(said["lit"]), preview(source, metal, turned_eye))
+
+
+@pytest.mark.slow
+def test_the_split_sum_stands_beside(tmp_path: Path) -> None:
+    source = light_file(tmp_path, "kernel_pyramid")
+    script = """
+    await set("metallic", 1);
+    await set("beside", true);
+    const both = await set("roughness", 0.7);
+    const labels = [...document.querySelectorAll("#sides span")].map((side) => side.textContent);
+    answer({ pixels: encoded(both.pixels), labels, hidden: document.querySelector("#sides").hidden });
+    """
+    said = driven(page_of(source), SET_UP + script)
+    assert (said["labels"], said["hidden"]) == (["RSIBR", "Split sum"], False)
+    pixels, half, metal = radiance(said["pixels"]), SIZE // 2, PrincipledLook(metallic=1.0, roughness=0.7)
+    opened, mesh = open_map_set(source), load_mesh("sphere")
+    surface = mesh.positions, mesh.normals, mesh.triangles
+    rows = slice(SIZE // 4, SIZE // 4 + half)  # of a square within each half
+    for columns, families in (
+        (slice(0, half), shipped_families()),
+        (slice(half, SIZE), split_families(shipped_families())),
+    ):
+        renderer = PreviewRenderer(GpuPyramid(opened.content, families))
+        wanted = renderer.draw(*surface, SETTINGS.camera(VIEW), half, metal)
+        check_alike(pixels[rows, columns], wanted)
 
 
 @pytest.mark.slow

@@ -14,6 +14,7 @@ from ...core.half_floats import half_holds
 from ...core.kinds.kernel_pyramid.look import PrincipledLook
 from ...core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid
 from ...core.kinds.kernel_pyramid.shading import Families
+from ...core.kinds.kernel_pyramid.split_sum import split_families
 from ...core.lobes.family import KERNELS, Family
 from ..drawing import Draw, GpuMesh, Inputs, ProgramMapSet
 from ..own_materials import OwnMaterials
@@ -91,6 +92,10 @@ class GpuPyramid(ProgramMapSet):
             GpuTexture("albedos of GGX", albedo_texels(families)),
             GpuTexture("Fresnel terms", rise_table()[None, :, 1:]),
         )
+        self._families = families
+        # The widest maps, which come first, are of kernels that hardly cancel each other
+        sizes = [len(sheet) for sheets in pyramid.all_maps for sheet in sheets]
+        self._exact_from = sizes.count(sizes[0]) * (sizes[0] + 2)
         self._materials = MaterialBinding()
 
     def inputs(self, look: PrincipledLook | Surface) -> Inputs:
@@ -98,7 +103,17 @@ class GpuPyramid(ProgramMapSet):
         is_antialiased = isinstance(look, PrincipledLook) and look.antialiased
         surface = look.surface if isinstance(look, PrincipledLook) else look
         textures = dict(zip(SAMPLERS, self.textures, strict=True))
-        return Inputs(principled_shader, look_fields(surface, is_antialiased), textures)
+        return Inputs(
+            principled_shader,
+            look_fields(surface, is_antialiased),
+            textures,
+            exact_from={"atlas": self._exact_from},
+        )
+
+    def split_sum(self) -> dict[str, GpuTexture]:
+        """See `WithSplitSum`."""
+        texels = family_texels(split_families(self._families).ggx, GGX_LOBES)
+        return {"ggx": GpuTexture("split sum as a family", texels)}
 
     def draw(self, mesh: GpuMesh, draw: Draw, look: PrincipledLook | Surface | OwnMaterials) -> None:
         """See `GpuMapSet.draw`."""

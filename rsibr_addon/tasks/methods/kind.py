@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ...core.environment import Environment
+from ...core.progress import Steps
 from ...device.drawing import GpuMapSet
 from ...files.map_set_data import MapSet
 from ..compare.truth import Truth
@@ -24,6 +26,9 @@ class Kind:
         What pictures drawn from it are compared with; None for nothing.
     live : bool
         Whether its looks are made while one looks.
+    by_sliders : callable or None
+        Of a live kind: the environment and a look to a map set in memory and its look, which shade the same
+        material and follow sliders; None for a look that cannot be had so.
     own : bool
         Whether its look has `own`, which asks for an object's own materials, and `antialiased`.
     menu : str
@@ -34,5 +39,6 @@ class Kind:
     drawable: Callable[..., GpuMapSet]
     truth: Truth | None = None
     live: bool = False
+    by_sliders: Callable[[Environment, Any], Steps[tuple[MapSet, Any] | None]] | None = None
     own: bool = False
     menu: str = ""

@@ -28,6 +28,7 @@ from ...files.kinds import (
     reflection_tables,
 )
 from ...files.map_set import read_map_set, read_map_set_header
+from ...files.map_set_data import MapSet
 from ..compare import kernel_pyramid as kernel_pyramid_truth
 from ..compare import lobe_stack as lobe_stack_truth
 from ..compare import mip_chain as mip_chain_truth
@@ -35,6 +36,7 @@ from ..compare import radiance_views as radiance_views_truth
 from ..compare import reflection_tables as reflection_tables_truth
 from .kind import Kind
 from .live_materials import LiveFits, LiveMaterials
+from .sliders import pyramid_by_sliders
 
 
 def _pyramid(pyramid: Pyramid) -> GpuPyramid:
@@ -49,7 +51,13 @@ KINDS: dict[str, Kind] = {
         reflection_tables.from_map_set, GpuReflectionTables, reflection_tables_truth.TRUTH
     ),
     "mip_chain": Kind(mip_chain.from_map_set, GpuMipChain, mip_chain_truth.TRUTH),
-    "kernel_bank": Kind(kernel_bank.from_map_set, LiveMaterials, live=True, menu="RSIBR_MT_live_models"),
+    "kernel_bank": Kind(
+        kernel_bank.from_map_set,
+        LiveMaterials,
+        live=True,
+        by_sliders=pyramid_by_sliders,
+        menu="RSIBR_MT_live_models",
+    ),
     environment.KIND: Kind(environment.from_map_set, GpuEnvironment),
 }
 """Kind of map sets, or `environment` for a picture -> what can be done with it."""
@@ -82,6 +90,8 @@ class OpenedMapSet:
         The material in the map set's header.
     texels : int
         How many the file holds.
+    header : dict
+        What the map set tells of itself.
     """
 
     kind: str
@@ -89,6 +99,7 @@ class OpenedMapSet:
     environment: Environment | None
     material: dict[str, Any]
     texels: int
+    header: dict[str, Any]
 
     def drawable(self, fits: LiveFits | None = None) -> GpuMapSet:
         """The content, to be drawn with; made without the GPU, in any thread.
@@ -157,10 +168,22 @@ def open_map_set(path: Path, kind: str | None = None, clamp: float | None = None
         raise RangeError(f"{path} is a map set, whose light is filtered already: clamp where it is baked.")
     else:
         map_set = read_map_set(path, kind)
+    return opened_map_set(path, map_set)
+
+
+def opened_map_set(path: Path, map_set: MapSet) -> OpenedMapSet:
+    """A map set as tasks use it.
+
+    Raises
+    ------
+    MapSetError
+        As the kind's own `from_map_set`.
+    """
     return OpenedMapSet(
         map_set.kind,
         KINDS[map_set.kind].from_map_set(path, map_set),
         environment.from_map_set(path, map_set) if map_set.header["environment"]["part"] else None,
         map_set.header["material"],
         sum(pixels.shape[0] * pixels.shape[1] for pixels in map_set.maps.values()),
+        {"kind": map_set.kind, **map_set.header},
     )

@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from ....core.companded import Companded, companded
-from ....core.conventions import Array
+from ....core.companded import companded
+from ....core.conventions import Array, Indices
 from ....core.errors import RangeError
 from ....core.half_floats import half_holds
 from ....core.pictures.display import table_radiance
@@ -25,15 +25,22 @@ DIGITS = 32767
 """Largest number of coordinates, which lie in [-1, 1]."""
 
 
-def packed_texture(texture: GpuTexture) -> tuple[dict[str, Any], float]:
+def packed_texture(texture: GpuTexture, exact_from: int | None = None) -> tuple[dict[str, Any], float]:
     """A texture that is not on the GPU yet.
+
+    Parameters
+    ----------
+    texture : GpuTexture
+    exact_from : int, optional
+        Row from which on a texture of two dimensions is not rounded, if half floats hold it.
 
     Returns
     -------
     packed : dict
         "size", its width, height and layers, 0 for a texture of two dimensions; "half", whether half floats
-        are enough for it; and either "floats", or "codes", "unit" and "relative", see `Companded`: a plane
-        for each of three channels and each layer. Relative ones have green taken from red and blue.
+        are enough for it; and either "floats", or "parts", rows after rows: each with "codes", a plane for
+        each of three channels and each layer, from which green is taken if it is "relative"; and "unit", see
+        `Companded`, or None where codes are the bits of half floats.
     error : float
         Root mean square of what rounding changed, relative to that of the values.
     """
@@ -43,20 +50,25 @@ def packed_texture(texture: GpuTexture) -> tuple[dict[str, Any], float]:
     size = [width, height, layers]
     if values.size <= EXACT or not np.all(values[..., 3] == 1.0):
         return {"size": size, "half": False, "floats": packed_floats(values)}, 0.0
-    colours = values[..., :3].astype(np.float64)
+    is_half = half_holds([values])
+    end = exact_from if is_half else None
+    colours = values[:end, ..., :3].astype(np.float64)
     rounded = companded(colours)
     error = np.sqrt(np.mean((rounded.values() - colours) ** 2) / np.mean(colours**2))
-    packed = {"size": size, "half": half_holds([values]), "unit": rounded.unit, **_smaller(rounded)}
-    return packed, float(error)
+    parts = [{"unit": rounded.unit, **_smaller(rounded.codes)}]
+    if end is not None:
+        bits = np.ascontiguousarray(values[end:, :, :3], np.float16).view(np.int16)
+        parts.append({"unit": None, **_smaller(bits.astype(np.int32))})
+    return {"size": size, "half": is_half, "parts": parts}, float(error)
 
 
-def _smaller(rounded: Companded) -> dict[str, Any]:
+def _smaller(codes: Indices) -> dict[str, Any]:
     """The codes, or those relative to green if these take less room."""
-    red, green, blue = np.moveaxis(rounded.codes, -1, 0)
+    red, green, blue = np.moveaxis(codes, -1, 0)
     ways = {False: np.stack([red, green, blue]), True: np.stack([red - green, green, blue - green])}
     packed = {
-        relative: packed_integers(codes.reshape(-1, *codes.shape[-2:]), 16, along=(1, 2))
-        for relative, codes in ways.items()
+        relative: packed_integers(planes.reshape(-1, *planes.shape[-2:]), 16, along=(1, 2))
+        for relative, planes in ways.items()
     }
     best = min(packed, key=lambda relative: len(packed[relative]["data"]))
     return {"codes": packed[best], "relative": best}

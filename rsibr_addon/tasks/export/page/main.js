@@ -29,6 +29,7 @@ class Page {
     this.display = content.display;
     this.block = new Float32Array(content.block);
     this.turn = 0;
+    this.beside = false; // Whether the split sum is
     this.waiting = [];
     this.samples = 1;
     this.asked = false;
@@ -36,9 +37,6 @@ class Page {
 
   async start() {
     await this.picture.load(this.content);
-    if (this.picture.coarse) {
-      say("This device does not interpolate 32-bit float textures, so the picture may show steps.");
-    }
     await this.picture.show(this.content.displays[this.display]);
     document.querySelector("#waiting").hidden = true;
     document.querySelector("#reset").hidden = false;
@@ -73,6 +71,14 @@ class Page {
       this.turn = (degrees * Math.PI) / 180;
       moved();
     });
+    if (Object.keys(this.content.split).length) {
+      const beside = { name: "beside", label: "Split Sum Beside", help: "Show what engines make of the same material and light" };
+      panel.check(beside, false, (checked) => {
+        this.beside = checked;
+        document.querySelector("#sides").hidden = !checked;
+        moved();
+      });
+    }
     const exposure = { name: "exposure", label: "Exposure", help: "In stops, which double the light" };
     const reach = Math.max(6, Math.abs(this.exposure));
     panel.slider(exposure, -reach, reach, this.exposure, (stops) => {
@@ -105,7 +111,7 @@ class Page {
   // Anything but exposure and view transform is another: draw all of it.
   moved() {
     this.samples = 1;
-    this.waiting = this.picture.tiles(1);
+    this.waiting = this.picture.tiles(1, this.beside);
     this.ask();
   }
 
@@ -130,7 +136,7 @@ class Page {
         canvas.dispatchEvent(new CustomEvent("drawn", { detail: () => this.picture.read() }));
       } else {
         this.samples = SAMPLES;
-        this.waiting = this.picture.tiles(SAMPLES);
+        this.waiting = this.picture.tiles(SAMPLES, this.beside);
       }
     }
     if (this.waiting.length) {

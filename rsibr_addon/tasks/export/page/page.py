@@ -12,15 +12,14 @@ from typing import Any
 from ....core.errors import RangeError
 from ....core.options import declared_options
 from ....core.progress import Progress, Steps
-from ....device.drawing import Inputs, WithInputs
+from ....device.drawing import Inputs, WithInputs, WithSplitSum
 from ....files.atomic import check_target, written_aside
 from ....files.kinds.environment import is_environment
 from ....files.kinds.registry import look_types
-from ....files.map_set import read_map_set_header
 from ....files.map_set_facts import in_words, told_errors, told_facts
 from ....host.meshes import TriangleMesh
 from ....settings.page import PageOptions
-from ...methods.kinds import KINDS, OpenedMapSet, open_map_set
+from ...methods.kinds import KINDS, OpenedMapSet, open_map_set, opened_map_set
 from .contents import packed_display, packed_mesh, packed_texture
 from .parameters import block_of, parameters
 from .sources import page_sources
@@ -65,13 +64,19 @@ def export_page(
     check_target(output, force, (".html",))
     yield Progress(0, 4, f"reading {map_set.name}")
     opened = open_map_set(map_set, clamp=settings.clamp)
+    shown = look or look_types()[opened.kind]()
+    by_sliders = KINDS[opened.kind].by_sliders
+    if by_sliders is not None and opened.environment is not None:
+        found = yield from by_sliders(opened.environment, shown)
+        if found is not None:
+            in_memory, shown = found
+            opened = opened_map_set(map_set, in_memory)
     drawable = opened.drawable()
     if not isinstance(drawable, WithInputs):
         raise RangeError(
             f"{map_set} is a {in_words(opened.kind).lower()}, which no page shows yet: preview it."
         )
     yield Progress(1, 4, "packing its maps")
-    shown = look or look_types()[opened.kind]()
     inputs = drawable.inputs(shown)
     textures, error = _packed_textures(inputs)
     yield Progress(2, 4, "packing the mesh and the display")
@@ -82,6 +87,7 @@ def export_page(
         "block": block_of(inputs).tolist(),
         "parameters": [] if KINDS[opened.kind].live else parameters(drawable, shown),
         "textures": textures,
+        "split": _packed_split_sum(drawable, inputs),
         "mesh": packed_mesh(mesh),
         "displays": {name: packed_display(name) for name in _view_transforms()},
         "display": settings.view_transform,
@@ -112,10 +118,18 @@ def _packed_textures(inputs: Inputs) -> tuple[dict[str, Any], float]:
             summed, unit = inputs.sums[name]
             packed[name] = {"type": kind, "summed": summed, "unit": unit.tolist(), "half": False}
             continue
-        said, error = packed_texture(texture)
+        said, error = packed_texture(texture, inputs.exact_from.get(name))
         packed[name] = {"type": kind, **said}
         errors.append(error)
     return packed, max(errors)
+
+
+def _packed_split_sum(drawable: WithInputs, inputs: Inputs) -> dict[str, Any]:
+    """What takes the place of textures for the split sum; nothing where the kind has none."""
+    if not isinstance(drawable, WithSplitSum):
+        return {}
+    split = drawable.split_sum().items()
+    return {name: {"type": inputs.program.samplers[name], **packed_texture(each)[0]} for name, each in split}
 
 
 def _told(map_set: Path, opened: OpenedMapSet, error: float) -> tuple[str, str]:
@@ -123,7 +137,7 @@ def _told(map_set: Path, opened: OpenedMapSet, error: float) -> tuple[str, str]:
     rounding = f"This page rounds its maps by {error:.1g} of themselves (root mean square)."
     if is_environment(map_set):
         return in_words(map_set.stem), rounding
-    header = read_map_set_header(map_set)
+    header = opened.header
     facts = told_facts(header)
     title = " in ".join(facts[what] for what in ("Material", "Light") if what in facts)
     bounds = [f"{name.removeprefix('Error, ')} {bound}" for name, bound in told_errors(header).items()]

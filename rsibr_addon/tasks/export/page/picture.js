@@ -15,7 +15,6 @@ class Picture {
     if (!floats && !gl.getExtension("EXT_color_buffer_half_float")) {
       throw new Missing("This page draws to float textures, which this device does not allow.");
     }
-    this.interpolates = gl.getExtension("OES_texture_float_linear") !== null;
     this.format = floats ? gl.RGBA32F : gl.RGBA16F;
     this.gl = gl;
     this.canvas = canvas;
@@ -36,6 +35,10 @@ class Picture {
       const size = packed.summed && content.textures[packed.summed].size;
       const values = size ? sums(filled[packed.summed], size, packed.unit) : filled[name];
       this.textures[name] = this.texture(packed, size ? [size[0] - 1, size[1] - 1, 3] : packed.size, values);
+    }
+    this.split = { ...this.textures };
+    for (const [name, packed] of Object.entries(content.split)) {
+      this.split[name] = this.texture(packed, packed.size, await texels(packed));
     }
     await this.loadMesh(content.mesh);
     this.buffers = ["DrawBlock", "LookBlock"].map((name, slot) => {
@@ -91,7 +94,6 @@ class Picture {
     return program;
   }
 
-  // Looked up bilinearly within its edges.
   texture({ type, half }, [width, height, layers], values) {
     const gl = this.gl;
     const deep = type === "FLOAT_3D";
@@ -100,11 +102,9 @@ class Picture {
     if (Math.max(width, height) > most || layers > mostLayers) {
       throw new Missing(`This page has a texture of ${width} x ${height} x ${layers || 1}, too large for this device.`);
     }
-    const smooth = half || this.interpolates;
-    this.coarse ||= !smooth;
     const format = half ? gl.RGBA16F : gl.RGBA32F;
     const target = layers ? (deep ? gl.TEXTURE_3D : gl.TEXTURE_2D_ARRAY) : gl.TEXTURE_2D;
-    const made = this.bound(target, smooth ? gl.LINEAR : gl.NEAREST);
+    const made = this.bound(target, gl.NEAREST); // Shaders interpolate
     if (layers) {
       gl.texImage3D(target, 0, format, width, height, layers, 0, gl.RGBA, gl.FLOAT, values);
     } else {
@@ -170,14 +170,19 @@ class Picture {
     [this.canvas.width, this.canvas.height] = [width, height];
   }
 
-  // The tiles of a picture with so many samples along each side of a pixel.
-  tiles(samples) {
+  // The tiles of a picture with so many samples along each side of a pixel. Beside, the object has the left half of
+  // the picture, and the right one by the split sum.
+  tiles(samples, beside) {
     const side = TILE / samples;
-    const { width, height } = this.radiance;
+    const height = this.radiance.height;
+    const width = beside ? Math.max(Math.floor(this.radiance.width / 2), 1) : this.radiance.width;
     const found = [];
-    for (let y = 0; y < height; y += side) {
-      for (let x = 0; x < width; x += side) {
-        found.push({ x, y, width: Math.min(side, width - x), height: Math.min(side, height - y) });
+    for (let place = 0; place < (beside ? 2 : 1); place++) {
+      const frame = { left: place * width, width, height, textures: place ? this.split : this.textures };
+      for (let y = 0; y < height; y += side) {
+        for (let x = 0; x < width; x += side) {
+          found.push({ frame, x, y, width: Math.min(side, width - x), height: Math.min(side, height - y) });
+        }
       }
     }
     return found;
@@ -193,7 +198,7 @@ class Picture {
     gl.depthFunc(gl.LEQUAL);
     this.fill(0, this.drawBlock(camera, turn, tile));
     this.fill(1, block);
-    this.use("surface", this.textures, {});
+    this.use("surface", tile.frame.textures, {});
     gl.bindVertexArray(this.mesh);
     gl.drawElements(gl.TRIANGLES, this.corners, gl.UNSIGNED_INT, 0);
     gl.disable(gl.DEPTH_TEST);
@@ -201,8 +206,9 @@ class Picture {
     gl.viewport(0, 0, tile.width, tile.height);
     this.pass("means", { samples: this.tile }, { per_axis: ["uniform1i", samples] });
     gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, this.radiance.framebuffer);
-    const [right, top] = [tile.x + tile.width, tile.y + tile.height];
-    gl.blitFramebuffer(0, 0, tile.width, tile.height, tile.x, tile.y, right, top, gl.COLOR_BUFFER_BIT, gl.NEAREST);
+    const left = tile.frame.left + tile.x;
+    const [right, top] = [left + tile.width, tile.y + tile.height];
+    gl.blitFramebuffer(0, 0, tile.width, tile.height, left, tile.y, right, top, gl.COLOR_BUFFER_BIT, gl.NEAREST);
   }
 
   // device/drawing.py `Draw.block`. The light turns by `turn`, so the map set sees the mesh turned back.
@@ -210,7 +216,7 @@ class Picture {
     const back = turnedBy(-turn);
     const eye = camera.eye;
     const turned = [0, 1, 2].map((row) => back[row] * eye[0] + back[4 + row] * eye[1] + back[8 + row] * eye[2]);
-    const projection = camera.projection(this.radiance, tile);
+    const projection = camera.projection(tile.frame, tile);
     return new Float32Array([...turnedBy(0), ...camera.view, ...projection, ...back, ...turned, eye[3], 1, 0, 0, 0]);
   }
 

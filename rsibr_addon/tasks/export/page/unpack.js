@@ -41,20 +41,33 @@ async function texels(packed) {
   if (packed.floats) {
     return floats(packed.floats);
   }
-  const codes = await integers(packed.codes, true);
-  const size = codes.length / 3;
-  const values = Float32Array.from({ length: 65536 }, (_, code) => packed.unit * Math.sinh((code - 32768) / STEPS));
-  const found = new Float32Array(4 * size).fill(1);
-  for (let channel = 0; channel < 3; channel++) {
-    for (let texel = 0; texel < size; texel++) {
-      let code = codes[channel * size + texel];
-      if (packed.relative && channel !== 1) {
-        code = ((code + codes[size + texel]) << 16) >> 16;
+  const [width, height, layers] = packed.size;
+  const found = new Float32Array(4 * width * height * (layers || 1)).fill(1);
+  let begin = 0;
+  for (const part of packed.parts) {
+    const codes = await integers(part.codes, true);
+    const size = codes.length / 3;
+    const decoded = part.unit === null ? halfFloat : (code) => part.unit * Math.sinh(code / STEPS);
+    const values = Float32Array.from({ length: 65536 }, (_, place) => decoded(place - 32768));
+    for (let channel = 0; channel < 3; channel++) {
+      for (let texel = 0; texel < size; texel++) {
+        let code = codes[channel * size + texel];
+        if (part.relative && channel !== 1) {
+          code = ((code + codes[size + texel]) << 16) >> 16;
+        }
+        found[4 * (begin + texel) + channel] = values[code + 32768];
       }
-      found[4 * texel + channel] = values[code + 32768];
     }
+    begin += size;
   }
   return found;
+}
+
+// From its bits, as a number with a sign.
+function halfFloat(bits) {
+  const [exponent, fraction] = [(bits >> 10) & 31, (bits & 1023) / 1024];
+  const size = exponent ? 2 ** (exponent - 15) * (1 + fraction) : 2 ** -14 * fraction;
+  return bits < 0 ? -size : size;
 }
 
 // Sums of a latitude-longitude map within a border of one texel, in three digits of 21 bits.

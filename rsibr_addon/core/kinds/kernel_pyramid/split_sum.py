@@ -1,4 +1,4 @@
-"""The split sum as a family of lobes, so that previews draw it with all else the same: a peer to measure.
+"""The split sum of engines as a family of lobes, so that it is drawn with all else the same.
 
 Engines filter light with GGX at normal = view = mirror direction [Karis2013], and multiply what they look up
 along the mirror direction by the exact albedo. As a family that is one lobe about the mirror direction, of
@@ -6,10 +6,11 @@ the same shape for all views, whose weights sum to the albedo.
 """
 
 import numpy as np
-from rsibr.rsibr_addon.core.conventions import Array
-from rsibr.rsibr_addon.core.filtering.radial_lobes import ggx_n_dot_l_lobe
-from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import Families
-from rsibr.rsibr_addon.core.lobes.family import Family
+
+from ...conventions import Array
+from ...filtering.radial_lobes import ggx_n_dot_l_lobe
+from ...lobes.family import Family
+from .shading import Families
 
 ANGLES = np.concatenate([[0.0], np.geomspace(1e-4, np.pi, 2000)])
 

@@ -13,7 +13,6 @@ from ..rsibr_addon.files.kinds.registry import look_types
 from ..rsibr_addon.host.map_sets import planned_path, written_path
 from ..rsibr_addon.host.meshes import mesh_of_objects
 from ..rsibr_addon.host.option_properties import options_of, properties_of
-from ..rsibr_addon.host.principled import principled
 from ..rsibr_addon.settings.page import PageOptions
 from ..rsibr_addon.tasks.export.engines.engines import ENGINES
 from ..rsibr_addon.tasks.export.engines.export import export_for_engine
@@ -21,7 +20,8 @@ from ..rsibr_addon.tasks.export.engines.settings import AnySettings
 from ..rsibr_addon.tasks.export.export import export
 from ..rsibr_addon.tasks.export.format import Format
 from ..rsibr_addon.tasks.export.formats import FORMATS
-from ..rsibr_addon.tasks.export.page.own_material import with_constants
+from ..rsibr_addon.tasks.export.page.own_material import look_of, own_objects
+from ..rsibr_addon.tasks.export.page.own_objects import OwnObject
 from ..rsibr_addon.tasks.export.page.page import export_page
 from ..rsibr_addon.tasks.methods.kinds import kind_of
 from ..rsibr_addon.tasks.viewport.looks import wants_own
@@ -165,12 +165,15 @@ class _ExportPage(_Export):
             for item in bpy.context.selected_objects
             if item.rsibr.map_set and planned_path(item.rsibr) == shading
         ]
-        mesh = mesh_of_objects(alike or [active], bpy.context.evaluated_depsgraph_get())
-        kind = kind_of(map_set)
+        shown, depsgraph = alike or [active], bpy.context.evaluated_depsgraph_get()
+        mesh, kind = mesh_of_objects(shown, depsgraph), kind_of(map_set)
         look = options_of(look_types()[kind], getattr(active.rsibr, kind))
-        if wants_own(active, kind) and active.active_material is not None:
-            look = with_constants(look, principled(active.active_material))
-        return export_page(map_set, output, options_of(PageOptions, self), mesh, look, force)
+        own: list[OwnObject] = []
+        if wants_own(active, kind):
+            own = own_objects(shown, depsgraph)
+            if (plain := look_of(look, own)) is not None:
+                look, own = plain, []
+        return export_page(map_set, output, options_of(PageOptions, self), mesh, look, force, own)
 
 
 EXPORT_PAGE = type(

@@ -46,6 +46,13 @@ NUMBERS = 32
 """Numbers of all inputs: after `INPUTS` a normal map's color and strength, a bump's strength and distance,
 and color and strength of the coat's normal map."""
 
+MATERIAL_STRUCT = (
+    f"struct Material {{ vec4 counts; vec4 antialiasing; vec4 height; vec4 constants[{NUMBERS // 4}]; "
+    f"vec4 rows[{NUMBERS}]; vec4 targets[{NUMBERS}]; "
+    f"vec4 ranges[{MOST_TEXTURES}]; vec4 mapping[{2 * MOST_TEXTURES}]; }};"
+)
+"""A material in the shader: see `material_rows`."""
+
 EXTENSIONS: dict[Extension, str] = {
     "REPEAT": "REPEAT",
     "EXTEND": "EXTEND",
@@ -85,11 +92,7 @@ def textured_program(fragment: str, samplers: Mapping[str, str], variant: str = 
     DeviceError
         The driver refuses it.
     """
-    info = mesh_interface(
-        f"struct Material {{ vec4 counts; vec4 antialiasing; vec4 height; vec4 constants[{NUMBERS // 4}]; "
-        f"vec4 rows[{NUMBERS}]; vec4 targets[{NUMBERS}]; "
-        f"vec4 ranges[{MOST_TEXTURES}]; vec4 mapping[{2 * MOST_TEXTURES}]; }};"
-    )
+    info = mesh_interface(MATERIAL_STRUCT)
     if variant:
         info.define(variant)
     if variant == TRANSLUCENT:
@@ -148,9 +151,7 @@ class MaterialBinding:
         formats = tuple(texture.format for texture in material.textures.values())
         made, key = self._blocks.setdefault(material, {}), (uv_maps, antialiased, formats)
         if key not in made:
-            textures = textures_of(material.inputs)
-            rows = material_rows(material.inputs, textures, uv_maps)
-            rows[1] = _antialiasing(material, textures, antialiased)
+            rows, textures = drawn_rows(material, uv_maps, antialiased)
             made[key] = gpu.types.GPUUniformBuf(rows.tobytes()), textures
         block, textures = made[key]
         shader.uniform_block("material", block)
@@ -173,6 +174,19 @@ class MaterialBinding:
                 image.extend_mode("REPEAT")
                 image.filter_mode(True)
                 image.anisotropic_filter(True)
+
+
+def drawn_rows(
+    material: DrawnMaterial, uv_maps: tuple[str, ...], antialiased: bool
+) -> tuple[Array, tuple[Texture, ...]]:
+    """A material as the shader reads it, with its antialiasing, and the textures that it samples, in turn.
+
+    Parameters and errors are those of `MaterialBinding.bound`, rows those of `material_rows`.
+    """
+    textures = textures_of(material.inputs)
+    rows = material_rows(material.inputs, textures, uv_maps)
+    rows[1] = _antialiasing(material, textures, antialiased)
+    return rows, textures
 
 
 def textures_of(inputs: PrincipledInputs) -> tuple[Texture, ...]:

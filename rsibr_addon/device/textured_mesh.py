@@ -39,18 +39,13 @@ class GpuTexturedMesh(GpuMesh):
         tangents: Array | None = None,
         uv_maps: tuple[str, ...] = (),
     ) -> None:
-        by_slot = np.argsort(slots, kind="stable")
-        attributes = {"position": positions, "normal": normals}
+        self._ends, by_slot = slot_ends(slots)
+        attributes = {"position": positions, "normal": normals, **uv_attributes(uv)}
         if tangents is not None:
             attributes["tangent"] = tangents
-        pairs = uv.reshape(len(positions), -1)[:, : 2 * MOST_UV_MAPS]
-        for first, name in ((0, "uv_a"), (4, "uv_b")):
-            if pairs.shape[1] > first:
-                attributes[name] = _widened(pairs[:, first : first + 4])
         self._batch = _batch(attributes, triangles[by_slot])
         self._placed = buffers.KeptBlock()
         self.uv_maps = uv_maps
-        self._ends = np.cumsum(np.bincount(slots)).tolist()
 
     def draw_slot(self, shader: gpu.types.GPUShader, draw: Draw, slot: int, last: bool = False) -> None:
         """Draw the triangles of one slot into the active frame buffer; see `draw`.
@@ -68,6 +63,18 @@ class GpuTexturedMesh(GpuMesh):
         if end > begin:
             shader.uniform_block("draw", self._placed.with_rows(draw.block()))
             self._batch.draw_range(shader, elem_start=3 * begin, elem_count=3 * (end - begin))
+
+
+def slot_ends(slots: Indices) -> tuple[list[int], Indices]:
+    """How many triangles the slots up to each have, and the order of triangles by slot."""
+    return np.cumsum(np.bincount(slots)).tolist(), np.argsort(slots, kind="stable")
+
+
+def uv_attributes(uv: Array) -> dict[str, Array]:
+    """UV maps as vertex attributes, see `ATTRIBUTES`; those without any are left out."""
+    pairs = uv.reshape(len(uv), -1)[:, : 2 * MOST_UV_MAPS]
+    named = ((0, "uv_a"), (4, "uv_b"))
+    return {name: _widened(pairs[:, first : first + 4]) for first, name in named if pairs.shape[1] > first}
 
 
 def _widened(values: Array) -> Array:

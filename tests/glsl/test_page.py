@@ -19,6 +19,7 @@ from rsibr.rsibr_addon.host.meshes import TriangleMesh
 from rsibr.rsibr_addon.tasks.export.page import contents
 from rsibr.rsibr_addon.tasks.export.page.contents import packed_mesh, packed_texture
 from rsibr.rsibr_addon.tasks.export.page.parameters import block_of, parameters
+from rsibr.tests.engine_light import sky_file
 from rsibr.tests.files.test_export import CHAIN, chain_file
 from rsibr.tests.files.test_packed_arrays import unpacked
 
@@ -103,6 +104,7 @@ def test_texels_are_rounded_as_promised(monkeypatch: pytest.MonkeyPatch) -> None
     assert 1e-4 < error < 1e-3
     rounded, exact = packed_texture(texture, exact_from=5)[0]["parts"]
     assert codes_of(rounded, width).shape[1] == 5
+    assert len(packed_texture(texture, exact_from=0)[0]["parts"]) == 1
     bits = codes_of(exact, width).astype(np.int16)
     assert np.array_equal(bits.view(np.float16), wanted[:, 5:].astype(np.float16))
 
@@ -119,6 +121,11 @@ def test_a_mesh_that_is_too_large_is_refused(monkeypatch: pytest.MonkeyPatch) ->
         packed_mesh(mesh)
 
 
+def mesh_in(page: Path) -> dict[str, Any]:
+    (shown,) = content_of(page)["objects"]
+    return shown["mesh"]
+
+
 @pytest.mark.slow
 @pytest.mark.usefixtures("view")
 def test_the_operator_shows_the_selected_objects(tmp_path: Path) -> None:
@@ -126,7 +133,7 @@ def test_the_operator_shows_the_selected_objects(tmp_path: Path) -> None:
     cube = bpy.context.object
     bpy.ops.rsibr.assign(filepath=str(chain_file(tmp_path)))
     assert bpy.ops.rsibr.export_page(filepath=str(page)) == {"FINISHED"}
-    alone = content_of(page)["mesh"]
+    alone = mesh_in(page)
     assert alone["triangles"]["shape"] == [3, 12]
     other = cube.copy()
     bpy.context.collection.objects.link(other)
@@ -137,7 +144,7 @@ def test_the_operator_shows_the_selected_objects(tmp_path: Path) -> None:
     both = tmp_path / "both.html"
     assert bpy.ops.rsibr.export_page(filepath=str(both)) == {"FINISHED"}
     mesh = SimpleNamespace(
-        **{name: unpacked(packed, signed=True).T / 32767 for name, packed in content_of(both)["mesh"].items()}
+        **{name: unpacked(packed, signed=True).T / 32767 for name, packed in mesh_in(both).items()}
     )
     corners = mesh.positions[np.rint(32767 * mesh.triangles).astype(int)]
     facets = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -146,3 +153,27 @@ def test_the_operator_shows_the_selected_objects(tmp_path: Path) -> None:
     assert len(facets) == 24
     assert np.all(np.sum(facets * normals, axis=1) > 0.99)  # also of the mirrored one
     assert np.isclose(np.linalg.norm(mesh.positions, axis=1).max(), 1.0, atol=1e-4)
+
+
+@pytest.mark.usefixtures("view")
+def test_the_operator_takes_the_materials_of_slots(tmp_path: Path) -> None:
+    cube, light = bpy.context.object, tmp_path / "light.rsibr.exr"
+    environment = str(sky_file(tmp_path))
+    bake = ["bake", "kernel-pyramid", "--environment", environment, "--size", "32", "-o", str(light)]
+    assert run(bake) == 0
+    bpy.ops.rsibr.assign(filepath=str(light))
+    bpy.ops.rsibr.export_page(filepath=str(tmp_path / "plain.html"))
+    plain = content_of(tmp_path / "plain.html")
+    assert {"base_color", "roughness"} <= {each["name"] for each in plain["parameters"]}
+    tree = cube.active_material.node_tree
+    node = tree.nodes.new("ShaderNodeTexImage")
+    node.image = bpy.data.images.new("colours", 4, 4)
+    tree.links.new(node.outputs["Color"], tree.nodes["Principled BSDF"].inputs["Base Color"])
+    cube.data.materials.append(bpy.data.materials.new("second"))
+    cube.data.polygons[0].material_index = 1
+    bpy.ops.rsibr.export_page(filepath=str(tmp_path / "own.html"))
+    own = content_of(tmp_path / "own.html")
+    assert [len(each["images"]) for each in own["materials"]] == [1, 0]
+    assert own["objects"][0]["slots"] == [[0, 30, 0], [30, 36, 1]]
+    assert (len(own["images"]), own["images"][0]["srgb"], own["parameters"]) == (1, True, [])
+    assert own["programs"]["surface"] != plain["programs"]["surface"]

@@ -95,7 +95,8 @@ class GpuPyramid(ProgramMapSet):
         self._families = families
         # The widest maps, which come first, are of kernels that hardly cancel each other
         sizes = [len(sheet) for sheets in pyramid.all_maps for sheet in sheets]
-        self._exact_from = sizes.count(sizes[0]) * (sizes[0] + 2)
+        rows = sizes.count(sizes[0]) * (sizes[0] + 2)
+        self._exact_from = rows if rows < len(atlas) else 0
         self._materials = MaterialBinding()
 
     def inputs(self, look: PrincipledLook | Surface) -> Inputs:

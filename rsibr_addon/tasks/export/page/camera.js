@@ -45,6 +45,17 @@ class Camera {
     return [x[0], y[0], z[0], 0, x[1], y[1], z[1], 0, x[2], y[2], z[2], 0, 0, 0, -this.distance, 1];
   }
 
+  // Eye and view of a sphere in the world, which stands for the unit sphere.
+  of([x, y, z, radius]) {
+    const { eye, view } = this;
+    const moved = [x, y, z].map((part, axis) => part * eye[3] + radius ** eye[3] * eye[axis]);
+    const scaled = view.map((part, place) => (place < 12 ? part / radius : part));
+    for (const row of [0, 1, 2]) {
+      scaled[12 + row] -= x * scaled[row] + y * scaled[4 + row] + z * scaled[8 + row];
+    }
+    return { eye: [...moved, eye[3]], view: scaled };
+  }
+
   // Onto a tile of a picture, both in pixels.
   projection(picture, tile) {
     let [near, far] = [this.distance - 1.5, this.distance + 1.5];

@@ -52,14 +52,16 @@ def packed_texture(texture: GpuTexture, exact_from: int | None = None) -> tuple[
         return {"size": size, "half": False, "floats": packed_floats(values)}, 0.0
     is_half = half_holds([values])
     end = exact_from if is_half else None
-    colours = values[:end, ..., :3].astype(np.float64)
-    rounded = companded(colours)
-    error = np.sqrt(np.mean((rounded.values() - colours) ** 2) / np.mean(colours**2))
-    parts = [{"unit": rounded.unit, **_smaller(rounded.codes)}]
+    parts, error = [], 0.0
+    if end != 0:
+        colours = values[:end, ..., :3].astype(np.float64)
+        rounded = companded(colours)
+        error = float(np.sqrt(np.mean((rounded.values() - colours) ** 2) / np.mean(colours**2)))
+        parts.append({"unit": rounded.unit, **_smaller(rounded.codes)})
     if end is not None:
         bits = np.ascontiguousarray(values[end:, :, :3], np.float16).view(np.int16)
         parts.append({"unit": None, **_smaller(bits.astype(np.int32))})
-    return {"size": size, "half": is_half, "parts": parts}, float(error)
+    return {"size": size, "half": is_half, "parts": parts}, error
 
 
 def _smaller(codes: Indices) -> dict[str, Any]:

@@ -27,7 +27,7 @@ class Page {
     this.camera = new Camera(content.view, content.angle);
     this.exposure = content.exposure;
     this.display = content.display;
-    this.block = new Float32Array(content.block);
+    this.blocks = content.materials.map((material) => new Float32Array(material.block));
     this.turn = 0;
     this.beside = false; // Whether the split sum is
     this.waiting = [];
@@ -36,7 +36,7 @@ class Page {
   }
 
   async start() {
-    await this.picture.load(this.content);
+    await this.picture.load();
     await this.picture.show(this.content.displays[this.display]);
     document.querySelector("#waiting").hidden = true;
     document.querySelector("#reset").hidden = false;
@@ -49,8 +49,8 @@ class Page {
 
   // Drivers take a context away, as from a page that was long in the background, and give another.
   async restore() {
-    const picture = new Picture(canvas);
-    await picture.load(this.content);
+    const picture = new Picture(canvas, this.content);
+    await picture.load();
     await picture.show(this.content.displays[this.display]);
     this.picture = picture;
     document.querySelector("#trouble").hidden = true;
@@ -59,7 +59,7 @@ class Page {
 
   fillPanel() {
     const panel = new Panel(document.querySelector("#settings"));
-    const { block } = this;
+    const [block] = this.blocks; // sliders are of pages with one material
     const moved = () => this.moved();
     const more = document.querySelector("#more");
     for (const told of this.content.parameters) {
@@ -95,7 +95,7 @@ class Page {
     const reset = () => {
       this.camera.reset();
       panel.resets.forEach((each) => each());
-      block.set(this.content.block);
+      this.blocks.forEach((each, number) => each.set(this.content.materials[number].block));
       moved();
     };
     document.querySelector("#reset").addEventListener("click", reset);
@@ -209,7 +209,7 @@ async function begin() {
     throw new Missing("This page needs a browser of 2023 or later, which unpacks its maps.");
   }
   const content = JSON.parse(document.querySelector("#content").textContent);
-  await new Page(content, new Picture(canvas)).start();
+  await new Page(content, new Picture(canvas, content)).start();
 }
 
 begin().catch(failed);

@@ -4,11 +4,15 @@ It shades with the extension's own shaders (`sources.py`), from the same numbers
 """
 
 import json
+from collections.abc import Sequence
 from html import escape
 from pathlib import Path
 from string import Template
 from typing import Any
 
+import numpy as np
+
+from ....core.conventions import Array
 from ....core.errors import RangeError
 from ....core.options import declared_options
 from ....core.progress import Progress, Steps
@@ -21,8 +25,9 @@ from ....host.meshes import TriangleMesh
 from ....settings.page import PageOptions
 from ...methods.kinds import KINDS, OpenedMapSet, open_map_set, opened_map_set
 from .contents import packed_display, packed_mesh, packed_texture
+from .own_objects import OwnObject, packed_objects
 from .parameters import block_of, parameters
-from .sources import page_sources
+from .sources import own_sources, page_sources
 
 FOLDER = Path(__file__).parent
 SCRIPTS = ("unpack.js", "camera.js", "picture.js", "panel.js", "main.js")
@@ -36,6 +41,7 @@ def export_page(
     mesh: TriangleMesh,
     look: Any = None,
     force: bool = False,
+    own: Sequence[OwnObject] = (),
 ) -> Steps[list[Path]]:
     """Write one page that needs no other file and no network.
 
@@ -49,6 +55,9 @@ def export_page(
         In world coordinates, within the unit sphere.
     look : Options, optional
         What the page shows at first: see `files.kinds.registry.look_types`; by default the kind's best.
+
+    own : sequence of OwnObject, optional
+        Objects in their own materials, shown instead of `mesh`. Of a kind whose look has `own`.
 
     Returns
     -------
@@ -64,7 +73,7 @@ def export_page(
     check_target(output, force, (".html",))
     yield Progress(0, 4, f"reading {map_set.name}")
     opened = open_map_set(map_set, clamp=settings.clamp)
-    shown = look or look_types()[opened.kind]()
+    shown: Any = look or look_types()[opened.kind]()
     by_sliders = KINDS[opened.kind].by_sliders
     if by_sliders is not None and opened.environment is not None:
         found = yield from by_sliders(opened.environment, shown)
@@ -83,12 +92,11 @@ def export_page(
     title, sentence = _told(map_set, opened, error)
     camera = settings.camera(settings.view)
     content = {
-        "programs": page_sources(inputs.program),
-        "block": block_of(inputs).tolist(),
-        "parameters": [] if KINDS[opened.kind].live else parameters(drawable, shown),
+        "programs": page_sources(inputs.program) | (own_sources(inputs.program.samplers) if own else {}),
+        "parameters": [] if own or KINDS[opened.kind].live else parameters(drawable, shown),
         "textures": textures,
         "split": _packed_split_sum(drawable, inputs),
-        "mesh": packed_mesh(mesh),
+        **(packed_objects(own, shown.antialiased) if own else _one_object(mesh, block_of(inputs))),
         "displays": {name: packed_display(name) for name in _view_transforms()},
         "display": settings.view_transform,
         "exposure": settings.exposure,
@@ -107,6 +115,17 @@ def export_page(
     with written_aside(output, force) as aside:
         aside.write_text(text, encoding="utf-8", errors="replace")  # of names that are no UTF-8
     return [output]
+
+
+def _one_object(mesh: TriangleMesh, block: Array) -> dict[str, Any]:
+    """A mesh within the unit sphere, of one material all over: see `packed_objects`."""
+    shown = {
+        "mesh": packed_mesh(mesh),
+        "model": np.eye(4).ravel().tolist(),
+        "slots": [[0, mesh.triangles.size, 0]],
+    }
+    material = {"block": block.tolist(), "images": [], "opaque": True}
+    return {"objects": [shown], "materials": [material], "images": [], "fit": [0.0, 0.0, 0.0, 1.0]}
 
 
 def _packed_textures(inputs: Inputs) -> tuple[dict[str, Any], float]:

@@ -6,7 +6,7 @@ const DISPLAY_NODES = 96;
 class Missing extends Error {}
 
 class Picture {
-  constructor(canvas) {
+  constructor(canvas, content) {
     const gl = canvas.getContext("webgl2", { antialias: false });
     if (!gl) {
       throw new Missing("This page needs WebGL 2, and this browser has none, or has it switched off.");
@@ -15,16 +15,21 @@ class Picture {
     if (!floats && !gl.getExtension("EXT_color_buffer_half_float")) {
       throw new Missing("This page draws to float textures, which this device does not allow.");
     }
-    this.format = floats ? gl.RGBA32F : gl.RGBA16F;
+    this.translucent = content.materials.some((material) => !material.opaque);
+    const blends = !this.translucent || gl.getExtension("EXT_float_blend");
+    this.format = floats && blends ? gl.RGBA32F : gl.RGBA16F;
     this.gl = gl;
+    this.content = content;
     this.canvas = canvas;
   }
 
-  async load(content) {
-    const gl = this.gl;
+  async load() {
+    const { gl, content } = this;
     this.programs = {};
     for (const [name, sources] of Object.entries(content.programs)) {
-      this.programs[name] = this.built(name, sources);
+      if (name !== "translucent" || this.translucent) {
+        this.programs[name] = this.built(name, sources);
+      }
     }
     const filled = {};
     for (const [name, packed] of Object.entries(content.textures)) {
@@ -40,10 +45,25 @@ class Picture {
     for (const [name, packed] of Object.entries(content.split)) {
       this.split[name] = this.texture(packed, packed.size, await texels(packed));
     }
-    await this.loadMesh(content.mesh);
+    const images = [];
+    for (const image of content.images) {
+      images.push(await this.image(image));
+    }
+    const none = this.bound(gl.TEXTURE_2D, gl.NEAREST);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, 1, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    this.images = content.materials.map((material) => {
+      const places = content.programs.translucent ? Array.from({ length: 8 }, (_, place) => place) : [];
+      const sampled = (place) => images[material.images[place]] || { target: gl.TEXTURE_2D, made: none };
+      return Object.fromEntries(places.map((place) => [`image_${place}`, sampled(place)]));
+    });
+    this.objects = [];
+    for (const object of content.objects) {
+      this.objects.push({ ...object, mesh: await this.loadMesh(object.mesh) });
+    }
     this.buffers = ["DrawBlock", "LookBlock"].map((name, slot) => {
-      const program = this.programs.surface;
-      gl.uniformBlockBinding(program, gl.getUniformBlockIndex(program, name), slot);
+      for (const program of [this.programs.surface, this.programs.translucent].filter(Boolean)) {
+        gl.uniformBlockBinding(program, gl.getUniformBlockIndex(program, name), slot);
+      }
       const buffer = gl.createBuffer();
       gl.bindBufferBase(gl.UNIFORM_BUFFER, slot, buffer);
       return buffer;
@@ -57,14 +77,47 @@ class Picture {
 
   async loadMesh(mesh) {
     const gl = this.gl;
-    this.mesh = gl.createVertexArray();
-    gl.bindVertexArray(this.mesh);
+    const made = gl.createVertexArray();
+    gl.bindVertexArray(made);
     this.attribute(0, 3, gl.SHORT, transposed(await integers(mesh.positions, true)));
     this.attribute(1, 3, gl.SHORT, transposed(await integers(mesh.normals || mesh.positions, true)));
+    for (const [place, name] of [[2, "tangent"], [3, "uv_a"], [4, "uv_b"]]) {
+      gl.vertexAttrib4f(place, 0, 0, 0, 0);
+      if (mesh[name]) {
+        this.attribute(place, 4, gl.FLOAT, await floats(mesh[name]));
+      }
+    }
     const corners = transposed(await integers(mesh.triangles, false));
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
     gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, corners, gl.STATIC_DRAW);
-    this.corners = corners.length;
+    return made;
+  }
+
+  // An image of a material, which has mips.
+  async image(packed) {
+    const gl = this.gl;
+    const made = this.bound(gl.TEXTURE_2D, packed.closest ? gl.NEAREST : gl.LINEAR);
+    if (packed.png) {
+      const stored = Uint8Array.from(atob(packed.png), (letter) => letter.charCodeAt(0));
+      const asStored = { premultiplyAlpha: "none", colorSpaceConversion: "none" };
+      const bitmap = await createImageBitmap(new Blob([stored], { type: "image/png" }), asStored);
+      gl.bindTexture(gl.TEXTURE_2D, made);
+      const format = packed.srgb ? gl.SRGB8_ALPHA8 : gl.RGBA8;
+      gl.texImage2D(gl.TEXTURE_2D, 0, format, gl.RGBA, gl.UNSIGNED_BYTE, bitmap);
+    } else {
+      const values = await texels(packed);
+      gl.bindTexture(gl.TEXTURE_2D, made);
+      const [width, height] = packed.size;
+      gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA16F, width, height, 0, gl.RGBA, gl.FLOAT, values);
+    }
+    const extend = { REPEAT: gl.REPEAT, EXTEND: gl.CLAMP_TO_EDGE, MIRRORED_REPEAT: gl.MIRRORED_REPEAT }[packed.extend];
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, extend);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, extend);
+    if (!packed.closest) {
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
+      gl.generateMipmap(gl.TEXTURE_2D);
+    }
+    return { target: gl.TEXTURE_2D, made };
   }
 
   attribute(place, width, type, values) {
@@ -188,7 +241,7 @@ class Picture {
     return found;
   }
 
-  draw({ camera, turn, block }, tile, samples) {
+  draw({ camera, turn, blocks }, tile, samples) {
     const gl = this.gl;
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.tile.framebuffer);
     gl.viewport(0, 0, tile.width * samples, tile.height * samples);
@@ -196,11 +249,16 @@ class Picture {
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
-    this.fill(0, this.drawBlock(camera, turn, tile));
-    this.fill(1, block);
-    this.use("surface", tile.frame.textures, {});
-    gl.bindVertexArray(this.mesh);
-    gl.drawElements(gl.TRIANGLES, this.corners, gl.UNSIGNED_INT, 0);
+    this.drawSlots("surface", camera, turn, tile, blocks, {});
+    if (this.translucent) {
+      // What covers all, then what covers in part: device/kinds/kernel_pyramid.py
+      gl.enable(gl.BLEND);
+      gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+      for (const whole of [1, 0]) {
+        this.drawSlots("translucent", camera, turn, tile, blocks, { whole: ["uniform1f", whole] });
+      }
+      gl.disable(gl.BLEND);
+    }
     gl.disable(gl.DEPTH_TEST);
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.part.framebuffer);
     gl.viewport(0, 0, tile.width, tile.height);
@@ -211,13 +269,29 @@ class Picture {
     gl.blitFramebuffer(0, 0, tile.width, tile.height, left, tile.y, right, top, gl.COLOR_BUFFER_BIT, gl.NEAREST);
   }
 
+  // The slots of all objects that a program draws.
+  drawSlots(program, camera, turn, tile, blocks, uniforms) {
+    const gl = this.gl;
+    for (const { mesh, model, slots } of this.objects) {
+      gl.bindVertexArray(mesh);
+      this.fill(0, this.drawBlock(camera, turn, tile, model));
+      for (const [begin, end, material] of slots) {
+        if (this.content.materials[material].opaque === (program === "surface")) {
+          this.fill(1, blocks[material]);
+          this.use(program, { ...tile.frame.textures, ...this.images[material] }, uniforms);
+          gl.drawElements(gl.TRIANGLES, end - begin, gl.UNSIGNED_INT, 4 * begin);
+        }
+      }
+    }
+  }
+
   // device/drawing.py `Draw.block`. The light turns by `turn`, so the map set sees the mesh turned back.
-  drawBlock(camera, turn, tile) {
+  drawBlock(camera, turn, tile, model) {
     const back = turnedBy(-turn);
-    const eye = camera.eye;
+    const { eye, view } = camera.of(this.content.fit);
     const turned = [0, 1, 2].map((row) => back[row] * eye[0] + back[4 + row] * eye[1] + back[8 + row] * eye[2]);
     const projection = camera.projection(tile.frame, tile);
-    return new Float32Array([...turnedBy(0), ...camera.view, ...projection, ...back, ...turned, eye[3], 1, 0, 0, 0]);
+    return new Float32Array([...model, ...view, ...projection, ...back, ...turned, eye[3], 1, 0, 0, 0]);
   }
 
   fill(slot, values) {

@@ -1,9 +1,12 @@
 """Programs for WebGL 2: the extension's own shaders as GLSL ES 3.00, behind interfaces like Blender's."""
 
 import re
+from collections.abc import Mapping
 
+from ....device.own_materials import MOST_TEXTURES
 from ....device.shader_source import shader_source
 from ....device.shaders import DRAW_STRUCT, MeshProgram
+from ....device.textured_materials import MATERIAL_STRUCT
 
 HEAD = """#version 300 es
 precision highp float;
@@ -68,9 +71,21 @@ all phones interpolate floats.
 SAMPLER_TYPES = {"FLOAT_2D": "sampler2D", "FLOAT_2D_ARRAY": "sampler2DArray", "FLOAT_3D": "sampler3D"}
 
 _DRAW = f"{DRAW_STRUCT}\nlayout(std140) uniform DrawBlock {{ Draw draw; }};\n"
+_RADIANCE = "out vec4 radiance;\n"
 _SCREEN = "layout(location = 0) in vec2 position;\nout vec2 map_uv;\n"
 _MEANS = "uniform highp int per_axis;\nuniform sampler2D samples;\nout vec4 mean;\n"
 _DISPLAY = "uniform float scale;\nuniform sampler2D picture;\nuniform sampler3D display;\nout vec4 colour;\n"
+
+
+_CORNERS = "layout(location = 0) in vec3 position;\nlayout(location = 1) in vec3 normal;\n"
+_TEXTURED_CORNERS = (
+    f"{_CORNERS}layout(location = 2) in vec4 tangent;\n"
+    "layout(location = 3) in vec4 uv_a;\nlayout(location = 4) in vec4 uv_b;\n"
+)
+_SURFACE = "{0} vec3 world_position;\n{0} vec3 world_normal;\n"
+_TEXTURED_SURFACE = (
+    f"{_SURFACE}{{0}} vec3 object_normal;\n{{0}} vec4 object_tangent;\n{{0}} vec4 uv_01;\n{{0}} vec4 uv_23;\n"
+)
 
 
 def page_sources(program: MeshProgram) -> dict[str, tuple[str, str]]:
@@ -81,24 +96,50 @@ def page_sources(program: MeshProgram) -> dict[str, tuple[str, str]]:
     dict of str to (str, str)
         "surface", which draws the mesh, "means" and "display" -> vertex and fragment shader.
     """
-    samplers = "".join(f"uniform {SAMPLER_TYPES[kind]} {name};\n" for name, kind in program.samplers.items())
     block = (
         f"{program.struct}\nlayout(std140) uniform LookBlock {{ {program.block_type} {program.block}; }};\n"
     )
-    corners = "layout(location = 0) in vec3 position;\nlayout(location = 1) in vec3 normal;\n"
-    surface = "{0} vec3 world_position;\n{0} vec3 world_normal;\n"
     screen = _source(_SCREEN, "screen_vert.glsl")
     return {
         "surface": (
-            _source(_DRAW + corners + surface.format("out"), "mesh_vert.glsl"),
+            _source(_DRAW + _CORNERS + _SURFACE.format("out"), "mesh_vert.glsl"),
             _source(
-                _DRAW + block + samplers + surface.format("in") + "out vec4 radiance;\n",
+                _DRAW + block + _samplers(program.samplers) + _SURFACE.format("in") + _RADIANCE,
                 f"{program.name}_frag.glsl",
             ),
         ),
         "means": (screen, _source(_MEANS, "sample_means_frag.glsl")),
         "display": (screen, _source(_DISPLAY, "page_display_frag.glsl")),
     }
+
+
+def own_sources(samplers: Mapping[str, str]) -> dict[str, tuple[str, str]]:
+    """The programs of objects in their own materials, in the place of "surface".
+
+    Parameters
+    ----------
+    samplers : mapping of str to str
+        Textures of what lights them, as `MeshProgram` has them.
+
+    Returns
+    -------
+    dict of str to (str, str)
+        "surface", and "translucent", which has the uniform `whole`: see `device.textured_materials`.
+    """
+    images = {f"image_{number}": "FLOAT_2D" for number in range(MOST_TEXTURES)}
+    block = f"{MATERIAL_STRUCT}\nlayout(std140) uniform LookBlock {{ Material material; }};\n"
+    fragment = _DRAW + block + _samplers({**samplers, **images}) + _TEXTURED_SURFACE.format("in") + _RADIANCE
+    vertex = _source(_DRAW + _TEXTURED_CORNERS + _TEXTURED_SURFACE.format("out"), "textured_mesh_vert.glsl")
+    name = "principled_textured_frag.glsl"
+    translucent = f"#define TRANSLUCENT\nuniform float whole;\n{fragment}"
+    return {
+        "surface": (vertex, _source(fragment, name)),
+        "translucent": (vertex, _source(translucent, name)),
+    }
+
+
+def _samplers(samplers: Mapping[str, str]) -> str:
+    return "".join(f"uniform {SAMPLER_TYPES[kind]} {name};\n" for name, kind in samplers.items())
 
 
 def _source(interface: str, name: str) -> str:

@@ -1,0 +1,158 @@
+"""Objects in their own materials, as a page draws them: meshes, materials and images."""
+
+import base64
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from ....core.conventions import Array, Indices
+from ....core.materials.principled import Texture
+from ....device.own_materials import MOST_TEXTURES, DrawnMaterial
+from ....device.textured_materials import EXTENSIONS, drawn_rows
+from ....device.textured_mesh import slot_ends, uv_attributes
+from ....device.textures import GpuTexture
+from ....files.packed_arrays import packed_floats
+from ....files.png import png_of
+from ....host.textured_meshes import TexturedMesh
+from .contents import packed_mesh, packed_texture
+
+
+@dataclass(frozen=True, eq=False)
+class OwnObject:
+    """An object that is shown in its own materials.
+
+    Attributes
+    ----------
+    mesh : TexturedMesh
+        In the object's coordinates.
+    matrix : ndarray, shape (4, 4)
+        To the world.
+    slots : tuple of DrawnMaterial
+        At least one; the graphics context that their textures belong to is active.
+    """
+
+    mesh: TexturedMesh
+    matrix: Array
+    slots: tuple[DrawnMaterial, ...]
+
+
+@dataclass(frozen=True)
+class Ball:
+    """A sphere that holds points: the middle of their box, and the distance of the farthest."""
+
+    centre: Array
+    radius: float
+
+    @classmethod
+    def around(cls, positions: Array) -> "Ball":
+        """That of positions, shape (V, 3)."""
+        centre = 0.5 * (positions.min(axis=0) + positions.max(axis=0))
+        return cls(centre, max(float(np.linalg.norm(positions - centre, axis=1).max()), 1e-9))
+
+    @property
+    def matrix(self) -> Array:
+        """From the unit sphere to this one, shape (4, 4)."""
+        matrix = np.diag([self.radius, self.radius, self.radius, 1.0])
+        matrix[:3, 3] = self.centre
+        return matrix
+
+
+def packed_objects(objects: Sequence[OwnObject], antialiased: bool) -> dict[str, Any]:
+    """What a page draws.
+
+    Parameters
+    ----------
+    objects : sequence of OwnObject
+        At least one.
+    antialiased : bool
+        See `OwnMaterials`.
+
+    Returns
+    -------
+    dict
+        "objects", each with its "mesh", its "model", a matrix by column, and "slots", the first and the last
+        corner of each slot's triangles and its material; "materials", each with the numbers of its "block",
+        the "images" that it samples and whether it is "opaque"; "images"; and "fit", centre and radius of the
+        sphere that the page shows.
+
+    Raises
+    ------
+    RangeError
+        A mesh is too large.
+    """
+    drawn = []
+    materials: list[dict[str, Any]] = []
+    images: list[dict[str, Any]] = []
+    for each in objects:
+        ball = Ball.around(each.mesh.positions.astype(np.float64))
+        ends, order = slot_ends(each.mesh.slots)
+        begins = [0, *ends[:-1]]
+        last = len(each.slots) - 1
+        slots = [
+            [3 * begin, 3 * end, len(materials) + min(slot, last)]
+            for slot, (begin, end) in enumerate(zip(begins, ends, strict=True))
+            if end > begin
+        ]
+        matrix = each.matrix @ ball.matrix
+        drawn.append(
+            {"mesh": _packed_mesh(each.mesh, ball, order), "model": matrix.T.ravel().tolist(), "slots": slots}
+        )
+        for slot in each.slots:
+            materials.append(_packed_material(slot, each.mesh.uv_maps, antialiased, images))
+    world = [each.mesh.positions @ each.matrix[:3, :3].T + each.matrix[:3, 3] for each in objects]
+    whole = Ball.around(np.concatenate(world))
+    fit = [*whole.centre.tolist(), whole.radius]
+    return {"objects": drawn, "materials": materials, "images": images, "fit": fit}
+
+
+def _packed_mesh(mesh: TexturedMesh, ball: Ball, order: Indices) -> dict[str, Any]:
+    """A mesh within the unit sphere, its triangles by slot, with what textures need."""
+    positions = (mesh.positions - ball.centre) / ball.radius
+    fitted = replace(mesh, positions=positions, triangles=mesh.triangles[order])
+    attributes = uv_attributes(mesh.uv)
+    if mesh.tangents is not None:
+        attributes["tangent"] = mesh.tangents
+    return {**packed_mesh(fitted), **{name: packed_floats(values) for name, values in attributes.items()}}
+
+
+def _packed_material(
+    material: DrawnMaterial, uv_maps: tuple[str, ...], antialiased: bool, images: list[dict[str, Any]]
+) -> dict[str, Any]:
+    """A material; its images go behind the others."""
+    rows, textures = drawn_rows(material, uv_maps, antialiased)
+    numbers = []
+    for number, texture in enumerate(textures):
+        texels = np.array(material.textures[texture].read())
+        if texture.extension == "CLIP":
+            texels = np.pad(texels, ((1, 1), (1, 1), (0, 0)))
+            mapping = rows[2 * (number - MOST_TEXTURES) :][:2]
+            mapping[:, :3] *= _within_border(texels)
+            mapping[:, 2] += 1.0 / np.array(texels.shape[1::-1])
+        packed = _packed_image(texture, texels, material.textures[texture].format)
+        if packed not in images:
+            images.append(packed)
+        numbers.append(images.index(packed))
+    return {"block": rows.ravel().tolist(), "images": numbers, "opaque": material.is_opaque}
+
+
+def _within_border(texels: Array) -> Array:
+    """Share of a bordered image's width and height that lies within its border, shape (2, 1)."""
+    size = np.array(texels.shape[1::-1], np.float64)[:, None]
+    share: Array = (size - 2.0) / size
+    return share
+
+
+def _packed_image(texture: Texture, texels: Array, stored: str) -> dict[str, Any]:
+    """An image as a page looks it up: bytes as PNG, floats as other textures are.
+
+    A page's driver has no borders: what is clipped has one of its own.
+    """
+    extension = "EXTEND" if texture.extension == "CLIP" else texture.extension
+    looked_up = {"extend": EXTENSIONS[extension], "closest": texture.closest}
+    if texels.dtype == np.uint8:
+        # The first row is the lowest, as WebGL takes it
+        data = base64.b64encode(png_of(texels)).decode("ascii")
+        return {"png": data, "srgb": stored == "SRGB8_A8", **looked_up}
+    return {**packed_texture(GpuTexture("image", texels.astype(np.float32)))[0], **looked_up}

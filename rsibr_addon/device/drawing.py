@@ -73,6 +73,11 @@ class GpuMesh:
         self._batch = buffers.triangles(shaders.views_fragment_shader(), attributes, triangles)
         self._placed = buffers.KeptBlock()
 
+    @property
+    def batch(self) -> gpu.types.GPUBatch:
+        """What is uploaded: the same for the same mesh elsewhere."""
+        return self._batch
+
     def again(self) -> "GpuMesh":
         """The same mesh for another place in the same frames, with its own block."""
         other = copy(self)

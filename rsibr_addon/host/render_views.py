@@ -10,7 +10,8 @@ from mathutils import Matrix
 
 from ..core.conventions import Array
 from ..core.errors import SceneError
-from .visible_surfaces import RENDER_ENGINE, Side, Surface, View
+from ..core.pictures.matte import PictureFrame
+from .visible_surfaces import RENDER_ENGINE, Side, Surface, View, camera_frame
 from .world_light import AS_IT_IS, WorldLight, world_light
 
 CAMERAS = ("PERSP", "ORTHO")
@@ -34,11 +35,14 @@ class CameraView(View):
         From eye coordinates to the picture's.
     shape : (int, int)
         Width and height in pixels.
+    frame : PictureFrame
+        The camera's.
     """
 
     pose: Array
     projection: Array
     shape: tuple[int, int]
+    frame: PictureFrame
 
     @property
     def shaded(self) -> bool:
@@ -74,6 +78,11 @@ class CameraView(View):
     def world_light(self) -> WorldLight:
         """See `View`; with the values of the frame that is rendered."""
         return world_light(self.depsgraph.scene_eval.world) or AS_IT_IS
+
+    @property
+    def picture_frame(self) -> PictureFrame:
+        """See `View`: all of the frame, also where a border is rendered."""
+        return self.frame
 
     def shows(self, surface: Surface) -> bool:
         """Whether cameras see a surface; what renders hide is not there."""
@@ -120,9 +129,7 @@ def camera_view(
     seen_by = checked_camera(scene, camera)
     render = scene.render
     width, height = resolution
-    whole = seen_by.calc_matrix_camera(
-        depsgraph, x=width, y=height, scale_x=render.pixel_aspect_x, scale_y=render.pixel_aspect_y
-    )
+    frame = camera_frame(seen_by, depsgraph, resolution)
     left, bottom, right, top = _border(render, resolution)
     part: Array = np.eye(4)
     for axis, (begin, end, size) in enumerate(((left, right, width), (bottom, top, height))):
@@ -135,7 +142,8 @@ def camera_view(
     unscaled[:3, :3] /= scale
     layer = scene.session_uid, depsgraph.view_layer.name
     shape, no_viewport = (right - left, top - bottom), cast(bpy.types.SpaceView3D, None)
-    return CameraView(scene, layer, depsgraph, no_viewport, unscaled, part @ np.array(whole), shape)
+    projection = part @ frame.projection
+    return CameraView(scene, layer, depsgraph, no_viewport, unscaled, projection, shape, frame)
 
 
 def checked_camera(scene: bpy.types.Scene, camera: bpy.types.Object | None) -> bpy.types.Object:

@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from ..core.conventions import Array
+from ..core.pictures.matte import PictureFrame
 from .live_light import live_name
 from .map_sets import planned_path
 from .world_light import AS_IT_IS, WorldLight, follows_world, world_light
@@ -143,6 +144,16 @@ class View:
         return bpy.context.region.width, bpy.context.region.height
 
     @property
+    def picture_frame(self) -> PictureFrame:
+        """What a picture behind all objects fills: the camera's frame, or a view that is not through one."""
+        (_, projection), (width, height) = self.matrices, self.size
+        camera = (self.space.camera if self.space.use_local_camera else None) or self.scene.camera
+        if bpy.context.region_data.view_perspective != "CAMERA" or not camera or camera.type != "CAMERA":
+            return PictureFrame(projection, width / height)
+        render = self.scene.render
+        return camera_frame(camera, self.depsgraph, (render.resolution_x, render.resolution_y))
+
+    @property
     def number(self) -> int:
         """Tells viewports apart."""
         return int(bpy.context.region.as_pointer())
@@ -156,6 +167,16 @@ class View:
         """The world's turn and strength for surfaces' map sets; none for those that do not follow it."""
         of_world = self.world_light
         return [of_world if each.in_world or follows_world(each.item) else AS_IT_IS for each in surfaces]
+
+
+def camera_frame(
+    camera: bpy.types.Object, depsgraph: bpy.types.Depsgraph, resolution: tuple[int, int]
+) -> PictureFrame:
+    """The frame of a camera's pictures, of so many pixels."""
+    render, (width, height) = depsgraph.scene.render, resolution
+    wide, high = render.pixel_aspect_x, render.pixel_aspect_y
+    projection = camera.calc_matrix_camera(depsgraph, x=width, y=height, scale_x=wide, scale_y=high)
+    return PictureFrame(np.array(projection), width * wide / (height * high))
 
 
 def current_view() -> View:

@@ -11,7 +11,26 @@ LIGHT = "light"
 
 
 @dataclass(frozen=True, kw_only=True)
-class MatteOptions(Options):
+class BackgroundOptions(Options):
+    """How a background is shown."""
+
+    background_blur: float = option(
+        0.0,
+        label="Blur",
+        help="How blurred the light behind the object is",
+        unit="degrees",
+        least=0.0,
+        most=90.0,
+        flag="--background-blur",
+        metavar="DEG",
+    )
+    background_exposure: float = exposure_option(
+        0.0, "How much brighter the background is", flag="--background-exposure"
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class MatteOptions(BackgroundOptions):
     """The background, and a floor that takes the object's shadow.
 
     Raises
@@ -28,19 +47,6 @@ class MatteOptions(Options):
         none="nothing",
         none_as="",
         metavar=f"{LIGHT}|PICTURE",
-    )
-    background_blur: float = option(
-        0.0,
-        label="Blur",
-        help="How blurred the light behind the object is",
-        unit="degrees",
-        least=0.0,
-        most=90.0,
-        flag="--background-blur",
-        metavar="DEG",
-    )
-    background_exposure: float = exposure_option(
-        0.0, "How much brighter the background is", flag="--background-exposure"
     )
     floor: bool = option(
         False,

@@ -6,6 +6,7 @@ from typing import Any
 
 from ..core.errors import RangeError
 from ..core.options import Options, option
+from .matte import BackgroundOptions
 
 LAST_FRAME = 1048574
 """Blender counts no further."""
@@ -24,10 +25,19 @@ def _samples_option(default: int | None, **more: Any) -> Any:
 
 
 @dataclass(frozen=True, kw_only=True)
-class RenderOptions(Options):
+class RenderOptions(BackgroundOptions):
     """How the render engine draws a picture."""
 
     samples: int = _samples_option(16)
+    background: str | None = option(
+        None,
+        label="Picture",
+        help="Photograph behind the objects, whose middle fills the camera's frame",
+        none="the world",
+        none_as="",
+        subtype="FILE_PATH",
+        metavar="PICTURE",
+    )
 
 
 @dataclass(frozen=True, kw_only=True)

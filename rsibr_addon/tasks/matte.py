@@ -7,17 +7,15 @@ import numpy as np
 from ..core.conventions import Array, Indices
 from ..core.environment import Environment
 from ..core.errors import MapSetError
-from ..core.filtering.harmonics.analysis import analyse_environment
-from ..core.filtering.irradiance import irradiance_exact
-from ..core.filtering.prefilter import analysis_degree, prefilter
-from ..core.filtering.radial_lobes import von_mises_fisher_lobe
-from ..core.filtering.zonal import expand
 from ..core.geometry.camera import Camera
+from ..core.light.blur import blurred
 from ..core.light.median_cut import Lamps, lamps_above
 from ..core.maps.representation import representation
-from ..core.pictures.matte import backdrop_directions, fitted, floor_share, over
+from ..core.pictures.matte import EXTENT, backdrop_directions, fitted, floor_share, over
 from ..core.resample import lookup
-from ..device.floor_shadow import floor_shadow
+from ..device.context import ensure_context
+from ..device.drawing import GpuMesh
+from ..device.floor_shadow import FloorArea, floor_map, floor_shadow
 from ..settings.matte import LIGHT, MatteOptions
 from .light.light_pictures import read_light
 
@@ -27,14 +25,10 @@ LAMPS = 256
 SHADOW_SIZE = 512
 """Width of the floor's map in texels: 64 to the object's radius."""
 
-BLURRED_ROWS = 256
-"""Height of a blurred background's map; a blur of a degree is wider than its texels."""
-
 BACKDROP_SAMPLES = 2
 """Lookups along each side of a pixel of the background."""
 
 _EQUIRECT = representation("equirect")
-_UP = np.array([0.0, 0.0, 1.0])
 
 
 class Matte:
@@ -67,7 +61,7 @@ class Matte:
         self._light: Array | None = None
         self._floor: _Floor | None = None
         if options.background == LIGHT:
-            self._light = _blurred(_known(environment), options.background_blur)
+            self._light = blurred(_known(environment), options.background_blur)
         elif options.background is not None:
             self._picture = read_light(Path(options.background))
         if options.floor:
@@ -114,9 +108,9 @@ class _Floor:
     """The floor below an object, and the shadow that it had last."""
 
     def __init__(self, light: Array, positions: Array, triangles: Indices) -> None:
-        self._positions, self._triangles = positions, triangles
+        ensure_context()
+        self._mesh = GpuMesh(positions, np.zeros_like(positions), triangles)
         self._lamps = lamps_above(light, LAMPS)
-        self._irradiance = irradiance_exact(light, _UP)
         self._height = float(positions[:, 2].min())
         self._shadow: tuple[bytes, Array] | None = None
 
@@ -125,10 +119,13 @@ class _Floor:
         turns = object_turn.tobytes() + light_turn.tobytes()
         if self._shadow is None or self._shadow[0] != turns:
             lamps = Lamps(self._lamps.directions @ light_turn.T, self._lamps.irradiance)
-            placed = self._positions @ object_turn.T
-            made = floor_shadow(placed, self._triangles, self._height, lamps, SHADOW_SIZE)
+            model: Array = np.eye(4)
+            model[:3, :3], model[2, 3] = object_turn, -self._height
+            area = FloorArea(np.zeros(2), EXTENT)
+            made = floor_map(floor_shadow([(self._mesh, model)], lamps, area, SHADOW_SIZE))
             self._shadow = turns, made
-        return floor_share(camera, self._height, self._shadow[1], self._irradiance, size)
+        irradiance = self._lamps.irradiance.sum(axis=0)
+        return floor_share(camera, self._height, self._shadow[1], irradiance, size)
 
 
 def _known(environment: Environment | None) -> Array:
@@ -137,14 +134,3 @@ def _known(environment: Environment | None) -> Array:
             "The map set does not hold its light: choose a picture as the background, and no floor."
         )
     return environment.radiance
-
-
-def _blurred(radiance: Array, degrees: float) -> Array:
-    """Light filtered with a spherical Gaussian whose standard deviation is a blur, each way."""
-    if not degrees:
-        return radiance
-    lobe = expand(von_mises_fisher_lobe(1.0 / np.radians(degrees) ** 2), 1e-4)
-    harmonics = analyse_environment(radiance, analysis_degree([lobe]))
-    texels = _EQUIRECT.texel_directions(2 * BLURRED_ROWS)[0]
-    filtered: Array = prefilter(harmonics, [lobe], texels).radiance[0]
-    return filtered

@@ -10,7 +10,7 @@ from .models import RSIBR_MT_live_models, RSIBR_MT_models
 from .preferences import INPUTS_GROUP, RSIBR_AP_preferences
 from .preview_panel import RSIBR_PT_preview
 from .render_engine import RSIBR_RE_previews
-from .render_panel import RENDER_GROUP, RSIBR_PT_film, RSIBR_PT_passes, RSIBR_PT_render
+from .render_panel import RENDER_GROUP, RSIBR_PT_film, RSIBR_PT_mask, RSIBR_PT_passes, RSIBR_PT_render
 from .result_panel import RSIBR_PT_result, RSIBR_PT_result_lobes, RSIBR_PT_result_maps
 
 CLASSES: tuple[type, ...] = (
@@ -35,6 +35,7 @@ CLASSES: tuple[type, ...] = (
     RSIBR_RE_previews,
     RSIBR_PT_render,
     RSIBR_PT_film,
+    RSIBR_PT_mask,
     RSIBR_PT_passes,
 )
 """Every class, in the order of registration, which is that of the panels."""

@@ -21,8 +21,8 @@ POINTERS = {"rsibr_render": (bpy.types.Scene, RENDER_GROUP)}
 """Name of a property -> its owner, and the group it points to."""
 
 LEFT_OUT = (
-    "RSIBR leaves out lamps, shadows, and reflections of objects in each other: an object is lit by "
-    "the world, or by the light that its map set was baked in."
+    "RSIBR leaves out lamps, shadows but those on shadow catchers, and reflections of objects in each other: "
+    "an object is lit by the world, or by the light that its map set was baked in."
 )
 
 OTHERS = "BLENDER_EEVEE"
@@ -70,9 +70,32 @@ class RSIBR_PT_film(_OfEngine, bpy.types.Panel):
     bl_context = "render"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Show whether the world is seen."""
+        """Show what is seen there."""
         self.layout.use_property_split = True
-        self.layout.prop(context.scene.render, "film_transparent", text="Transparent")
+        scene, messages = context.scene, session().previews
+        self.layout.prop(scene.render, "film_transparent", text="Transparent")
+        column = self.layout.column(heading="Background")
+        column.active = not scene.render.film_transparent
+        column.prop(scene.rsibr_render, "background")
+        blur = column.column()
+        blur.active = not scene.rsibr_render.background
+        blur.prop(scene.rsibr_render, "background_blur")
+        column.prop(scene.rsibr_render, "background_exposure")
+        for message in filter(None, (messages.backgrounds.message, *messages.floors.messages)):
+            tell(self.layout, message, context.region.width)
+
+
+class RSIBR_PT_mask(_OfEngine, bpy.types.Panel):
+    """What an object is in the picture"""  # noqa: D400  (a tooltip)
+
+    bl_label = "RSIBR"
+    bl_context = "object"
+    bl_parent_id = "OBJECT_PT_visibility"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Show the switch that Blender itself shows for Cycles alone."""
+        self.layout.use_property_split = True
+        self.layout.column(heading="Mask").prop(context.object, "is_shadow_catcher")
 
 
 class RSIBR_PT_passes(_OfEngine, bpy.types.Panel):

@@ -15,6 +15,7 @@ from rsibr.rsibr_addon.tasks.light import environments
 from rsibr.rsibr_addon.tasks.methods.live_materials import LiveFits
 from rsibr.rsibr_addon.tasks.viewport.previews import Previews
 from rsibr.tests.blender.conftest import HEIGHT, WIDTH, Render
+from rsibr.tests.blender.skies import add_sky
 from rsibr.tests.flat_capture import write_flat_capture
 
 pytestmark = [pytest.mark.needs("gl", "cycles"), pytest.mark.usefixtures("registered")]
@@ -54,26 +55,6 @@ def add_shapes() -> None:
     instance = bpy.data.objects.new("instance", None)
     instance.instance_type, instance.instance_collection = "COLLECTION", pattern
     bpy.context.collection.objects.link(instance)
-
-
-def add_sky(scene: bpy.types.Scene, folder: Path) -> None:
-    """Have the world be a picture, turned."""
-    rows, columns = np.mgrid[:16, :32]
-    waves = [np.sin(columns * np.pi / 16 + phase) * np.sin(rows * np.pi / 8) for phase in (0, 2, 4, 6)]
-    image = bpy.data.images.new("sky", 32, 16, float_buffer=True)
-    image.pixels.foreach_set((1.0 + 0.9 * np.stack(waves, axis=-1)).ravel().astype(np.float32))
-    image.filepath_raw, image.file_format = str(folder / "sky.exr"), "OPEN_EXR"
-    image.save()
-    tree = scene.world.node_tree
-    texture, mapping, place = (
-        tree.nodes.new(f"ShaderNode{name}") for name in ("TexEnvironment", "Mapping", "TexCoord")
-    )
-    texture.image, mapping.vector_type = bpy.data.images.load(str(folder / "sky.exr")), "POINT"
-    mapping.inputs["Rotation"].default_value = (0.3, 0.2, 1.0)
-    tree.links.new(place.outputs["Generated"], mapping.inputs["Vector"])
-    tree.links.new(mapping.outputs["Vector"], texture.inputs["Vector"])
-    tree.links.new(texture.outputs["Color"], tree.nodes["Background"].inputs["Color"])
-    tree.nodes["Background"].inputs["Strength"].default_value = 1.5
 
 
 @pytest.mark.slow

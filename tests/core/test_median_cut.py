@@ -46,3 +46,12 @@ def test_few_texels_make_few_lamps() -> None:
     assert len(lamps_above(radiance, 16).directions) == 0
     radiance[5, 3] = radiance[7, 1] = 1.0
     assert len(lamps_above(radiance, 16).directions) == 2
+
+
+def test_a_plane_may_have_any_normal() -> None:
+    radiance, up = RNG.random((64, 128, 3)) ** 4, np.array([0.6, -0.64, 0.48])
+    lamps = lamps_above(radiance, 64, up)
+    expected = irradiance_exact(radiance, up)
+    # The plane's horizon crosses texels, which count by their middles
+    np.testing.assert_allclose(lamps.irradiance.sum(axis=0), expected, rtol=1e-3)
+    assert np.all(lamps.directions @ up > 0.0)

@@ -45,8 +45,11 @@ def blender(extension: Path, job: Path) -> Blender:
 
 
 @pytest.fixture
-def told(blender: Blender, job: Path) -> Callable[[str], dict]:
-    """Run a scenario of `in_window` in Blender's window, and say what it told."""
+def told(blender: Blender, job: Path) -> Callable[..., dict]:
+    """Run a scenario of `in_window` in Blender's window, and say what it told.
+
+    Its events are simulated, and then Blender takes none of the keyboard's, or all are the keyboard's.
+    """
     scripts = job / "user" / "scripts" / "startup"
     scripts.mkdir(parents=True, exist_ok=True)
     here = Path(__file__).parent
@@ -56,11 +59,12 @@ def told(blender: Blender, job: Path) -> Callable[[str], dict]:
     for left in list(job.glob("user/**/*.partial")):  # holds count the views of all captures
         shutil.rmtree(left)
 
-    def run(scenario: str) -> dict:
+    def run(scenario: str, by_keyboard: bool = False) -> dict:
         script = (
             f"import sys\nsys.path.insert(0, '/job')\nfrom in_window import *\n{scenario}\nrun(scenario)\n"
         )
-        process = blender("--window", "--enable-event-simulate", "--python-expr", script)
+        events = [] if by_keyboard else ["--enable-event-simulate"]
+        process = blender("--window", *events, "--python-expr", script)
         lines = [line for line in process.stdout.splitlines() if line.startswith("TOLD ")]
         assert lines, f"Blender ended with {process.returncode}: {process.stdout}{process.stderr}"
         answer = json.loads(lines[0].removeprefix("TOLD "))

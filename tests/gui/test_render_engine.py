@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from rsibr.rsibr_addon.files.pictures import read_exr
 
-Told = Callable[[str], dict]
+Told = Callable[..., dict]
 
 PRELUDE = """
 RENDER = importlib.import_module(ROOT + ".rsibr_addon.ui.render_engine")
@@ -93,6 +93,51 @@ def test_rendered_shows_what_f12_renders(told: Told) -> None:
     assert 0.05 < answer["shows surfaces"] < 0.5
     # But for edges; 3 are Mesa's, see in_window.like, and 1 is of rounding
     assert answer["alike"] > 0.98
+
+
+STOPPED = """
+def scenario(told):
+    scene = scene_in_the_world()
+    scene.render.resolution_percentage = 20
+    yield from f12()
+    drawn_by_render = []
+    picture = RENDER.Picture
+    add_sample = picture.add_sample
+
+    def counted(self):
+        drawn_by_render.append(threading.current_thread() is not threading.main_thread())
+        add_sample(self)
+
+    picture.add_sample = counted
+    scene.rsibr_render.samples = 1000
+    steps = f12()
+    while len(drawn_by_render) < 3:
+        next(steps)
+        yield
+    xshot.press(xshot.ESCAPE)
+    yield from steps
+    told["samples"] = len(drawn_by_render)
+    told["aside"] = all(drawn_by_render)
+    told["held"] = len(session().renders._previews._map_sets.used)
+    Path("/job/render.png").unlink()
+    scene.rsibr_render.samples = 1
+    yield from f12()
+    told["world"] = rendered()[2, 2].tolist()
+    bare(view())
+    view().spaces.active.shading.type = "RENDERED"
+    yield from drawn()
+    while not like(pixels(), (124, 170, 231)).any():
+        yield from drawn()
+"""
+
+
+def test_esc_ends_a_render_and_the_next_one_works(told: Told) -> None:
+    """In the viewport, too, the world is drawn again."""
+    answer = told("import threading\n" + PRELUDE + STOPPED, by_keyboard=True)
+    assert 3 <= answer["samples"] < 1000
+    assert answer["aside"]
+    assert answer["held"] == 0
+    assert answer["world"] == [124, 170, 231]
 
 
 FILE = """

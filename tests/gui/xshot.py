@@ -1,4 +1,6 @@
-"""What the X screen shows, by libX11 alone: Blender's own screenshot is black under software OpenGL.
+"""What the X screen shows, and keys, by libX11 alone.
+
+Blender's own screenshot is black under software OpenGL, and events that it simulates end no render.
 
 Copied beside `in_window` into the folder that Blender sees as /job.
 """
@@ -12,6 +14,8 @@ import numpy as np
 
 ALL_PLANES = 0xFFFFFFFF
 Z_PIXMAP = 2
+ESCAPE = 0xFF1B
+KEY_PRESS, KEY_PRESS_MASK = 2, 1
 
 
 class XImage(ctypes.Structure):
@@ -25,6 +29,19 @@ class XImage(ctypes.Structure):
     )
 
 
+class XKeyEvent(ctypes.Structure):
+    """Xlib's structure of that name, and what fills it up to an event."""
+
+    _fields_ = (
+        *(("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int)),
+        ("display", ctypes.c_void_p),
+        *((name, ctypes.c_ulong) for name in ("window", "root", "subwindow", "time")),
+        *((name, ctypes.c_int) for name in ("x", "y", "x_root", "y_root")),
+        *(("state", ctypes.c_uint), ("keycode", ctypes.c_uint), ("same_screen", ctypes.c_int)),
+        ("rest", ctypes.c_long * 24),
+    )
+
+
 xlib = ctypes.CDLL("libX11.so.6")
 xlib.XOpenDisplay.restype, xlib.XOpenDisplay.argtypes = ctypes.c_void_p, [ctypes.c_char_p]
 xlib.XDefaultRootWindow.restype, xlib.XDefaultRootWindow.argtypes = ctypes.c_ulong, [ctypes.c_void_p]
@@ -34,6 +51,17 @@ xlib.XGetImage.argtypes = [
     *(ctypes.c_void_p, ctypes.c_ulong),
     *(ctypes.c_int, ctypes.c_int, ctypes.c_uint, ctypes.c_uint),
     *(ctypes.c_ulong, ctypes.c_int),
+]
+xlib.XKeysymToKeycode.restype = ctypes.c_ubyte
+xlib.XKeysymToKeycode.argtypes = [ctypes.c_void_p, ctypes.c_ulong]
+xlib.XQueryTree.argtypes = [
+    *(ctypes.c_void_p, ctypes.c_ulong),
+    *(ctypes.POINTER(ctypes.c_ulong), ctypes.POINTER(ctypes.c_ulong)),
+    *(ctypes.POINTER(ctypes.POINTER(ctypes.c_ulong)), ctypes.POINTER(ctypes.c_uint)),
+]
+xlib.XSendEvent.argtypes = [
+    *(ctypes.c_void_p, ctypes.c_ulong, ctypes.c_int, ctypes.c_long),
+    ctypes.POINTER(XKeyEvent),
 ]
 xlib.XFree.argtypes = [ctypes.c_void_p]
 xlib.XCloseDisplay.argtypes = [ctypes.c_void_p]
@@ -51,6 +79,20 @@ def grab() -> np.ndarray:
     xlib.XFree(image)
     xlib.XCloseDisplay(display)
     return stored.reshape(height, line)[:, : 4 * width].reshape(height, width, 4)[..., 2::-1]
+
+
+def press(key: int) -> None:
+    """Press a key in every window, as the keyboard does."""
+    display = xlib.XOpenDisplay(None)
+    root, count = xlib.XDefaultRootWindow(display), ctypes.c_uint()
+    unused, windows = ctypes.c_ulong(), ctypes.POINTER(ctypes.c_ulong)()
+    xlib.XQueryTree(display, root, unused, unused, windows, count)
+    for each in windows[: count.value]:
+        code = xlib.XKeysymToKeycode(display, key)
+        event = XKeyEvent(type=KEY_PRESS, window=each, root=root, keycode=code, same_screen=1)
+        xlib.XSendEvent(display, each, 1, KEY_PRESS_MASK, event)
+    xlib.XFree(windows)
+    xlib.XCloseDisplay(display)
 
 
 def save(picture: np.ndarray, path: str) -> None:

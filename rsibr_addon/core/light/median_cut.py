@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..conventions import Array, texel_centres
+from ..conventions import Array, ArrayLike, texel_centres
 from ..maps import equirect
 from .luminance import luminance
 
@@ -25,8 +25,8 @@ class Lamps:
     irradiance: Array
 
 
-def lamps_above(radiance: Array, count: int) -> Lamps:
-    """Lamps that light a horizontal plane from above as an environment does.
+def lamps_above(radiance: Array, count: int, up: ArrayLike = (0.0, 0.0, 1.0)) -> Lamps:
+    """Lamps that light a plane from above as an environment does.
 
     Parameters
     ----------
@@ -34,23 +34,23 @@ def lamps_above(radiance: Array, count: int) -> Lamps:
         Latitude-longitude map, not negative.
     count : int
         Most lamps, a power of 2. Fewer are made of light that is in few texels.
+    up : array_like, shape (3,)
+        The plane's unit normal.
 
     Returns
     -------
     Lamps
-        Their irradiance sums to that of the plane, but for the row of texels at the horizon.
+        Their irradiance sums to that of the plane, but for what texels at its horizon lose.
 
     Notes
     -----
     Regions of the map are cut in two again and again, across their longer side, so that both parts have the
     same luminance on the plane. A lamp stands at its region's middle, weighted by that.
     """
-    rows = len(radiance) // 2
-    upper = radiance[len(radiance) - rows :]
-    width = upper.shape[1]
-    direction = equirect.direction_from_uv(texel_centres(width, len(radiance)))[len(radiance) - rows :]
-    solid_angle = equirect.texel_solid_angle(width, len(radiance))[len(radiance) - rows :]
-    irradiance = upper * (solid_angle * direction[..., 2])[..., None]
+    rows, width = radiance.shape[:2]
+    direction = equirect.direction_from_uv(texel_centres(width, rows))
+    cosine = np.maximum(direction @ np.asarray(up), 0.0)
+    irradiance = radiance * (equirect.texel_solid_angle(width, rows) * cosine)[..., None]
     weight = luminance(irradiance)
     regions = [(slice(0, rows), slice(0, width))]
     for _ in range(count.bit_length() - 1):

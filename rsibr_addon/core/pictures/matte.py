@@ -4,6 +4,8 @@ A pixel shows the object by its coverage, and else what lies behind. The floor i
 object keeps light from it, what lies behind is darker by the same share.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ..conventions import Array, ArrayLike, texel_centres
@@ -17,6 +19,22 @@ EXTENT = 4.0
 
 BACKDROP_ANGLE = np.radians(40.0)
 """Angle of view on what lies behind in an orthographic picture, all whose rays have one direction."""
+
+
+@dataclass(frozen=True)
+class PictureFrame:
+    """The frame of a picture, which may be more or less than what is drawn.
+
+    Attributes
+    ----------
+    projection : ndarray, shape (4, 4)
+        From eye coordinates to the frame's, by the same camera as what is drawn.
+    aspect : float
+        Width over height.
+    """
+
+    projection: Array
+    aspect: float
 
 
 def rays(camera: Camera, size: int) -> tuple[Array, Array]:
@@ -108,6 +126,53 @@ def flattened(direction: ArrayLike, height: float) -> Array:
             [0.0, 0.0, 0.0, 1.0],
         ]
     )
+
+
+def floor_from_world(matrix: Array, plane: Array, eye: Array) -> Array:
+    """Coordinates of a floor, which lies at z = 0 and is seen from above.
+
+    Parameters
+    ----------
+    matrix : ndarray, shape (4, 4)
+        The world's coordinates from the plane's.
+    plane : ndarray, shape (2, 3)
+        A point of the plane, and its normal.
+    eye : ndarray, shape (4,)
+        Homogeneous position of the eye in the world.
+
+    Returns
+    -------
+    ndarray, shape (4, 4)
+        A rotation, and a translation.
+    """
+    linear, place = matrix[:3, :3], matrix[:3, :3] @ plane[0] + matrix[:3, 3]
+    up = normalize(np.linalg.inv(linear).T @ plane[1])
+    up = up if up @ (eye[:3] - eye[3] * place) >= 0.0 else -up
+    along = normalize(np.cross(np.eye(3)[np.argmin(np.abs(up))], up))
+    made: Array = np.eye(4)
+    made[:3, :3] = along, np.cross(up, along), up
+    made[:3, 3] = -made[:3, :3] @ place
+    return made
+
+
+def floor_area(corners: Array) -> tuple[Array, float]:
+    """The square of a floor that takes shadows.
+
+    Parameters
+    ----------
+    corners : ndarray, shape (n, 3)
+        Of the bounds of what casts them, in the floor's coordinates; some are above it.
+
+    Returns
+    -------
+    middle : ndarray, shape (2,)
+    half_width : float
+        What stands on the floor is within the three quarters where shadows do not fade, and they may be about
+        as long as it is high.
+    """
+    height = corners[:, 2].max()
+    low, high = corners[:, :2].min(axis=0), corners[:, :2].max(axis=0)
+    return 0.5 * (low + high), float(0.5 * np.hypot(*(high - low)) / 0.75 + 1.5 * height)
 
 
 def floor_share(camera: Camera, height: float, shadow: Array, irradiance: ArrayLike, size: int) -> Array:

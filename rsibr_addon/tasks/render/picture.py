@@ -64,10 +64,10 @@ class Picture:
             with film.sample():
                 if name == COMBINED:
                     frame.draw_behind(self._stage, self._view, sight)
-                for strength in frame.strengths:
+                for strength in frame.strengths or (1.0,):  # what hides has depths by itself, too
                     frame.set(self._stage, strength, True, partial(_DRAWN[name], self))
                     film.lay(self._stage.radiance, 1.0 if name == NORMAL else strength)
-                if self._is_first and self._wants_depth and frame.strengths:
+                if self._is_first and self._wants_depth:
                     self._depths = self._first_depths(frame)
                 self._is_first = False
 

@@ -66,15 +66,16 @@ class Renders:
         frame = self._frame(view)
         while previews.is_busy:
             frame = self._frame(view)
-        if previews.faults.trouble:
-            raise RenderError(previews.faults.trouble)
+        if trouble := previews.faults.trouble or previews.backgrounds.message:
+            raise RenderError(trouble)
         if self._darkness is None:
             self._darkness = darkness()
         return Picture(frame, view, passes, self._darkness)
 
     def messages(self, picture: Picture) -> list[str]:
         """What is to be said of what a picture shows, as far as it is drawn."""
-        return [message for item in picture.items for message in self._messages(item)]
+        told = [message for item in picture.items for message in self._messages(item)]
+        return [*told, *self._previews.floors.messages]
 
     def news(self, messages: Iterable[str]) -> list[str]:
         """Those of some messages that this render has not told."""
@@ -85,7 +86,7 @@ class Renders:
     def _frame(self, view: CameraView) -> Frame:
         with self._previews.faults.guarded():
             return self._previews.frame(view, Sight.by(*view.matrices))
-        return Frame([], [], [], None, self._previews.faults)
+        return Frame([], [], [], [], None, 1.0, self._previews.faults)
 
     def _messages(self, item: Any) -> list[str]:
         live = item.rsibr.show and item.rsibr.live.on

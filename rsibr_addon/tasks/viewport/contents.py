@@ -4,8 +4,10 @@ from collections.abc import Callable, Collection
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from ...core.conventions import Array
 from ...device.drawing import GpuMesh
 from ...host.live_light import is_live_name
+from ...host.shadow_catchers import corners, floor_plane
 from ...host.textured_meshes import MeshNeeds
 from ...host.visible_surfaces import (
     Layer,
@@ -35,11 +37,14 @@ class Drawable:
         A `GpuTexturedMesh` where there are materials.
     materials : ShownMaterials or None
         Its own, if they were asked for.
+    corners : ndarray, shape (8, 3), or None
+        Of its bounds, in the mesh's coordinates, where shadows are caught.
     """
 
     surface: Surface
     mesh: GpuMesh
     materials: ShownMaterials | None = None
+    corners: Array | None = None
 
     @property
     def needs(self) -> MeshNeeds | None:
@@ -49,6 +54,21 @@ class Drawable:
     def is_seen(self, view: View) -> bool:
         """Whether a view shows it."""
         return view.shows(self.surface)
+
+
+@dataclass(frozen=True, eq=False)
+class Catcher:
+    """A surface that shows nothing but the shadows on it.
+
+    Attributes
+    ----------
+    drawable : Drawable
+    plane : ndarray, shape (2, 3), or None
+        See `floor_plane`.
+    """
+
+    drawable: Drawable
+    plane: Array | None
 
 
 @dataclass
@@ -63,6 +83,8 @@ class Contents:
         Surfaces without a preview, if they were asked for.
     holes : list of Drawable
         Surfaces that make holes in the picture, where all are shaded.
+    catchers : list of Catcher
+        Surfaces that show the shadows on them, there.
     world : str
         What surfaces without a map set of their own are shaded from; empty where they are left to Blender.
     changed : bool
@@ -72,13 +94,20 @@ class Contents:
     previews: list[Drawable]
     others: list[Drawable] | None
     holes: list[Drawable] = field(default_factory=list)
+    catchers: list[Catcher] = field(default_factory=list)
     world: str = ""
     changed: bool = False
 
     @property
     def all(self) -> list[Drawable]:
         """Everything that is on the GPU."""
-        return [*self.previews, *(self.others or ()), *self.holes]
+        floors = [each.drawable for each in self.catchers]
+        return [*self.previews, *(self.others or ()), *self.holes, *floors]
+
+    @property
+    def casters(self) -> list[Drawable]:
+        """What casts shadows on catchers."""
+        return [each for each in (*self.previews, *self.holes) if each.surface.item.visible_shadow]
 
     def serves(self, with_others: bool) -> bool:
         """Whether it is still right. Blender sends no notice of a map set that was packed or moved."""
@@ -152,10 +181,9 @@ class LayerContents:
 
     def _fill(self, contents: Contents, view: View, faults: Faults) -> None:
         for surface, evaluated in surfaces(view.depsgraph):
-            lit = bool(surface.path) and not is_live_name(surface.path) and not faults.stands(surface.item)
-            if contents.world and is_hole(surface, view.depsgraph):
-                self._add(contents.holes, surface, evaluated, view)
+            if contents.world and self._is_matte(surface, evaluated, contents, view):
                 continue
+            lit = bool(surface.path) and not is_live_name(surface.path) and not faults.stands(surface.item)
             if contents.world and not lit:
                 surface = replace(surface, path=contents.world, in_world=True)
             if not surface.path:
@@ -164,16 +192,23 @@ class LayerContents:
             if found is None:
                 continue
             own = surface.path and self._shows_own(surface)
-            self._add(found, surface, evaluated, view, self._materials.of(evaluated) if own else None)
+            found += self._drawn(surface, evaluated, view, self._materials.of(evaluated) if own else None)
 
-    def _add(
-        self,
-        found: list[Drawable],
-        surface: Surface,
-        evaluated: Any,
-        view: View,
-        materials: ShownMaterials | None = None,
-    ) -> None:
+    def _is_matte(self, surface: Surface, evaluated: Any, contents: Contents, view: View) -> bool:
+        """Whether a surface is not shaded, but changes what lies behind."""
+        if is_hole(surface, view.depsgraph):
+            contents.holes += self._drawn(surface, evaluated, view)
+            return True
+        if not surface.item.is_shadow_catcher:
+            return False
+        plane = floor_plane(evaluated)
+        contents.catchers += [Catcher(each, plane) for each in self._drawn(surface, evaluated, view)]
+        return True
+
+    def _drawn(
+        self, surface: Surface, evaluated: Any, view: View, materials: ShownMaterials | None = None
+    ) -> list[Drawable]:
+        """What a surface is drawn with; nothing for one without faces."""
         mesh = self.meshes.of(surface, evaluated, view.depsgraph, materials)
-        if mesh is not None:
-            found.append(Drawable(surface, mesh, materials))
+        bounds = corners(evaluated) if view.shades_all else None
+        return [] if mesh is None else [Drawable(surface, mesh, materials, bounds)]

@@ -4,9 +4,9 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ...device.backdrop import Backdrop
+from ...device.backdrop import Behind
 from ...device.drawing import Draw, GpuMesh
-from ...device.matte_layer import draw_hole, lay_matte
+from ...device.matte_layer import CaughtShadow, draw_hole, lay_matte
 from ...device.own_materials import OwnMaterials
 from ...device.preview_stage import Sight, Stage, draw_occluder
 from ...host.visible_surfaces import View
@@ -56,8 +56,12 @@ class Frame:
         What may hide it, where the frame buffer does not have its depths.
     holes : list of (GpuMesh, Draw)
         What makes holes in the picture.
-    backdrop : Backdrop or None
-        The world behind all that, where all objects are shaded.
+    floors : list of (GpuMesh, Draw, CaughtShadow or None)
+        What shows the shadows on it alone.
+    backdrop : Behind or None
+        What lies behind all that, where all objects are shaded.
+    exposure : float
+        Factor of its radiance.
     faults : Faults
         Takes what goes wrong with an object.
     """
@@ -65,7 +69,9 @@ class Frame:
     shown: list[Shown]
     hiding: list[tuple[GpuMesh, Draw]]
     holes: list[tuple[GpuMesh, Draw]]
-    backdrop: Backdrop | None
+    floors: list[tuple[GpuMesh, Draw, CaughtShadow | None]]
+    backdrop: Behind | None
+    exposure: float
     faults: Faults
 
     @property
@@ -84,6 +90,7 @@ class Frame:
             shown=[replace(each, placed=placed(each.placed)) for each in self.shown],
             hiding=[(mesh, placed(draw)) for mesh, draw in self.hiding],
             holes=[(mesh, placed(draw)) for mesh, draw in self.holes],
+            floors=[(mesh, placed(draw), shadow) for mesh, draw, shadow in self.floors],
         )
 
     def draw_behind(self, stage: Stage, view: View, sight: Sight) -> None:
@@ -91,11 +98,16 @@ class Frame:
         is_transparent = self.backdrop is None or view.scene.render.film_transparent
         if self.backdrop is not None and not is_transparent:
             light = view.world_light
-            self.backdrop.draw(sight, light.turn, light.strength)
-        if self.holes:
+            self.backdrop.draw(sight, light.turn, light.strength, view.picture_frame, self.exposure)
+        if self.holes or self.floors:
             with stage.drawing():
                 for mesh, draw in self.holes:
                     draw_hole(mesh, draw)
+                for mesh, draw, shadow in self.floors:
+                    if shadow is None:
+                        draw_occluder(mesh, draw)
+                    else:
+                        shadow.draw(mesh, draw)
             lay_matte(stage.radiance, is_transparent)
 
     def set(
@@ -117,7 +129,8 @@ class Frame:
         """
         group = [each for each in self.shown if each.placed.strength == strength]
         others = [each for each in self.shown if each.placed.strength != strength]
-        hiding = [*self.hiding, *self.holes, *((each.drawable.mesh, each.placed) for each in others)]
+        floors = [(mesh, draw) for mesh, draw, _ in self.floors]
+        hiding = [*self.hiding, *self.holes, *floors, *((each.drawable.mesh, each.placed) for each in others)]
         with stage.drawing():
             for mesh, placed in hiding if hidden else ():
                 draw_occluder(mesh, placed)

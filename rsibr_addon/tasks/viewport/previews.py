@@ -21,11 +21,13 @@ from ...host.live_light import is_readable, shows_surroundings
 from ...host.visible_surfaces import Layer, Side, Surface, View, map_set_of, objects_numbered
 from ..methods.kinds import KINDS
 from ..methods.live_materials import LiveFits
+from .backgrounds import Backgrounds
 from .baked_inputs import InputBakes
 from .blender_pictures import BlenderPictures
 from .contents import Contents, Drawable, LayerContents
 from .displays import Displays
 from .faults import Faults
+from .floors import Floors
 from .frame import Frame, Shown, placed
 from .looks import Looks, own_look, wants_own
 from .map_sets import MapSets, ViewportMapSet
@@ -51,6 +53,8 @@ class Previews:
         What was baked of materials.
     worlds : Worlds
         The worlds' own map sets.
+    floors, backgrounds
+        What lies behind all objects.
     faults : Faults
         What went wrong. Call `draw`, `render_surroundings` and `add_display` within its `guarded`.
     """
@@ -65,6 +69,7 @@ class Previews:
         self._stage, self._other_stage = Stage(), Stage()
         self.inputs = InputBakes(self._reader)
         self.worlds = Worlds()
+        self.floors, self.backgrounds = Floors(), Backgrounds(self._reader)
         self._layers = LayerContents(self._shows_own, self.inputs, self.worlds)
         self._displays = Displays()
         self._surfaces: Any = None
@@ -108,7 +113,7 @@ class Previews:
     @property
     def is_busy(self) -> bool:
         """Whether a map set is on its way, so that `take_news` is to be asked."""
-        return self._map_sets.is_busy or self.inputs.is_busy
+        return self._map_sets.is_busy or self.inputs.is_busy or self.backgrounds.is_busy
 
     def take_news(self) -> bool:
         """Whether a redraw would show more than the last one."""
@@ -289,8 +294,15 @@ class Previews:
     def _behind(self, contents: Contents, view: View, sight: Sight) -> Frame:
         """A frame of what lies behind all objects."""
         world = self._world(view)
+        light = world.backdrop.environment if world and world.backdrop else None
+        floors = [
+            (mesh, draw, shadow)
+            for each, shadow in self.floors.caught(contents, light, view.world_light.turn, sight.eye)
+            for mesh, draw in placed([each.drawable], view, sight)
+        ]
+        behind, exposure = self.backgrounds.of(view.depsgraph.scene_eval, world.backdrop if world else None)
         holes = placed(contents.holes, view, sight)
-        return Frame([], [], holes, world.backdrop if world else None, self.faults)
+        return Frame([], [], holes, floors, behind, exposure, self.faults)
 
     def _contents(self, view: View) -> Contents:
         """What a view layer shows, looked at anew if it may have changed."""

@@ -1,0 +1,7 @@
+// A picture behind all surfaces.
+
+void main()
+{
+  vec2 place = middle + size * (2.0 * map_uv - 1.0);
+  colour = vec4(scale * texture(picture, place).rgb, 1.0);
+}

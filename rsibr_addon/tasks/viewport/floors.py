@@ -1,0 +1,110 @@
+"""The shadows that floors catch, each made once until what casts it, the floor or the light changes."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ...core.conventions import Array
+from ...core.environment import Environment
+from ...core.light.median_cut import Lamps, lamps_above
+from ...core.pictures.matte import floor_area, floor_from_world
+from ...device.drawing import GpuMesh
+from ...device.floor_shadow import FloorArea, floor_shadow
+from ...device.matte_layer import CaughtShadow
+from ..matte import LAMPS
+from .contents import Catcher, Contents, Drawable
+
+SIZE = 1024
+"""Width of a floor's map in texels."""
+
+KEPT = 8
+"""Shadows that are kept: those that a few viewports show."""
+
+Cast = tuple[GpuMesh, Array]
+"""A mesh, and its place in the world."""
+
+
+class Floors:
+    """Shadows on floors.
+
+    Attributes
+    ----------
+    messages : list of str
+        What of the catchers that were shown last catches nothing, and why.
+    """
+
+    def __init__(self) -> None:
+        self.messages: list[str] = []
+        self._shadows: dict[tuple[Any, ...], CaughtShadow] = {}
+        self._lamps: dict[tuple[str, bytes], Lamps] = {}
+
+    def caught(
+        self, contents: Contents, light: Environment | None, turn: Array, eye: Array
+    ) -> list[tuple[Catcher, CaughtShadow | None]]:
+        """What the catchers of a view layer show.
+
+        Parameters
+        ----------
+        contents : Contents
+        light : Environment or None
+            The world's; without, nothing is caught.
+        turn : ndarray, shape (3, 3)
+            Rotation from the world to the light.
+        eye : ndarray, shape (4,)
+            Homogeneous position of the eye in the world.
+
+        Returns
+        -------
+        list of (Catcher, CaughtShadow or None)
+        """
+        self.messages = [
+            f"{each.drawable.surface.item.name} catches no shadows, as it is not flat: make it a plane."
+            for each in contents.catchers
+            if each.plane is None
+        ]
+        casters = contents.casters if contents.catchers and light else []
+        return [(each, self._of(each, casters, light, turn, eye)) for each in contents.catchers]
+
+    def _of(
+        self,
+        catcher: Catcher,
+        casters: Sequence[Drawable],
+        light: Environment | None,
+        turn: Array,
+        eye: Array,
+    ) -> CaughtShadow | None:
+        if catcher.plane is None or light is None:
+            return None
+        floor = floor_from_world(catcher.drawable.surface.matrix, catcher.plane, eye)
+        placed = [(each, floor @ each.surface.matrix) for each in casters]
+        bounds = {each: _moved(model, each.corners) for each, model in placed if each.corners is not None}
+        above = [(each, model) for each, model in placed if bounds[each][:, 2].max() > 0.0]
+        if not above:
+            return None
+        area = FloorArea(*floor_area(np.concatenate([bounds[each] for each, _ in above])))
+        models: list[Cast] = [(each.mesh, model) for each, model in above]
+        cast = ((mesh.batch, model.tobytes()) for mesh, model in models)
+        key = light.sha256, turn.tobytes(), floor.tobytes(), *cast
+        shadow = self._shadows.pop(key, None) or self._made(models, light, turn, floor, area)
+        self._shadows[key] = shadow  # the newest last
+        if len(self._shadows) > KEPT:
+            del self._shadows[next(iter(self._shadows))]
+        return shadow
+
+    def _made(
+        self, models: list[Cast], light: Environment, turn: Array, floor: Array, area: FloorArea
+    ) -> CaughtShadow:
+        up = turn @ floor[2, :3]
+        found = light.sha256, np.round(up, 6).tobytes()
+        if found not in self._lamps:
+            self._lamps = {found: lamps_above(light.radiance, LAMPS, up)}
+        lamps = self._lamps[found]
+        turned = Lamps(lamps.directions @ turn @ floor[:3, :3].T, lamps.irradiance)
+        shadow = floor_shadow(models, turned, area, SIZE)
+        return CaughtShadow(floor, area, shadow, lamps.irradiance.sum(axis=0))
+
+
+def _moved(matrix: Array, points: Array) -> Array:
+    moved: Array = points @ matrix[:3, :3].T + matrix[:3, 3]
+    return moved

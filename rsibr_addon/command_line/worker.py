@@ -23,9 +23,6 @@ from ..job import BakeJob, read_job
 from .main import may_pass, sentence_of
 from .streams import Outlet, others_hushed
 
-PICTURE = 96
-"""Largest width and height of a bake's picture, in pixels."""
-
 
 def serve() -> NoReturn:
     """Do jobs until the input ends."""
@@ -90,13 +87,7 @@ def _baked(job: BakeJob[Any], told: Outlet) -> dict[str, Any]:
 
 
 def _picture(path: Path) -> str:
-    """A picture of a map set's first map, as PNG in base 64."""
-    import numpy as np
+    """A picture of a map set, as PNG in base 64."""
+    from ..tasks.batch.pictures import map_set_png
 
-    from ..core.pictures.thumbnail import thumbnail
-    from ..files.png import png_of
-    from ..tasks.report.pictures import map_set_pictures
-
-    small = thumbnail(map_set_pictures(path)[0].pixels[:, :, :3], PICTURE)[::-1]
-    pixels = np.rint(255.0 * np.concatenate([small, np.ones((*small.shape[:2], 1))], axis=-1))
-    return base64.b64encode(png_of(pixels.astype(np.uint8))).decode("ascii")
+    return base64.b64encode(map_set_png(path)).decode("ascii")

@@ -190,7 +190,11 @@ def scenario(told):
     chosen.kind, chosen.light = "radiance_views", "WORLD"
     views = chosen.radiance_views
     views.size, views.samples, views.denoise, views.views = 16, 1, False, "12"
-    yield from press_all([("bake", {})])
+    # To a farm that is not there
+    preferences = bpy.context.preferences
+    preferences.addons[ROOT].preferences.farm_manager = "127.0.0.1:9"
+    preferences.system.use_online_access = True
+    yield from press_all([("send_to_farm", {}), ("bake", {})])
     told["bakes"] = [[str(each.state), each.message] for each in session().bakes.bakes]
     # Switches of the panel
     view_settings = bpy.context.window_manager.rsibr_view

@@ -109,3 +109,9 @@ def test_a_bundle_takes_packed_files_along(
     assert Path(file).is_relative_to(Path("bundle/inputs"))
     open_blend(Path(file))
     assert not bpy.data.libraries
+    before = fingerprint(bpy.data.materials["Gold"])
+    # Given again, the file is packed anew: its image has changed
+    image(tmp_path / "library" / "gold.png", 0.3)
+    assert run(["submit", "batch.json", "--openjd", "bundle"]) == 0
+    open_blend(Path(file))
+    assert fingerprint(bpy.data.materials["Gold"]) != before

@@ -97,6 +97,15 @@ def test_outputs_that_other_machines_lack_are_refused(capfd: pytest.CaptureFixtu
     assert not Path("bundle").exists()
 
 
+def test_a_world_of_no_file_is_refused(capfd: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip("bpy")
+    Path("job.json").write_text(
+        json.dumps({"format": 2, "kind": "mip_chain", "settings": {"size": 4}, "output": "a.rsibr.exr"})
+    )
+    assert run(["submit", "job.json", "--openjd", "bundle"]) == 1
+    assert "No file is open whose world or material could be sent" in capfd.readouterr().err
+
+
 @pytest.mark.slow
 def test_openjd_runs_a_bundle_wherever_it_is(tmp_path: Path) -> None:
     folder = bundle(environments=["dawn.exr"], materials=["chrome", "wood"])

@@ -103,7 +103,8 @@ def write_inputs(folder: Path, name: str, bakes: Sequence[BatchBake]) -> Steps[l
     Parameters
     ----------
     folder : Path
-        It exists. Files that are there already stay.
+        It exists. Copies that are there already stay; files of Blender are packed anew, as what they use may
+        have changed.
     name : str
         The list becomes NAME.json.
     bakes : sequence of BatchBake
@@ -176,14 +177,15 @@ class _Copies:
         except InputFileError:
             return bake
         if _means_open_file(bake):
-            opened = Opened(self._once("", "open.blend", _write_packed), _open_path())
+            opened = Opened(self._once("", "open.blend", _write_open_file), _open_path())
         settings = _with_texts(job, replaced)
         return replace(bake, job=replace(settings, light=light), opened=opened)
 
     def _copy(self, file: Path) -> str:
         def copy(target: Path) -> None:
-            with written_aside(target) as aside:
-                shutil.copyfile(file, aside)
+            if not target.exists():
+                with written_aside(target) as aside:
+                    shutil.copyfile(file, aside)
 
         return self._once(str(file), f"{digest(file)[:HASH_LETTERS]}/{file.name}", copy)
 
@@ -197,12 +199,11 @@ class _Copies:
         return self._once(str(file), f"{digest(file)[:HASH_LETTERS]}/{file.name}", pack)
 
     def _once(self, source: str, name: str, write: Callable[[Path], None]) -> str:
-        """The path of a copy within the list; it is written unless it is there."""
+        """The path of a copy within the list; it is written once."""
         if source not in self._made:
             target = self._folder / name
             make_folder(target.parent)
-            if not target.exists():
-                write(target)
+            write(target)
             self._made[source] = f"{HERE}/{name}"
         return self._made[source]
 
@@ -213,10 +214,20 @@ def _open_path() -> str:
     return open_path()
 
 
+def _write_open_file(target: Path) -> None:
+    from ...host.blend_files import is_file_open
+
+    if not is_file_open():
+        raise SceneError(
+            "No file is open whose world or material could be sent: open it by blender -b FILE.blend."
+        )
+    _write_packed(target)
+
+
 def _write_packed(target: Path) -> None:
     from ...host.packing import write_packed
 
-    with written_aside(target) as aside:
+    with written_aside(target, force=True) as aside:
         write_packed(aside)
 
 

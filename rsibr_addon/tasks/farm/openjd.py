@@ -26,7 +26,7 @@ def write_bundle(folder: Path, title: str, bakes: Sequence[BatchBake], program: 
     Parameters
     ----------
     folder : Path
-        Made if it is missing; a bundle in it is replaced.
+        Made if it is missing; the template of a bundle in it is replaced.
     title : str
     bakes : sequence of BatchBake
         From `folder.bakes_to_send`.

@@ -30,6 +30,10 @@ LEAST_URGENT = 19
 """The highest niceness there is."""
 
 
+MOST_ELSEWHERE = 4
+"""Bakes that other machines do at once: each has a Blender here that waits for it."""
+
+
 class State(StrEnum):
     """What has become of a bake."""
 
@@ -282,7 +286,8 @@ class BakeQueue(Generic[B]):
             bake.update()
         active = [bake for bake in self.bakes if not bake.ended]
         here = [bake for bake in active if not bake.elsewhere]
-        for bake in (*here[:1], *(bake for bake in active if bake.elsewhere)):
+        elsewhere = [bake for bake in active if bake.elsewhere]
+        for bake in here[:1] + elsewhere[:MOST_ELSEWHERE]:
             if bake.state is State.WAITING:
                 bake.start()
         return [bake for bake in running if bake.ended]

@@ -15,7 +15,7 @@ from ...files.png import png_of
 from ..report.pictures import BRIGHTEST, map_set_pictures
 
 SIZE = 64
-"""Width of a sphere's picture in pixels: one twice as wide takes as long as a small bake."""
+"""Width of a sphere's picture in pixels: so it takes .03 s, a twentieth of the smallest bakes."""
 
 PARALLELS = 24
 """Of the sphere that is drawn: its outline is less than .1 pixels off, and its normals are exact."""

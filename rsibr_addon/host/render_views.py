@@ -88,6 +88,10 @@ class CameraView(View):
         """Whether cameras see a surface; what renders hide is not there."""
         return bool(surface.item.visible_camera)
 
+    def has_shadow_of(self, surface: Surface) -> bool:
+        """See `View`; cameras need not see it."""
+        return bool(surface.item.visible_shadow)
+
     def moved(self, offset: tuple[float, float]) -> "CameraView":
         """The same with all points moved, by parts of a pixel to the right and up."""
         shift: Array = np.eye(4)

@@ -115,6 +115,10 @@ class View:
         """Whether a surface is not hidden."""
         return bool(surface.shown_by.visible_in_viewport_get(self.space))
 
+    def has_shadow_of(self, surface: Surface) -> bool:
+        """Whether a surface casts shadows."""
+        return bool(surface.item.visible_shadow) and self.shows(surface)
+
     @property
     def has_depth(self) -> bool:
         """Whether Blender leaves its surfaces' depths for later drawing."""

@@ -27,11 +27,14 @@ class _OfScene:
     coming : Future
     shown : Behind or None
         What it was last.
+    is_told : bool
+        Whether it has come, and has been drawn or told of.
     """
 
     wanted: tuple[Any, ...]
     coming: Future[Behind]
     shown: Behind | None
+    is_told: bool = False
 
 
 class Backgrounds:
@@ -55,7 +58,14 @@ class Backgrounds:
     @property
     def is_busy(self) -> bool:
         """Whether a background is on its way."""
-        return any(not each.coming.done() for each in self._scenes.values())
+        return not all(each.is_told for each in self._scenes.values())
+
+    def take_news(self) -> bool:
+        """Whether a redraw would show more than the last one."""
+        news = [each for each in self._scenes.values() if each.coming.done() and not each.is_told]
+        for each in news:
+            each.is_told = True
+        return bool(news)
 
     def of(self, scene: Any, world: Backdrop | None) -> tuple[Behind | None, float]:
         """A scene's background: while another is being made, the one before it.
@@ -93,6 +103,7 @@ class Backgrounds:
             shown = known.shown if known else world
             known = self._scenes[number] = _OfScene(wanted, self._worker.submit(make, *given), shown)
         if known.coming.done():
+            known.is_told = True
             try:
                 known.shown = known.coming.result()
             except (RsibrError, OSError) as error:

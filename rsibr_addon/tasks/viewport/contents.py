@@ -104,10 +104,9 @@ class Contents:
         floors = [each.drawable for each in self.catchers]
         return [*self.previews, *(self.others or ()), *self.holes, *floors]
 
-    @property
-    def casters(self) -> list[Drawable]:
-        """What casts shadows on catchers."""
-        return [each for each in (*self.previews, *self.holes) if each.surface.item.visible_shadow]
+    def casters(self, view: View) -> list[Drawable]:
+        """What casts shadows on catchers in a view."""
+        return [each for each in (*self.previews, *self.holes) if view.has_shadow_of(each.surface)]
 
     def serves(self, with_others: bool) -> bool:
         """Whether it is still right. Blender sends no notice of a map set that was packed or moved."""

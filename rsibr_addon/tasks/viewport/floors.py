@@ -12,13 +12,14 @@ from ...core.pictures.matte import floor_area, floor_from_world
 from ...device.drawing import GpuMesh
 from ...device.floor_shadow import FloorArea, floor_shadow
 from ...device.matte_layer import CaughtShadow
+from ...host.visible_surfaces import View
 from ..matte import LAMPS
 from .contents import Catcher, Contents, Drawable
 
 SIZE = 1024
 """Width of a floor's map in texels."""
 
-KEPT = 8
+KEPT = 4
 """Shadows that are kept: those that a few viewports show."""
 
 Cast = tuple[GpuMesh, Array]
@@ -40,17 +41,16 @@ class Floors:
         self._lamps: dict[tuple[str, bytes], Lamps] = {}
 
     def caught(
-        self, contents: Contents, light: Environment | None, turn: Array, eye: Array
+        self, contents: Contents, view: View, light: Environment | None, eye: Array
     ) -> list[tuple[Catcher, CaughtShadow | None]]:
         """What the catchers of a view layer show.
 
         Parameters
         ----------
         contents : Contents
+        view : View
         light : Environment or None
             The world's; without, nothing is caught.
-        turn : ndarray, shape (3, 3)
-            Rotation from the world to the light.
         eye : ndarray, shape (4,)
             Homogeneous position of the eye in the world.
 
@@ -63,7 +63,9 @@ class Floors:
             for each in contents.catchers
             if each.plane is None
         ]
-        casters = contents.casters if contents.catchers and light else []
+        if not contents.catchers:
+            return []
+        casters, turn = contents.casters(view), view.world_light.turn
         return [(each, self._of(each, casters, light, turn, eye)) for each in contents.catchers]
 
     def _of(

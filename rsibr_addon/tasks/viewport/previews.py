@@ -113,11 +113,11 @@ class Previews:
     @property
     def is_busy(self) -> bool:
         """Whether a map set is on its way, so that `take_news` is to be asked."""
-        return self._map_sets.is_busy or self.inputs.is_busy or self.backgrounds.is_busy
+        return any(each.is_busy for each in (self._map_sets, self.inputs, self.backgrounds))
 
     def take_news(self) -> bool:
         """Whether a redraw would show more than the last one."""
-        return any([self._map_sets.take_news(), self.inputs.take_news()])
+        return any([self._map_sets.take_news(), self.inputs.take_news(), self.backgrounds.take_news()])
 
     def is_loading(self, item: Any) -> bool:
         """Whether an object's map set is on its way."""
@@ -292,12 +292,14 @@ class Previews:
         return {each.surface.number for each in previewed if each.materials and each.materials.has_baked}
 
     def _behind(self, contents: Contents, view: View, sight: Sight) -> Frame:
-        """A frame of what lies behind all objects."""
+        """A frame of what lies behind all objects, where all are shaded."""
+        if not view.shades_all:
+            return Frame([], [], [], [], None, 1.0, self.faults)
         world = self._world(view)
         light = world.backdrop.environment if world and world.backdrop else None
         floors = [
             (mesh, draw, shadow)
-            for each, shadow in self.floors.caught(contents, light, view.world_light.turn, sight.eye)
+            for each, shadow in self.floors.caught(contents, view, light, sight.eye)
             for mesh, draw in placed([each.drawable], view, sight)
         ]
         behind, exposure = self.backgrounds.of(view.depsgraph.scene_eval, world.backdrop if world else None)

@@ -1,6 +1,7 @@
 """Write the active object's map set for other programs: for each format, for engines, and as a web page."""
 
 import os
+from collections import ChainMap
 from pathlib import Path
 from textwrap import wrap
 from typing import Any
@@ -16,7 +17,6 @@ from ..rsibr_addon.host.option_properties import options_of, properties_of
 from ..rsibr_addon.settings.page import PageOptions
 from ..rsibr_addon.tasks.export.engines.engines import ENGINES
 from ..rsibr_addon.tasks.export.engines.export import export_for_engine
-from ..rsibr_addon.tasks.export.engines.settings import AnySettings
 from ..rsibr_addon.tasks.export.export import export
 from ..rsibr_addon.tasks.export.format import Format
 from ..rsibr_addon.tasks.export.formats import FORMATS
@@ -140,7 +140,10 @@ COLUMNS = 40
 EXPORT_FOR_ENGINE = type(
     "RSIBR_OT_export_for_engine",
     (_ExportForEngine, bpy.types.Operator),
-    {"__doc__": _ExportForEngine.__doc__, **properties_of(AnySettings)},
+    {
+        "__doc__": _ExportForEngine.__doc__,
+        **ChainMap(*(properties_of(each.settings) for each in ENGINES.values())),
+    },
 )
 
 

@@ -16,8 +16,13 @@ WORLDS = Path(bpy.utils.system_resource("DATAFILES")) / "studiolights" / "world"
 IMAGES = Path(__file__).parents[2] / "docs" / "images"
 
 with tempfile.TemporaryDirectory() as folder:
-    for name, file in (("three", "forest.ktx2"), ("babylon", "forest.env")):
+    drain(export_for_engine(WORLDS / "forest.exr", Path(folder) / "lit-three.ktx2", "three"))
+    for name, file, shown in (
+        ("three", "forest.ktx2", "forest.ktx2"),
+        ("babylon", "forest.env", "forest.env"),
+        ("lobes", "lit.ktx2", "lit"),
+    ):
         drain(export_for_engine(WORLDS / "forest.exr", Path(folder) / file, name))
-        said = asked(f"picture_{name}.html", {"file": f"/files/{file}"}, Path(folder))
+        said = asked(f"picture_{name}.html", {"file": f"/files/{shown}"}, Path(folder))
         picture = said["picture"].partition(",")[2]
         (IMAGES / f"engine-{name}.jpg").write_bytes(base64.b64decode(picture))

@@ -76,7 +76,7 @@ def write_ktx2(
     force: bool = False,
     texels: Texels = Texels.FITTING,
 ) -> None:
-    """Write a texture; alpha is 1, where there is one.
+    """Write a texture; alpha is 1 where levels have three channels and the file four.
 
     Parameters
     ----------
@@ -140,7 +140,7 @@ def _floats(half: bool) -> _Stored:
 
     def encoded(level: Array) -> bytes:
         texels = np.ones((*level.shape[:-1], 4), dtype="<f2" if half else "<f4")
-        texels[..., :3] = level
+        texels[..., : level.shape[-1]] = level
         return texels.tobytes()
 
     described = _description(_RGBSDA, (0, 0), bits // 2, samples)

@@ -27,7 +27,7 @@ class Texture:
 
     Attributes
     ----------
-    levels : tuple of ndarray, shape (layers, height, width, 3)
+    levels : tuple of ndarray, shape (layers, height, width, 3 or 4)
         Mips from the largest, each half as wide and high as the one before. Row 0 is that of v = 0.
     is_cube : bool
         Whether the six layers are the faces of a cube, as in `core.maps.cube_map`.

@@ -1,6 +1,9 @@
 """Light for engines, read back as their loaders do, by nothing of ours, against the sum over all texels."""
 
+import re
+import shutil
 import struct
+import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
@@ -12,6 +15,7 @@ from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError, RsibrWarn
 from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_from_harmonics
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
 from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTables, Role
+from rsibr.rsibr_addon.core.maps.representation import representation
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.kinds import mip_chain, reflection_tables
 from rsibr.rsibr_addon.files.map_set import write_map_set
@@ -20,7 +24,7 @@ from rsibr.rsibr_addon.files.radiance_pictures import read_radiance, write_radia
 from rsibr.rsibr_addon.tasks.export.engines.engine import CubeEngine
 from rsibr.rsibr_addon.tasks.export.engines.engines import ENGINES
 from rsibr.rsibr_addon.tasks.export.engines.export import export_for_engine
-from rsibr.rsibr_addon.tasks.export.engines.settings import AnySettings, CubeSettings
+from rsibr.rsibr_addon.tasks.export.engines.settings import AnySettings, CubeSettings, LobesSettings
 from rsibr.tests.core.test_bc6h import decoded
 from rsibr.tests.engine_light import (
     EQUIRECT,
@@ -265,3 +269,51 @@ def test_the_pages_commands_do_what_they_say(tmp_path: Path, monkeypatch: pytest
     assert {words[words.index("--for") + 1] for words in exports} == ENGINES.keys()
     for words in exports:
         assert run([*words, "--force"]) == 0, words
+
+
+def lobes_of_sky(folder: Path) -> list[Path]:
+    settings = LobesSettings(widest=64)
+    return drain(export_for_engine(sky_file(folder), folder / "sky.ktx2", "lobes", settings))
+
+
+def test_lobes_say_how_light_is_shaded(tmp_path: Path) -> None:
+    """Weights sum to the albedos beside them, and the map of diffuse light lies where the shader says."""
+    files = lobes_of_sky(tmp_path)
+    assert [path.name for path in files] == ["sky.ktx2", "sky-lobes.ktx2", "sky.glsl", "sky.wgsl", "sky.hlsl"]
+    (table,) = read_ktx2(files[1]).levels
+    assert table.shape == (38, 16, 33, 4)
+    weights = table[1:37].astype(np.float64).reshape(12, 3, 16, 33, 4)
+    np.testing.assert_allclose(weights.sum(axis=(0, 4)), np.moveaxis(table[37, ..., :3], -1, 0), rtol=HALF)
+    (light,) = read_ktx2(files[0]).levels
+    listed = re.findall(r"vec4\(([^)]*)\)", files[2].read_text().partition("PLACES")[2].partition(";")[0])
+    left, bottom, width, _ = map(float, listed[12].split(","))
+    size = round(width * light.shape[2])
+    corner = round(bottom * light.shape[1]), round(left * light.shape[2])
+    shown = light[0, corner[0] : corner[0] + size, corner[1] : corner[1] + size, :3]
+    direction = representation("octahedral").texel_directions(size)[0]
+    wanted = diffuse_truth(direction.reshape(-1, 3)).reshape(size, size, 3)
+    np.testing.assert_allclose(shown, wanted, rtol=HALF, atol=SUM * wanted.max())
+
+
+@pytest.mark.parametrize(
+    ("program", "command"),
+    [
+        ("naga", "naga sky.wgsl"),
+        ("glslangValidator", "glslangValidator -D -e rsibr -V -S frag -o sky.spv entry.hlsl"),
+        ("glslangValidator", "glslangValidator entry.frag"),
+    ],
+)
+def test_shaders_of_lobes_compile(program: str, command: str, tmp_path: Path) -> None:
+    if shutil.which(program) is None:
+        pytest.skip(f"{program} is not installed")
+    lobes_of_sky(tmp_path)
+    white, up = "float3(1, 1, 1)", "float3(0, 0, 1)"
+    (tmp_path / "entry.hlsl").write_text(
+        '#include "sky.hlsl"\n'
+        f"float4 rsibr() : SV_Target {{ return float4(rsibr_shade({white}, 0.5, 0.5, {up}, {up}), 1); }}\n"
+    )
+    shader = (tmp_path / "sky.glsl").read_text()
+    entry = "out vec4 c; void main() { c = vec4(rsibr_shade(vec3(1), 0.5, 0.5, vec3(1), vec3(1)), 1); }\n"
+    (tmp_path / "entry.frag").write_text(f"#version 330\n{shader}{entry}")
+    done = subprocess.run(command.split(), cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr

@@ -13,6 +13,7 @@ from rsibr.rsibr_addon.core.errors import ShapeError
 from rsibr.rsibr_addon.core.geometry.directions import dot, normalize, reflect
 from rsibr.rsibr_addon.core.geometry.sides import seen_surface
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid import shading
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.atlas import atlas_texels
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import bake_pyramid, width_of
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import Families, principled_radiance
@@ -25,7 +26,6 @@ from rsibr.rsibr_addon.device.kinds.kernel_pyramid import (
     GGX_LOBES,
     SAMPLERS,
     GpuPyramid,
-    atlas_texels,
     family_texels,
 )
 from rsibr.rsibr_addon.files.kinds.kernel_pyramid import shipped_families

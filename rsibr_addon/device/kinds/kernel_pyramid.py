@@ -11,8 +11,9 @@ from ...core.brdf.principled import Surface
 from ...core.conventions import Array
 from ...core.errors import ShapeError
 from ...core.half_floats import half_holds
+from ...core.kinds.kernel_pyramid.atlas import atlas_texels
 from ...core.kinds.kernel_pyramid.look import PrincipledLook
-from ...core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid
+from ...core.kinds.kernel_pyramid.pyramid import Pyramid
 from ...core.kinds.kernel_pyramid.shading import Families
 from ...core.kinds.kernel_pyramid.split_sum import split_families
 from ...core.lobes.family import KERNELS, Family
@@ -185,57 +186,6 @@ def look_fields(look: Surface, antialiased: bool) -> tuple[Array, ...]:
         np.array([look.roughness, look.ior, look.diffuse_roughness]),
         np.array([look.coat_roughness, look.coat_ior, antialiased]),
     )
-
-
-def atlas_texels(pyramid: Pyramid) -> tuple[Array, Array]:
-    """The maps as gpu_shaders/lib/pyramid_lib.glsl reads them.
-
-    Returns
-    -------
-    atlas : ndarray, shape (height, width, 4), float32
-        Alpha is 1; the width is that of the widest map within its border.
-    places : ndarray, shape (1, K + 3, 4), float32
-        Left and lower edge of a map, its width and its height, as shares of the atlas: of each of `KERNELS`,
-        the mirror, and both diffuse ones. What the environment does not resolve is where the mirror is.
-    """
-    sheets = [sheet for sheets in pyramid.all_maps for sheet in sheets]
-    corners, height = _shelves([len(sheet) + 2 for sheet in sheets])
-    atlas = np.ones((height, max(map(len, sheets)) + 2, 4), dtype=np.float32)
-    for sheet, (left, bottom) in zip(sheets, corners, strict=True):
-        size = len(sheet) + 2
-        atlas[bottom : bottom + size, left : left + size, :3] = _bordered(sheet)
-    mirror, *kernels, cosine, leaning = (
-        (left + 1, bottom + 1, len(sheet), len(sheet))
-        for sheet, (left, bottom) in zip(sheets, corners, strict=True)
-    )
-    resolved = dict(zip(pyramid.bank.concentrations, kernels[::-1], strict=True))
-    of_kernels = [resolved.get(kappa, mirror) for kappa in KERNELS.concentrations]
-    places = np.array([[*of_kernels, mirror, cosine, leaning]]) / (2 * atlas.shape[1::-1])
-    return atlas, places.astype(np.float32)
-
-
-def _shelves(widths: list[int]) -> tuple[list[tuple[int, int]], int]:
-    """Corners (left, bottom) of squares in rows as wide as the widest, in turn, and the height of all."""
-    corners, left, bottom, top = [], 0, 0, 0
-    for width in widths:
-        if left + width > max(widths):
-            left, bottom = 0, top
-        corners.append((left, bottom))
-        left, top = left + width, max(top, bottom + width)
-    return corners, top
-
-
-def _bordered(sheet: Array) -> Array:
-    """A map within what continues it on the sphere, shape (n + 2, n + 2, 3)."""
-    size = len(sheet)
-    bordered = np.empty((size + 2, size + 2, 3), sheet.dtype)
-    bordered[1:-1, 1:-1] = sheet
-    along = np.arange(-1, size + 1)
-    for edge in (np.full_like(along, -1), np.full_like(along, size)):
-        for column, row in ((edge, along), (along, edge)):
-            columns, rows, _ = OCTAHEDRAL.wrap(column, row, np.zeros_like(row), size, size)
-            bordered[row + 1, column + 1] = sheet[rows, columns]
-    return bordered
 
 
 def family_texels(family: Family, lobes: int) -> Array:

@@ -133,10 +133,6 @@ class PanoramaEngine(Preset):
     quarters: int
 
 
-Engine = CubeEngine | PanoramaEngine
-"""An engine, by what it takes."""
-
-
 def mips_down_to(size: int, last: int) -> int:
     """Number of mips from faces of `size` texels to faces of `last`; both are powers of 2."""
     return (size // last).bit_length()

@@ -1,7 +1,11 @@
 """The engines that light is written for."""
 
-from . import any_engine, babylon, bevy, filament, gltf, panoramas, three
-from .engine import Engine
+from . import any_engine, babylon, bevy, filament, gltf, lobes, panoramas, three
+from .engine import CubeEngine, PanoramaEngine
+from .lobes import LobesEngine
+
+Engine = CubeEngine | PanoramaEngine | LobesEngine
+"""An engine, by what it takes."""
 
 ENGINES: dict[str, Engine] = {
     "three": three.ENGINE,
@@ -13,5 +17,6 @@ ENGINES: dict[str, Engine] = {
     "unreal": panoramas.UNREAL,
     "godot": panoramas.GODOT,
     "any": any_engine.ENGINE,
+    "lobes": lobes.ENGINE,
 }
 """Name, a word, -> the engine."""

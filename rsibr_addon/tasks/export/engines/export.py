@@ -8,23 +8,31 @@ from ....core.conventions import Array
 from ....core.environment import Environment
 from ....core.errors import OutputFileError, RangeError
 from ....core.filtering.irradiance import turned_harmonics
+from ....core.kinds.kernel_pyramid.bake import bake_pyramid
+from ....core.kinds.kernel_pyramid.pyramid import Pyramid
 from ....core.kinds.mip_chain.ggx import ggx_mips
 from ....core.maps import cube_map
 from ....core.progress import Progress, Steps
 from ....files.atomic import check_target
-from ....files.kinds import environment, mip_chain
+from ....files.kinds import environment, kernel_pyramid, mip_chain
+from ....files.kinds.kernel_pyramid import shipped_families
 from ....files.kinds.registry import STORED
 from ....files.map_set import read_map_set
 from ....files.map_set_data import MapSet
 from ....files.outputs import together
 from ....files.radiance_pictures import write_radiance
 from ....files.version import rsibr
-from .engine import CubeEngine, Engine, EngineLight, PanoramaEngine
-from .engines import ENGINES
-from .settings import CubeSettings, EngineSettings
+from . import lobes
+from .engine import CubeEngine, EngineLight, PanoramaEngine
+from .engines import ENGINES, Engine
+from .lobes import LobesEngine
+from .settings import CubeSettings, EngineSettings, LobesSettings
 
 SIZE = 256
 """Width of the first mip of a picture's cube."""
+
+WIDEST = 512
+"""Width of the sharpest maps of a picture's kernels."""
 
 ROUGHEST = (1.0,)
 """The lobe of this roughness is the cosine over pi, so that its mip is the diffuse light."""
@@ -38,7 +46,8 @@ def export_for_engine(
     Parameters
     ----------
     source : Path
-        A mip chain, whose environment is filtered again by the engine's rule; or a picture of an environment.
+        A mip chain, whose environment is filtered again by the engine's rule; a picture of an environment;
+        or, for lobes, a kernel pyramid.
     output : Path
         Its suffix is one of the engine's.
     name : str
@@ -76,10 +85,23 @@ def export_for_engine(
             filtered = yield from _filtered(light, chosen, size or _size_of(source, held))
             with together():
                 return chosen.writers[output.suffix.lower()](filtered, output, force)
+        case LobesEngine(), LobesSettings(widest=width):
+            pyramid = yield from _pyramid(source, held, light, width)
+            with together():
+                return lobes.write(pyramid, shipped_families(), light.name, output, force)
         case PanoramaEngine(), _:
             moved = np.roll(light.radiance, -engine.quarters * light.radiance.shape[1] // 4, axis=1)
             write_radiance(output, moved, force)
     return [output]
+
+
+def _pyramid(source: Path, held: MapSet, light: Environment, width: int | None) -> Steps[Pyramid]:
+    if held.kind == kernel_pyramid.KIND:
+        if width is not None:
+            raise RangeError(f"{source} has maps of its own widths, which stay: bake it in another size.")
+        return kernel_pyramid.from_map_set(source, held)
+    baked = yield from bake_pyramid(light.radiance, width or WIDEST)
+    return baked.pyramid
 
 
 def _filtered(light: Environment, engine: CubeEngine, size: int) -> Steps[EngineLight]:
@@ -105,7 +127,8 @@ def _read(source: Path, engine: Engine) -> MapSet:
     if environment.is_environment(source):
         return environment.read_as_map_set(source)
     held = read_map_set(source)
-    if held.kind != mip_chain.KIND:
+    is_pyramid = isinstance(engine, LobesEngine) and held.kind == kernel_pyramid.KIND
+    if held.kind != mip_chain.KIND and not is_pyramid:
         of, wanted = (STORED[kind].settings.LABEL for kind in (held.kind, mip_chain.KIND))
         raise RangeError(
             f"{source} is of the kind {of}, which {engine.label} cannot take: give one of the kind {wanted}, "

@@ -35,6 +35,22 @@ class CubeSettings(EngineSettings):
 
 
 @dataclass(frozen=True, kw_only=True)
+class LobesSettings(EngineSettings):
+    """How large maps are."""
+
+    widest: int | None = option(
+        None,
+        label="Widest Map",
+        help="Width of the sharpest maps; those of a kernel pyramid stay as they are",
+        unit="texels",
+        least=32,
+        most=2048,
+        none="512",
+        none_as=0,
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
 class AnySettings(CubeSettings):
     """What an engine that has no preset wants."""
 

@@ -17,10 +17,10 @@ from rsibr.rsibr_addon.core.conventions import Array, texel_centres
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.geometry.geodesic import geodesic_sphere
 from rsibr.rsibr_addon.core.geometry.lit_sphere import lit_spheres
-from rsibr.rsibr_addon.core.kinds.kernel_bank.filtered_bank import FilteredBank
 from rsibr.rsibr_addon.core.kinds.radiance_views.shading import views_fragment
 from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
 from rsibr.rsibr_addon.core.kinds.radiance_views.warping import Warping
+from rsibr.rsibr_addon.core.lobes.captured_light import CapturedLight
 from rsibr.rsibr_addon.core.lobes.captured_texels import captured_texels, seen_functions
 from rsibr.rsibr_addon.core.lobes.captures import fit_captures
 from rsibr.rsibr_addon.core.lobes.fit import Fit
@@ -41,7 +41,7 @@ MATERIALS = {
 }
 """Name -> models of the diffuse and of the glossy part."""
 
-VIEWS, CAPTURED, SIZE, FINER, RINGS = 42, 12, 128, 8, 128
+VIEWS, CAPTURED, SIZE, FINER, RINGS = 42, 12, 128, 8, 256
 ALBEDO_ROWS = 64
 TEXELS, STRIDE = 20000, 5
 ENVIRONMENTS = ("forest", "city")
@@ -88,9 +88,12 @@ def captured(environment: Environment, name: str, folder: Path) -> RadianceViews
     return RadianceViews(*maps, np.stack(albedo).astype(np.float32))
 
 
-def predicted(fit: Fit, light: FilteredBank, views: RadianceViews, texels: int) -> tuple[Array, Array]:
-    """Radiance of texels that were not captured, by the lobes and as it is, shapes (N, 3)."""
-    seen = captured_texels(views, VIEWS, texels)
+def predicted(fit: Fit, light: CapturedLight, views: RadianceViews, texels: int) -> tuple[Array, Array]:
+    """Radiance of texels that were not captured, by the lobes and as it is, shapes (N, 3).
+
+    Both are times the root of how many texels each stands for.
+    """
+    seen = captured_texels(views, VIEWS, texels, light.sun_dir)
     channels = [
         seen_functions(
             seen, light, fit.mu, fit.offsets[:, :, 0, 0].T, np.moveaxis(fit.weights, 0, 1)[..., [channel]]
@@ -98,7 +101,8 @@ def predicted(fit: Fit, light: FilteredBank, views: RadianceViews, texels: int) 
         for channel in range(3)
     ]
     new = seen.view >= CAPTURED
-    return np.stack(channels, axis=-1)[new], (seen.diffuse + seen.glossy)[new]
+    root = np.sqrt(seen.stands_for[new, None])
+    return root * np.stack(channels, axis=-1)[new], root * (seen.diffuse + seen.glossy)[new]
 
 
 def blended(views: RadianceViews, warping: Warping) -> tuple[Array, Array]:

@@ -1,6 +1,8 @@
 #!/bin/bash
-# Measures the table in docs/accuracy.md, in about half an hour of two cores: accuracy.sh FOLDER
+# Measures the table in docs/accuracy.md, in about half an hour of two cores, and that in docs/captured-lobes.md, in
+# another half: accuracy.sh FOLDER
 set -euo pipefail
+bench=$(dirname "$(realpath "$0")")/../.ci/bench_captures.py
 folder=${1:-accuracy}
 mkdir -p "$folder"
 cd "$folder"
@@ -17,3 +19,5 @@ for environment in forest city; do
     measure $environment plastic --size 128 --samples 32 --denoise
     measure $environment car-paint --size 256 --samples 32 --denoise
 done
+
+python "$bench" captures

@@ -39,5 +39,7 @@ class RSIBR_OT_fit_lobes(Stepwise, bpy.types.Operator):
     def finish(self, result: Any) -> None:
         """See `Stepwise`."""
         figures = result.report()
+        left_out = figures.get("left_out")
         error = f", E {figures['E']:.3g}" if "E" in figures else ""
+        error += f", error of views left out {left_out:.2g}" if left_out is not None else ""
         self.report({"INFO"}, f"Fitted {figures['lobes']} lobes{error}")

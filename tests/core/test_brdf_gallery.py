@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.brdf.albedo import directional_albedo
 from rsibr.rsibr_addon.core.brdf.car_paint import PAINTS
-from rsibr.rsibr_addon.core.brdf.gallery import GALLERY
+from rsibr.rsibr_addon.core.brdf.gallery import GALLERY, gallery_name
 from rsibr.rsibr_addon.core.brdf.spec import brdf_from_spec
 
 
@@ -22,3 +22,17 @@ def test_a_model_reflects_some_light_and_no_more_than_all(spec: str) -> None:
 
 def test_all_measured_car_paints_are_there() -> None:
     assert {f"car_paint:name={name}" for name in PAINTS} == set(GALLERY["Car paints"].values())
+
+
+@pytest.mark.parametrize(
+    ("spec", "name"),
+    [
+        ("ggx:alpha=0.3,metal=copper", "Brushed copper"),
+        ("ggx:alpha=0.31,metal=copper", "ggx:alpha=0.31,metal=copper"),
+        ("blend:car-paint", "Car Paint"),
+        ("blend::Velvet: red", "Velvet: red"),
+        ("blend:/tmp/a.blend:Velvet", "Velvet"),
+    ],
+)
+def test_people_read_names(spec: str, name: str) -> None:
+    assert gallery_name(spec) == name

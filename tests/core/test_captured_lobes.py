@@ -50,15 +50,16 @@ def captured(model, radiance: Array) -> Array:
 
 def error_of(fit: Fit, radiance: Array, views: RadianceViews) -> float:
     """Relative error of a fit in the 30 views beyond the first 12."""
-    texels = captured_texels(views, 42, 10000)
+    lit = filtered_light(radiance)
+    texels = captured_texels(views, 42, 10000, lit.sun_dir)
     new, true = texels.view >= 12, texels.diffuse + texels.glossy
     weights, tilts = np.moveaxis(fit.weights, 0, 1), fit.offsets[:, :, 0, 0].T
-    filtered = filtered_light(radiance)
     ours = np.stack(
-        [seen_functions(texels, filtered, fit.mu, tilts, weights[..., [i]])[:, 0, i] for i in range(3)],
+        [seen_functions(texels, lit, fit.mu, tilts, weights[..., [i]])[:, 0, i] for i in range(3)],
         axis=-1,
     )
-    return float(np.sqrt(np.sum((ours - true)[new] ** 2) / np.sum(true[new] ** 2)))
+    counts = texels.stands_for[new, None]
+    return float(np.sqrt(np.sum(counts * (ours - true)[new] ** 2) / np.sum(counts * true[new] ** 2)))
 
 
 def fitted(views: RadianceViews, radiance: Array, count: int) -> CapturedFit:
@@ -124,7 +125,7 @@ def test_a_white_lambert_surface_reflects_all_uniform_light() -> None:
 
 def test_texels_know_what_they_are_the_mean_of() -> None:
     views = RadianceViews(*np.random.default_rng(3).random((2, 12, 16, 16, 3), dtype=np.float32))
-    texels = captured_texels(views, 12, 1000)
+    texels = captured_texels(views, 12, 1000, np.eye(3)[:1])
     np.testing.assert_allclose(texels.means(np.ones(len(texels.mu))), 1.0, rtol=1e-12)
     # The mean normal of a texel lies in it
     mean = texels.means(texels.normal)

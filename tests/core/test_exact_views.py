@@ -5,7 +5,13 @@ import pytest
 from rsibr.rsibr_addon.core.brdf.spec import brdf_from_spec
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.geometry.geodesic import geodesic_sphere
-from rsibr.rsibr_addon.core.kinds.radiance_views.exact import exact_maps, parts_of
+from rsibr.rsibr_addon.core.kinds.radiance_views.exact import (
+    exact_maps,
+    is_resolved,
+    narrowest_alpha,
+    parts_of,
+    ring_count,
+)
 from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.tests.synthetic_views import environment_radiance, lambert_maps
@@ -44,3 +50,20 @@ def test_a_model_is_the_sum_of_its_diffuse_and_its_glossy_part(spec: str, has: t
     directions /= np.linalg.norm(directions, axis=-1, keepdims=True)
     whole = sum(part(*directions) for part in parts if part)
     np.testing.assert_allclose(whole, model(spec)(*directions), rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("spec", "alpha"),
+    [
+        ("lambert:kd=0.5", 1.0),
+        ("layered:coat=(ggx:alpha=0.02,f0=0.04),base=(ward:alpha=0.3,ks=0.5,kd=0.1)", 0.02),
+        ("principled:roughness=0.5,coat_weight=0.5,coat_roughness=0.2", 0.04),
+        ("principled:roughness=0.5", 0.25),
+    ],
+)
+def test_a_narrow_lobe_takes_many_rings_and_fine_light(spec: str, alpha: float) -> None:
+    assert narrowest_alpha(model(spec)) == pytest.approx(alpha)
+    assert ring_count(16, 1024, alpha) == max(64, int(np.ceil(np.pi / alpha)))
+    assert ring_count(16, 100, alpha) <= 100
+    assert is_resolved(alpha, 1024)
+    assert is_resolved(alpha, 64) is (alpha > 0.05)

@@ -14,6 +14,7 @@ from rsibr.rsibr_addon.core.kinds.radiance_views.shading import (
     destination_by_mesh,
     destination_by_texel,
     destination_lookup,
+    source_shares,
     views_fragment,
 )
 from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
@@ -162,6 +163,19 @@ def test_nothing_but_light_shows_in_even_light(warping: Warping) -> None:
         for destination in (destination_by_texel, destination_by_mesh):
             made = destination(views, direction, 7, warping)
             np.testing.assert_allclose(destination_lookup(made, view_dir, direction), 0.75, rtol=1e-14)
+
+
+@WARPING
+def test_what_three_sources_add_is_the_view(warping: Warping) -> None:
+    views = with_random_albedo(random_views(42, 8))
+    for view_dir in NEW_VIEWS:
+        sources, shares = source_shares(views, view_dir, 12, warping)
+        np.testing.assert_array_equal(sources, find_triangle(views.sphere, view_dir))
+        normal = sphere_map.normal_from_uv(texel_centres(12, 12)) @ camera_frame(view_dir).T
+        # Beyond the disk normals are cut off at its rim, where a fragment sees the surface from its side
+        inside = np.linalg.norm(2.0 * texel_centres(12, 12) - 1.0, axis=-1) < 1.0
+        whole = views_fragment(views, normal[inside], np.asarray(view_dir), warping)
+        np.testing.assert_allclose(shares.sum(axis=0)[inside], whole, atol=1e-12)
 
 
 @BY_MAP

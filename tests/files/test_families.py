@@ -6,13 +6,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.brdf.albedo import directional_albedo
+from rsibr.rsibr_addon.core.brdf.cook_torrance import CookTorrance
 from rsibr.rsibr_addon.core.brdf.fresnel import Fresnel, Index, Schlick
 from rsibr.rsibr_addon.core.brdf.fresnel_powers import dielectric, schlick
 from rsibr.rsibr_addon.core.brdf.ggx import Ggx
+from rsibr.rsibr_addon.core.brdf.ward import Ward
 from rsibr.rsibr_addon.core.errors import InputFileError
 from rsibr.rsibr_addon.core.lobes.accuracy import fit_errors
 from rsibr.rsibr_addon.core.lobes.family import Family
-from rsibr.rsibr_addon.core.lobes.family_fit import WIDTHS, fit_ggx
+from rsibr.rsibr_addon.core.lobes.family_fit import WIDTHS, fit_gaussian, fit_ggx
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.families import read_family, shipped_family, write_family
 
@@ -48,6 +50,23 @@ def test_a_few_widths_fitted_anew_are_as_good() -> None:
         for term in (TERMS["white metal"], TERMS["water, 1.33"]):
             # Fewer neighbours smooth the tilts, so they differ a little
             assert error(made, alpha, *term) == pytest.approx(error(family, alpha, *term), rel=0.1)
+
+
+@pytest.mark.slow
+def test_wards_and_beckmanns_lobes_fitted_anew_are_as_good() -> None:
+    family = shipped_family("gaussian")
+    alpha = float(family.alpha[10])
+    made = drain(fit_gaussian(family.alpha[9:11]))
+    models = {
+        (1.0, 0.0, 0.0): Ward(alpha=alpha, ks=1.0),
+        (0.0, 0.04, 0.96): CookTorrance(alpha=alpha, fresnel=Schlick(f0=0.04)),
+    }
+    for coefficients, model in models.items():
+        of_all = np.repeat(np.array(coefficients)[:, None], 3, axis=1)
+        ours, shipped = (fit_errors(each.fit(alpha, of_all, "model"), model).error for each in (made, family))
+        assert shipped < 0.2
+        # Fewer neighbours smooth the tilts, so they differ a little
+        assert ours == pytest.approx(shipped, rel=0.1)
 
 
 def test_albedos_are_sums_of_weights() -> None:

@@ -16,6 +16,7 @@ from rsibr.rsibr_addon.settings.radiance_views import RadianceViewsSettings, Vie
 from rsibr.rsibr_addon.tasks.compare.compare import compare
 from rsibr.rsibr_addon.tasks.methods.bake import bake
 from rsibr.rsibr_addon.tasks.methods.kinds import open_map_set
+from rsibr.rsibr_addon.tasks.report.report import map_set_report
 
 COAT = "layered:coat=(ggx:alpha=0.3,f0=0.04),base=(lambert:kd=0.5/0.1/0.1)"
 QUICK = ViewsComparison(views=6, size=32, modes=(Mode.FRAGMENT,))
@@ -62,3 +63,10 @@ def test_another_model_is_another_truth(capture: Path, tmp_path: Path) -> None:
     other = ViewsComparison(views=2, size=24, modes=(Mode.FRAGMENT,), material="lambert:kd=0.9")
     found = drain(compare(capture, other, tmp_path / "out"))
     assert min(error.pooled for error in found.errors) > 0.3
+
+
+def test_a_report_shows_three_sources_and_their_sum(capture: Path, tmp_path: Path) -> None:
+    page = drain(map_set_report(capture, tmp_path / "report.html")).read_text()
+    assert "How a new view is blended" in page
+    assert page.count(", captured</figcaption>") == page.count("warped and weighted</figcaption>") == 3
+    assert page.count("their sum, the new view</figcaption>") == 1

@@ -1,7 +1,9 @@
 """Reflectance models to choose from, as texts."""
 
 from .car_paint import PAINTS
+from .cycles_presets import preset_title
 from .metals import METALS
+from .spec import MATERIAL
 
 
 def _lacquer(alpha: float, base: str) -> str:
@@ -41,6 +43,11 @@ GALLERY: dict[str, dict[str, str]] = {
 
 
 def gallery_name(spec: str) -> str:
-    """A model's name for people: that in the gallery, or else its text."""
+    """A model's name for people: that in the gallery, that of a material of Blender's, or else its text."""
+    model, _, material = spec.partition(":")
+    if model.strip() == MATERIAL:
+        # FILE.blend:NAME, :NAME, or a preset's
+        name = material.removeprefix(":") if material.startswith(":") else material.partition(".blend:")[2]
+        return name or preset_title(material)
     names = {spec: name for models in GALLERY.values() for name, spec in models.items()}
     return names.get(spec, spec)

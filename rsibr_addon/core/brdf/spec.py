@@ -55,6 +55,9 @@ MODELS: dict[str, type[Brdf]] = {
 MEASURED = ("merl", "cornell", "rgl")
 """Formats of measured models; their only key is path, which takes the rest of the text."""
 
+MATERIAL = "blend"
+"""What a text begins with that stands for a material: ``blend:FILE.blend:NAME``, ``blend:PRESET``."""
+
 DEEPEST = 8
 """Greatest depth of models within models."""
 

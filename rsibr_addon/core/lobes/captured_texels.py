@@ -9,17 +9,21 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..conventions import Array, Indices, texel_centres
 from ..geometry.directions import dot, reflect
-from ..kinds.kernel_bank.filtered_bank import FilteredBank
 from ..kinds.radiance_views.views import RadianceViews
 from ..maps import sphere_map
-from ..resample import texels_around
+from .captured_light import CapturedLight
 from .fit import lobe_axes
 
-ACROSS, ACROSS_AT_RIM = 2, 4
-"""Points along each side of a texel, and of one at the rim, where the mirror direction changes fastest."""
+ACROSS, ACROSS_AT_RIM, ACROSS_AT_SUN = 2, 4, 8
+"""Points along each side of a texel, of one at the rim, where mirror directions change fastest, and of one
+where a sun is mirrored, whose image may be smaller than the texel."""
+
+NEAR_SUN = 2.0
+"""Distance from a sun's mirror image, in texels, within which every texel is taken."""
 
 RIM = 0.9
 """Radius from which texels count as the rim's."""
@@ -41,6 +45,8 @@ class CapturedTexels:
         Number of each texel's first point.
     view : ndarray of int, shape (N,)
         Number of its view.
+    stands_for : ndarray, shape (N,)
+        How many texels of the views each of them stands for.
     diffuse, glossy : ndarray, shape (N, 3)
         Captured radiance.
     """
@@ -50,6 +56,7 @@ class CapturedTexels:
     share: Array
     first: Indices
     view: Indices
+    stands_for: Array
     diffuse: Array
     glossy: Array
 
@@ -66,8 +73,8 @@ class CapturedTexels:
         return means
 
 
-def captured_texels(views: RadianceViews, count: int, texels: int) -> CapturedTexels:
-    """Texels of the first views, evenly spread.
+def captured_texels(views: RadianceViews, count: int, texels: int, suns: Array) -> CapturedTexels:
+    """Texels of the first views: evenly spread ones, and all those in which suns are mirrored.
 
     Parameters
     ----------
@@ -75,24 +82,28 @@ def captured_texels(views: RadianceViews, count: int, texels: int) -> CapturedTe
     count : int
         Number of views.
     texels : int
-        About how many texels of all of them together.
+        About how many texels of all of them together, those of suns aside.
+    suns : ndarray, shape (n, 3)
+        Unit vectors towards suns.
     """
     size = views.size
     centres = texel_centres(size, size).reshape(-1, 2)
     radius = np.linalg.norm(2.0 * centres - 1.0, axis=-1)
-    inside = np.flatnonzero(radius < 1.0)
-    every = np.stack(np.meshgrid(np.arange(count), inside, indexing="ij"), axis=-1).reshape(-1, 2)
-    chosen = np.linspace(0, len(every) - 1, min(texels, len(every))).astype(np.intp)
-    view, texel = every[chosen].T
-    at_rim = radius[texel] >= RIM
-    # Texels of the rim last, as they have more points
-    order = np.argsort(at_rim, kind="stable")
-    view, texel, rims = view[order], texel[order], int(at_rim.sum())
+    near = _near_suns(views, count, suns, centres) & (radius < 1.0)
+    others = np.argwhere(~near & (radius < 1.0))
+    spread = others[np.linspace(0, len(others) - 1, min(texels, len(others))).astype(np.intp)]
+    view, texel = np.concatenate([spread, np.argwhere(near)]).T
+    stands_for = np.where(near[view, texel], 1.0, len(others) / max(len(spread), 1))
+    across = np.where(near[view, texel], ACROSS_AT_SUN, np.where(radius[texel] < RIM, ACROSS, ACROSS_AT_RIM))
+    # Those of as many points one after another
+    order = np.argsort(across, kind="stable")
+    view, texel, stands_for, across = view[order], texel[order], stands_for[order], across[order]
     uv, owner = [], []
-    for part, across in ((slice(len(view) - rims), ACROSS), (slice(len(view) - rims, None), ACROSS_AT_RIM)):
-        offsets = (texel_centres(across, across).reshape(-1, 2) - 0.5) / size
-        uv.append((centres[texel[part]][:, None] + offsets).reshape(-1, 2))
-        owner.append(np.repeat(np.arange(len(view))[part], across**2))
+    for side in np.unique(across):
+        own = np.flatnonzero(across == side)
+        offsets = (texel_centres(side, side).reshape(-1, 2) - 0.5) / size
+        uv.append((centres[texel[own]][:, None] + offsets).reshape(-1, 2))
+        owner.append(np.repeat(own, side**2))
     points, owners = np.concatenate(uv), np.concatenate(owner)
     on_sphere = np.linalg.norm(2.0 * points - 1.0, axis=-1) < 1.0
     points, owners = points[on_sphere], owners[on_sphere]
@@ -103,6 +114,7 @@ def captured_texels(views: RadianceViews, count: int, texels: int) -> CapturedTe
         share=1.0 / np.bincount(owners)[owners],
         first=np.searchsorted(owners, np.arange(len(view))),
         view=view,
+        stands_for=stands_for,
         diffuse=views.diffuse.reshape(len(views.diffuse), -1, 3)[view, texel].astype(np.float64),
         glossy=views.glossy.reshape(len(views.glossy), -1, 3)[view, texel].astype(np.float64),
     )
@@ -132,14 +144,14 @@ class Equations:
         return radiance
 
 
-def equations_of(texels: CapturedTexels, light: FilteredBank, mu: Array, tilts: Array) -> Equations:
+def equations_of(texels: CapturedTexels, light: CapturedLight, mu: Array, tilts: Array) -> Equations:
     """The texels' equations of the weights of all kernels about axes of given tilts.
 
     Parameters
     ----------
     texels : CapturedTexels
-    light : FilteredBank
-        The environment of the captures, filtered with K kernels.
+    light : CapturedLight
+        The environment of the captures.
     mu : ndarray, shape (S,)
         Cosines of the elevations between which tilts and weights are linear.
     tilts : ndarray, shape (S, J)
@@ -157,7 +169,7 @@ def equations_of(texels: CapturedTexels, light: FilteredBank, mu: Array, tilts: 
 
 
 def seen_functions(
-    texels: CapturedTexels, light: FilteredBank, mu: Array, tilts: Array, weights: Array
+    texels: CapturedTexels, light: CapturedLight, mu: Array, tilts: Array, weights: Array
 ) -> Array:
     """What the texels see of functions that are sums of lobes.
 
@@ -183,16 +195,20 @@ def seen_functions(
     return texels.means(seen).astype(np.float64)
 
 
-def _filtered_along(texels: CapturedTexels, light: FilteredBank, mu: Array, tilts: Array) -> Iterator[Array]:
+def _filtered_along(texels: CapturedTexels, light: CapturedLight, mu: Array, tilts: Array) -> Iterator[Array]:
     """The light along the axis of each lobe at the points, shape (M, K * 3), float32."""
-    maps = np.moveaxis(light.maps, 0, -2).astype(np.float32).reshape(-1, 3 * len(light.bank))
     reflect_dir = reflect(texels.view_dir, texels.normal)
     for of_lobe in tilts.T:
         tilt = np.interp(texels.mu, mu, of_lobe)
-        axes = lobe_axes(texels.normal, reflect_dir, np.stack([tilt, np.zeros_like(tilt)], axis=-1))
-        # All kernels' maps at once, as `resample.lookup` takes one
-        columns, rows, sheets, shares = texels_around(axes, light.representation, light.size, light.size)
-        filtered = np.zeros((len(axes), maps.shape[1]), dtype=np.float32)
-        for index, share in zip((sheets * light.size + rows) * light.size + columns, shares, strict=True):
-            filtered += share.astype(np.float32)[:, None] * maps[index]
-        yield filtered
+        yield light.along(
+            lobe_axes(texels.normal, reflect_dir, np.stack([tilt, np.zeros_like(tilt)], axis=-1))
+        )
+
+
+def _near_suns(views: RadianceViews, count: int, suns: Array, centres: Array) -> NDArray[np.bool]:
+    """Which texels of the first views mirror a sun, or are next to one that does, shape (count, texels)."""
+    near = np.zeros((count, len(centres)), dtype=bool)
+    for view, frame in enumerate(views.frames[:count]):
+        for mirrored in sphere_map.uv_from_direction(suns @ frame):
+            near[view] |= np.linalg.norm(centres - mirrored, axis=-1) < NEAR_SUN / views.size
+    return near

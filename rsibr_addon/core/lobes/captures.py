@@ -19,11 +19,11 @@ import numpy as np
 from ..conventions import Array, Indices
 from ..errors import RangeError
 from ..geometry.directions import dot
-from ..kinds.kernel_bank.filtered_bank import FilteredBank
 from ..kinds.radiance_views.views import RadianceViews
 from ..maps.sphere_map import texel_angle
 from ..progress import Progress, Steps
 from .bank import KernelBank
+from .captured_light import CapturedLight
 from .captured_texels import CapturedTexels, Equations, captured_texels, equations_of, seen_functions
 from .family import Family
 from .fit import Fit, joined
@@ -77,14 +77,18 @@ class CapturedFit:
 
 
 def fit_captures(
-    views: RadianceViews, light: FilteredBank, families: Sequence[Family], brdf: str, count: int | None = None
+    views: RadianceViews,
+    light: CapturedLight,
+    families: Sequence[Family],
+    brdf: str,
+    count: int | None = None,
 ) -> Steps[CapturedFit]:
     """Fit lobes to captured views.
 
     Parameters
     ----------
     views : RadianceViews
-    light : FilteredBank
+    light : CapturedLight
         The environment of the captures, filtered with the first kernels of the families.
     families : sequence of Family
         Kinds of glossy reflection, of the same kernels and elevations.
@@ -103,39 +107,42 @@ def fit_captures(
         raise RangeError(
             f"There are only {len(views.diffuse)} views, not {count}: use fewer or capture more."
         )
-    texels = captured_texels(views, count, TEXELS)
-    power = float(np.sum((texels.diffuse + texels.glossy) ** 2))
+    texels = captured_texels(views, count, TEXELS, light.sun_dir)
+    power = _power(texels, texels.diffuse + texels.glossy)
     if not 0.0 < power < np.inf:
         raise RangeError("The captured views are black or not finite: capture the material in light.")
-    few = captured_texels(views, count, SEARCHED)
+    few = captured_texels(views, count, SEARCHED, light.sun_dir)
     thinnest, folds = _THINNEST * texel_angle(views.size), _folds(texels, count)
     fits: list[Fit] = []
     errors: Array = np.zeros_like(texels.glossy)
     widths: tuple[float, ...] = ()
     mu = families[0].mu
-    lambert = lambert_family(mu, light.bank)
+    bank = light.filtered.bank
+    lambert = lambert_family(mu, bank)
     for number, (part, kinds) in enumerate({"diffuse": [lambert], "glossy": families}.items()):
         radiance = getattr(texels, part)
-        if np.sum(radiance**2) <= NEGLIGIBLE * power:
+        if _power(texels, radiance) <= NEGLIGIBLE * power:
             errors += radiance
             continue
         yield Progress(2 * number, 4, f"finding what {part} light is like")
         members = likeness(few, getattr(few, part), light, kinds, thinnest)
         yield Progress(2 * number + 1, 4, f"fitting lobes to {part} light")
         tilts = np.concatenate([each.tilts for each in members], axis=1)
-        weights = _side_by_side([each.weights(light.bank) for each in members])
+        weights = _side_by_side([each.weights(bank) for each in members])
         seen = seen_functions(texels, light, mu, tilts, weights)
-        found = factors(seen, radiance)
-        alike = (weights @ found).reshape(len(mu), -1, 3)
-        rest = radiance - np.einsum("npc,pc->nc", seen, found)
         equations = equations_of(texels, light, mu, tilts)
-        correction, left = _Corrector(equations, light.bank, alike, rest, radiance, folds).best()
-        fits.append(_fit(mu, light.bank, tilts, alike + correction, brdf))
+        fitted, left = _Corrector(equations, bank, weights, seen, texels, radiance, folds).best()
+        fits.append(_fit(mu, bank, tilts, fitted, brdf))
         errors += left
         if part == "glossy":
             widths = tuple(each.alpha for each in members)
-    left_out = float(np.sqrt(np.sum(errors**2) / power)) if count >= FEWEST_VIEWS else None
+    left_out = float(np.sqrt(_power(texels, errors) / power)) if count >= FEWEST_VIEWS else None
     return CapturedFit(replace(joined(fits, brdf), left_out=left_out), widths)
+
+
+def _power(texels: CapturedTexels, values: Array) -> float:
+    """Sum of squares over all texels that the sampled ones stand for."""
+    return float(np.sum(texels.stands_for[:, None] * values**2))
 
 
 def lambert_family(mu: Array, bank: KernelBank) -> Family:
@@ -204,17 +211,20 @@ def _fit(mu: Array, bank: KernelBank, tilts: Array, weights: Array, brdf: str) -
 
 
 class _Corrector:
-    """Least squares for what a likeness leaves.
+    """Factors of a likeness, and least squares for what it leaves.
 
     Parameters
     ----------
     equations : Equations
         Of all its axes.
     bank : KernelBank
-    alike : ndarray, shape (S, M, 3)
-        Weights of the likeness.
-    rest, radiance : ndarray, shape (N, 3)
-        What it leaves of the radiance, and that itself.
+    functions : ndarray, shape (S, J, K, P)
+        Weights of the likeness's functions.
+    seen : ndarray, shape (N, P, 3)
+        What the texels see of them.
+    texels : CapturedTexels
+    radiance : ndarray, shape (N, 3)
+        Part of the captured radiance.
     folds : ndarray of int, shape (N,)
         Group of each texel.
     """
@@ -223,65 +233,99 @@ class _Corrector:
         self,
         equations: Equations,
         bank: KernelBank,
-        alike: Array,
-        rest: Array,
+        functions: Array,
+        seen: Array,
+        texels: CapturedTexels,
         radiance: Array,
         folds: Indices,
     ) -> None:
-        self._equations, self._rest, self._folds = equations, rest, folds
+        self._equations, self._folds, self._radiance = equations, folds, radiance
+        self._functions = functions.reshape(len(functions), -1, functions.shape[-1])
+        self._factors = factors(seen, radiance)
+        self._without = np.stack(
+            [factors(seen[folds != fold], radiance[folds != fold]) for fold in range(folds.max() + 1)]
+        )
+        self._root = np.sqrt(texels.stands_for)
+        # What each texel is left with where its fold had no part in the factors
+        self._rest = radiance - np.einsum("npc,npc->nc", seen, self._without[folds])
+        known = np.concatenate([radiance[:, None], seen, self._rest[:, None]], axis=1)
+        self._systems, rights = self._normal_equations(known)
+        self._rights, self._own = rights[..., :-1], rights[..., -1]
+        self._price = self._prices(bank, np.sum((self._root[:, None] * radiance) ** 2, axis=0))
+
+    def best(self) -> tuple[Array, Array]:
+        """All weights, shape (S, M, 3), and the errors of texels when they are left out, shape (N, 3)."""
+        total, rights = self._systems.sum(), self._rights.sum(axis=0)
+        without = Tridiagonal(total.diagonal[None], total.above[None]) - self._systems
+        left = np.stack(
+            [_rest_of(rights - own, chosen) for own, chosen in zip(self._rights, self._without, strict=True)]
+        )
+        # The highest price is that of no correction
+        tried: list[tuple[float, Array]] = [(np.inf, np.zeros_like(left))]
+        for price in PRICES:
+            tried.append((price, (without + self._priced(price)).solve(left)))
+        gains = [np.sum(self._systems.form(x) - 2.0 * np.sum(x * self._own, axis=(2, 3))) for _, x in tried]
+        errors = np.sum((self._root[:, None] * self._rest) ** 2) + np.array(gains)
+        price, unknowns = tried[int(np.argmax(errors <= TOLERATED**2 * errors.min()))]
+        correction = np.zeros_like(left[0])
+        if np.isfinite(price):
+            correction = (total + self._priced(price)).solve(_rest_of(rights, self._factors))
+        rest = self._rest.copy()
+        for fold, those in enumerate(unknowns):
+            chosen = self._folds == fold
+            rest[chosen] -= self._equations.radiance(chosen, np.moveaxis(those, 0, -1))
+        return self._functions @ self._factors + np.moveaxis(correction, 0, -1), rest
+
+    def _prices(self, bank: KernelBank, captured: Array) -> Tridiagonal:
+        """The price of a correction that costs 1, of captured power in each channel."""
+        alike = self._functions @ self._factors
         slices, size, _ = alike.shape
-        self._systems, self._rights = self._normal_equations(slices, size)
         power = np.kron(np.eye(size // len(bank)), bank.products(np.zeros(()))[0])
         steps = np.diff(np.eye(slices), axis=0)
         along = (np.eye(slices) + EVENNESS * steps.T @ steps) / slices
         own = np.einsum("smc,mn,snc->c", alike, power, alike) / slices
-        unit = np.sum(radiance**2, axis=0) / np.maximum(own, _FAINTEST * own.max())
-        self._price = Tridiagonal(
+        unit = captured / np.maximum(own, _FAINTEST * own.max())
+        return Tridiagonal(
             unit[:, None, None, None] * np.diag(along)[:, None, None] * power,
             unit[:, None, None, None] * np.diag(along, 1)[:, None, None] * power,
         )
 
-    def best(self) -> tuple[Array, Array]:
-        """The correction, shape (S, M, 3), and the errors of texels when they are left out, shape (N, 3)."""
-        total, right = self._systems.sum(), self._rights.sum(axis=0)
-        without = Tridiagonal(total.diagonal[None], total.above[None]) - self._systems
-        # The highest price is that of no correction
-        tried: list[tuple[float, Array]] = [(np.inf, np.zeros_like(self._rights))]
-        for price in PRICES:
-            tried.append((price, (without + self._priced(price)).solve(right - self._rights)))
-        gains = [
-            np.sum(self._systems.form(x) - 2.0 * np.sum(x * self._rights, axis=(2, 3))) for _, x in tried
-        ]
-        errors = np.sum(self._rest**2) + np.array(gains)
-        price, unknowns = tried[int(np.argmax(errors <= TOLERATED**2 * errors.min()))]
-        correction = np.zeros_like(right)
-        if np.isfinite(price):
-            correction = (total + self._priced(price)).solve(right)
-        left = self._rest.copy()
-        for fold, those in enumerate(unknowns):
-            chosen = self._folds == fold
-            left[chosen] -= self._equations.radiance(chosen, np.moveaxis(those, 0, -1))
-        return np.moveaxis(correction, 0, -1), left
-
     def _priced(self, price: float) -> Tridiagonal:
         return Tridiagonal(price * self._price.diagonal, price * self._price.above)
 
-    def _normal_equations(self, slices: int, size: int) -> tuple[Tridiagonal, Array]:
-        """For each fold and channel the matrix and, of shape (F, 3, S, M), the right side."""
+    def _normal_equations(self, known: Array) -> tuple[Tridiagonal, Array]:
+        """For each fold and channel the matrix and, of shape (F, 3, S, M, Q), right sides of (N, Q, 3)."""
+        slices, size, _ = self._functions.shape
         count, below_of = int(self._folds.max()) + 1, self._equations.below
         diagonal = np.zeros((count, 3, slices, size, size))
         above = np.zeros((count, 3, slices - 1, size, size))
-        rights = np.zeros((count, 3, slices, size))
+        rights = np.zeros((count, 3, slices, size, known.shape[1]))
         for fold in range(count):
             for below in range(slices - 1):
                 chosen = (self._folds == fold) & (below_of == below)
-                rows = self._equations.rows[chosen].reshape(-1, 2 * size, 3).astype(np.float64)
+                root = self._root[chosen][:, None, None]
+                rows = root * self._equations.rows[chosen].reshape(-1, 2 * size, 3).astype(np.float64)
+                sides = root * known[chosen]
                 for channel in range(3):
                     of_channel = np.ascontiguousarray(rows[..., channel])
                     product = of_channel.T @ of_channel
                     diagonal[fold, channel, below] += product[:size, :size]
                     diagonal[fold, channel, below + 1] += product[size:, size:]
                     above[fold, channel, below] += product[:size, size:]
-                    right = of_channel.T @ self._rest[chosen, channel]
-                    rights[fold, channel, below : below + 2] += right.reshape(2, size)
+                    right = of_channel.T @ sides[..., channel]
+                    rights[fold, channel, below : below + 2] += right.reshape(2, size, -1)
         return Tridiagonal(diagonal, above), rights
+
+
+def _rest_of(rights: Array, found: Array) -> Array:
+    """Right sides of what a likeness leaves, shape (3, S, M).
+
+    Parameters
+    ----------
+    rights : ndarray, shape (3, S, M, 1 + P)
+        Those of the radiance, and of each function.
+    found : ndarray, shape (P, 3)
+        Factors of the functions.
+    """
+    rest: Array = rights[..., 0] - np.einsum("csmp,pc->csm", rights[..., 1:], found)
+    return rest

@@ -62,11 +62,11 @@ def fit_ggx(widths: Array = WIDTHS, elevations: int = ELEVATIONS, lobes: int = L
     return (yield from fit_family(_ggx, GUIDES, widths, elevation_slices(elevations), lobes))
 
 
-def fit_gaussian(elevations: int = ELEVATIONS, lobes: int = LOBES) -> Steps[Family]:
+def fit_gaussian(
+    widths: Array = WIDTHS[4::2], elevations: int = ELEVATIONS, lobes: int = LOBES
+) -> Steps[Family]:
     """The family of lobes that end sooner than GGX's: Ward's, and Beckmann's times 1 and (1 - cos)^5."""
-    return (
-        yield from fit_family(_gaussian, GAUSSIAN_GUIDES, WIDTHS[4::2], elevation_slices(elevations), lobes)
-    )
+    return (yield from fit_family(_gaussian, GAUSSIAN_GUIDES, widths, elevation_slices(elevations), lobes))
 
 
 def fit_family(

@@ -7,8 +7,8 @@ from functools import partial
 import numpy as np
 
 from ..conventions import Array
-from ..kinds.kernel_bank.filtered_bank import FilteredBank
 from .bank import KernelBank
+from .captured_light import CapturedLight
 from .captured_texels import CapturedTexels, seen_functions
 from .family import Family
 from .nonnegative import nonnegative_inverse
@@ -53,7 +53,7 @@ class Member:
 
 
 def likeness(
-    texels: CapturedTexels, radiance: Array, light: FilteredBank, families: Sequence[Family], thinnest: float
+    texels: CapturedTexels, radiance: Array, light: CapturedLight, families: Sequence[Family], thinnest: float
 ) -> list[Member]:
     """The members of families that are most like a captured radiance.
 
@@ -61,7 +61,7 @@ def likeness(
     ----------
     texels : CapturedTexels
     radiance : ndarray, shape (N, 3)
-    light : FilteredBank
+    light : CapturedLight
     families : sequence of Family
     thinnest : float
         Least alpha.
@@ -78,7 +78,7 @@ def likeness(
         key = id(member.family), member.alpha
         if key not in kept:
             kept[key] = seen_functions(
-                texels, light, member.family.mu, member.tilts, member.weights(light.bank)
+                texels, light, member.family.mu, member.tilts, member.weights(light.filtered.bank)
             )
         return kept[key]
 

@@ -11,7 +11,7 @@ from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.errors import InputFileError
 from ...core.geometry.camera import Camera
-from ...core.kinds.radiance_views.exact import ring_count
+from ...core.kinds.radiance_views.exact import narrowest_alpha, ring_count
 from ...core.kinds.radiance_views.shading import Mode, ViewsLook
 from ...core.kinds.radiance_views.views import RadianceViews
 from ...core.kinds.radiance_views.warping import WarpChoice, Warping
@@ -72,7 +72,7 @@ def draw(
     truth: either.Pictures
     if _by_model(settings):
         model = yield from load_brdf(settings.material or "")
-        rings = ring_count(views.size, len(environment.radiance))
+        rings = ring_count(views.size, len(environment.radiance), narrowest_alpha(model))
         pictures = yield from exact.exact_pictures(model, environment, cameras, mesh, settings.size, rings)
         truth = either.ByModel(pictures)
     else:

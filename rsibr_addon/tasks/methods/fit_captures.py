@@ -2,14 +2,15 @@
 
 import time
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ...core.brdf.spec import is_model
+from ...core.brdf.spec import MATERIAL, is_model
 from ...core.conventions import Array
-from ...core.kinds.kernel_bank.filtered_bank import FilteredBank
 from ...core.lobes.bake import filter_environment, sharpest_resolved
 from ...core.lobes.bank import KernelBank
+from ...core.lobes.captured_light import CapturedLight, captured_light
 from ...core.lobes.captures import CapturedFit, fit_captures
 from ...core.lobes.family import Family
 from ...core.progress import Progress, Steps
@@ -18,7 +19,6 @@ from ...files.families import shipped_family
 from ...files.fits import write_fit
 from ...files.kinds import environment, radiance_views
 from ...files.map_set import read_map_set
-from ..reflectance.brdfs import MATERIAL
 
 FAMILIES = ("ggx", "gaussian")
 """Families of glossy lobes that captures may be like."""
@@ -59,7 +59,7 @@ def shipped_families() -> list[Family]:
     return [shipped_family(name) for name in FAMILIES]
 
 
-def filtered_light(radiance: Array) -> FilteredBank:
+def filtered_light(radiance: Array) -> CapturedLight:
     """An environment as fits to captures take it: filtered with the families' kernels that it resolves.
 
     Raises
@@ -70,7 +70,7 @@ def filtered_light(radiance: Array) -> FilteredBank:
     resolved = sharpest_resolved(len(radiance))
     kernels = shipped_families()[0].bank.concentrations
     bank = KernelBank(tuple(each for each in kernels if each <= resolved))
-    return filter_environment(radiance, bank, LAYOUT, SIZE)
+    return captured_light(radiance, bank, partial(filter_environment, layout=LAYOUT, size=SIZE))
 
 
 def fit_to_captures(

@@ -1,15 +1,33 @@
 """What a kind of map sets is, with Blender."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ...core.environment import Environment
 from ...core.progress import Steps
+from ...core.conventions import Array
 from ...device.drawing import GpuMapSet
 from ...files.map_set_data import MapSet
 from ..compare.truth import Truth
+
+
+@dataclass(frozen=True, eq=False)
+class Figure:
+    """Pictures that explain how a map set is shaded.
+
+    Attributes
+    ----------
+    title, text : str
+        For people.
+    pictures : mapping of str to ndarray
+        Caption -> radiance times coverage, and coverage, shape (size, size, 4); row 0 at the bottom.
+    """
+
+    title: str
+    text: str
+    pictures: Mapping[str, Array]
 
 
 @dataclass(frozen=True)
@@ -33,6 +51,8 @@ class Kind:
         Whether its look has `own`, which asks for an object's own materials, and `antialiased`.
     menu : str
         A menu of Blender that its preview offers beside its look; empty for none.
+    figure : callable or None
+        The content to what a report shows of how it is shaded; None for nothing.
     """
 
     from_map_set: Callable[[Path, MapSet], Any]
@@ -42,3 +62,4 @@ class Kind:
     by_sliders: Callable[[Environment, Any], Steps[tuple[MapSet, Any] | None]] | None = None
     own: bool = False
     menu: str = ""
+    figure: Callable[[Any], Figure] | None = None

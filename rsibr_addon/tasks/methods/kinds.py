@@ -37,6 +37,7 @@ from ..compare import reflection_tables as reflection_tables_truth
 from .kind import Kind
 from .live_materials import LiveFits, LiveMaterials
 from .sliders import pyramid_by_sliders
+from .views_figure import blending
 
 
 def _pyramid(pyramid: Pyramid) -> GpuPyramid:
@@ -45,7 +46,9 @@ def _pyramid(pyramid: Pyramid) -> GpuPyramid:
 
 KINDS: dict[str, Kind] = {
     "kernel_pyramid": Kind(kernel_pyramid.from_map_set, _pyramid, kernel_pyramid_truth.TRUTH, own=True),
-    "radiance_views": Kind(radiance_views.from_map_set, GpuRadianceViews, radiance_views_truth.TRUTH),
+    "radiance_views": Kind(
+        radiance_views.from_map_set, GpuRadianceViews, radiance_views_truth.TRUTH, figure=blending
+    ),
     "lobe_stack": Kind(lobe_stack.from_map_set, GpuLobeStack, lobe_stack_truth.TRUTH),
     "reflection_tables": Kind(
         reflection_tables.from_map_set, GpuReflectionTables, reflection_tables_truth.TRUTH

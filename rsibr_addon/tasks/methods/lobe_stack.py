@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ...core.brdf.gallery import gallery_name
 from ...core.brdf.lambert import Lambert
-from ...core.brdf.spec import MEASURED, brdf_from_spec
+from ...core.brdf.spec import MATERIAL, MEASURED, brdf_from_spec
 from ...core.environment import Environment
 from ...core.filtering.prefilter import BYTES_BESIDES, bytes_needed
 from ...core.lobes.accuracy import fit_errors
@@ -20,7 +20,7 @@ from ...files.kinds.lobe_stack import in_turn
 from ...files.map_set_header import Origin, Recipe
 from ...job import BakeJob
 from ...settings.lobe_stack import LobeStackSettings
-from ..reflectance.brdfs import MATERIAL, is_material, load_brdf, material_of
+from ..reflectance.brdfs import is_material, load_brdf, material_of
 from ..reflectance.fit_lobes import fitted
 from . import method
 from .method import RGB, STORED, Baked, Cost, Method, Sources, cost_in_blender
@@ -42,7 +42,7 @@ def material(settings: LobeStackSettings) -> str:
     """See `Method`."""
     if settings.brdf is None:
         return Path(settings.fit or "").stem
-    named = gallery_name(settings.brdf).removeprefix(f"{MATERIAL}::")
+    named = gallery_name(settings.brdf)
     return named if "path=" not in named else Path(named).stem
 
 

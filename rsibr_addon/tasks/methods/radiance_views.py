@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...core.brdf.gallery import gallery_name
+from ...core.brdf.lambert import Lambert
 from ...core.brdf.spec import brdf_from_spec, is_model
 from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.errors import InputFileError
 from ...core.geometry.geodesic import geodesic_sphere
-from ...core.kinds.radiance_views.exact import bytes_needed, ring_count
+from ...core.kinds.radiance_views.exact import bytes_needed, narrowest_alpha, ring_count
 from ...core.kinds.radiance_views.left_out import LeftOut
 from ...core.options import to_plain
 from ...core.progress import Progress, Steps, drain
@@ -69,9 +70,11 @@ def cost(settings: RadianceViewsSettings) -> Cost:
     texels = settings.views * settings.size**2
     maps = 2 * texels * RGB
     if is_model(settings.material):
-        rings = ring_count(settings.size, ENVIRONMENT_ROWS)
-        integrating = 2.0 * rings * settings.views / TOGETHER + 4e-5 * texels
-        return Cost(integrating, bytes_needed(ENVIRONMENT_ROWS, TOGETHER, settings.size), STORED * maps)
+        alpha = narrowest_alpha(brdf_from_spec(settings.material, lambda name, path: Lambert(kd=0.5)))
+        rings = ring_count(settings.size, ENVIRONMENT_ROWS, alpha)
+        integrating = 0.2 * rings * settings.views / TOGETHER + 4e-5 * texels
+        memory = bytes_needed(ENVIRONMENT_ROWS, TOGETHER, settings.size, alpha)
+        return Cost(integrating, memory, STORED * maps)
     rendering = settings.views * (0.5 + 1.5 * settings.denoise) + 2.5e-6 * texels * settings.samples
     albedo = 4.0
     return cost_in_blender(albedo + rendering, 2 * maps + 8 * ENVIRONMENT_MEMORY, STORED * maps)

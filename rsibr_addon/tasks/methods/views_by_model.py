@@ -10,8 +10,15 @@ from ...core.brdf.model import Brdf
 from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.geometry.geodesic import geodesic_sphere
-from ...core.kinds.radiance_views.exact import bytes_needed, exact_maps, parts_of
+from ...core.kinds.radiance_views.exact import (
+    bytes_needed,
+    exact_maps,
+    is_resolved,
+    narrowest_alpha,
+    parts_of,
+)
 from ...core.progress import Steps
+from ...core.warned import warn
 from ...files.brdfs import brdf_from_spec
 from ...files.memory import check_memory
 from ...settings.radiance_views import RadianceViewsSettings
@@ -43,17 +50,29 @@ class ViewsByModel:
     ------
     RangeError, InputFileError
         See `files.brdfs.brdf_from_spec`.
+
+    Warns
+    -----
+    RsibrWarning
+        Likewise; or the light is too coarse for a lobe.
     """
 
     def __init__(self, settings: RadianceViewsSettings, light: Environment) -> None:
         self._settings, self._radiance = settings, light.radiance
-        self._parts = parts_of(brdf_from_spec(settings.material))
+        brdf = brdf_from_spec(settings.material)
+        self._parts, self._alpha = parts_of(brdf), narrowest_alpha(brdf)
+        height, width = light.radiance.shape[:2]
+        if not is_resolved(self._alpha, height):
+            warn(
+                f"{light.name} is too coarse, at {width}x{height}, for alpha {self._alpha:.2g}: take "
+                f"a larger environment, or have Cycles render the material."
+            )
         self.material = {"spec": settings.material, "name": gallery_name(settings.material)}
 
     def check_memory(self, output: str) -> None:
         """Refuse what does not fit into this machine's memory: see `files.memory.check_memory`."""
         size = self._settings.size
-        check_memory(bytes_needed(len(self._radiance), TOGETHER, size), output, (size, size))
+        check_memory(bytes_needed(len(self._radiance), TOGETHER, size, self._alpha), output, (size, size))
 
     def capture(self, numbers: Sequence[int], keep: KeepView) -> Steps[None]:
         """Integrate some of the views."""

@@ -4,13 +4,11 @@ from functools import partial
 from typing import NoReturn
 
 from ...core.brdf.model import Brdf
+from ...core.brdf.spec import MATERIAL
 from ...core.brdf.spec import brdf_from_spec as spec_without_files
 from ...core.errors import InputFileError
 from ...core.progress import Steps
 from ...files.brdfs import brdf_from_spec
-
-MATERIAL = "blend"
-"""What a text begins with that stands for a material: ``blend:FILE.blend:NAME``, ``blend:PRESET``."""
 
 
 def load_brdf(spec: str) -> Steps[Brdf]:

@@ -5,6 +5,7 @@ import numpy as np
 from ...core.brdf.albedo import directional_albedo as table_albedo
 from ...core.brdf.albedo import warn_of_gain
 from ...core.brdf.measured_material import MeasuredMaterial, measured_material, measured_pairs
+from ...core.brdf.spec import MATERIAL
 from ...core.errors import SceneError
 from ...core.progress import Progress, Steps
 from ...core.warned import warn
@@ -13,7 +14,6 @@ from ...host.goniophotometer import LEAST_COSINE, measure
 from ...host.materials import lasting_spec, load_material
 from ...host.scenes import temporary_scene
 from ...host.shape_dependence import shape_dependence
-from .brdfs import MATERIAL
 
 CHECKED = slice(COSINES // 16, None, COSINES // 16)
 """The furnace's cosines that are checked: closer to grazing, a table's own interpolation would count."""

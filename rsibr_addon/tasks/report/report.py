@@ -25,7 +25,7 @@ from ...files.temporary import temporary_folder
 from ...host.meshes import load_mesh
 from ...host.pictures import save_png
 from ..compare.measured_error import measured_facts
-from ..methods.kinds import open_map_set
+from ..methods.kinds import KINDS, OpenedMapSet, open_map_set
 from ..reflectance.brdfs import load_brdf, told_brdf
 from ..reflectance.fit_plots import ELEVATIONS, lobe_plot
 from .facts import map_set_fit, map_set_header
@@ -71,7 +71,8 @@ def map_set_report(map_set: Path, output: Path, force: bool = False, brdf: str |
     yield Progress(0, 3, f"reading {map_set.name}")
     held = read_map_set(map_set)
     yield Progress(1, 3, "drawing with it")
-    meshes = _drawn_meshes(map_set)
+    opened = open_map_set(map_set)
+    meshes = _drawn_meshes(opened)
     truth = None if brdf is None else (yield from load_brdf(brdf))
     yield Progress(2, 3, "drawing its maps")
     header = map_set_header(map_set)
@@ -84,6 +85,7 @@ def map_set_report(map_set: Path, output: Path, force: bool = False, brdf: str |
         bound=_definitions(told_errors(header) or {"Nothing": "its maker stated no error"}),
         measured=_definitions(measured_facts(map_set) or {"Nothing": "it has not been compared yet"}),
         lobes="\n".join(_lobes(map_set, truth)),
+        figure="\n".join(_figure(opened)),
         facts=_definitions(facts | told_making(header)),
         roles="\n".join(_roles(held)),
     )
@@ -92,9 +94,8 @@ def map_set_report(map_set: Path, output: Path, force: bool = False, brdf: str |
     return output
 
 
-def _drawn_meshes(map_set: Path) -> dict[str, Array]:
+def _drawn_meshes(opened: OpenedMapSet) -> dict[str, Array]:
     """Meshes shaded from the map set; none where nothing can draw them, which a warning tells."""
-    opened = open_map_set(map_set)
     try:
         renderer, look = PreviewRenderer(opened.drawable()), look_types()[opened.kind]()
     except DeviceError as error:
@@ -121,6 +122,20 @@ def _lobes(map_set: Path, truth: Brdf | None) -> list[str]:
     plots = [lobe_plot(fit, truth, mu) for mu in ELEVATIONS]
     images = (_embedded("image/svg+xml", plot.encode("utf-8", "replace"), "lobes") for plot in plots)
     return [LOBES, missing, '<div class="plots">', *images, "</div>"]
+
+
+def _figure(opened: OpenedMapSet) -> list[str]:
+    """How the map set is shaded, where its kind has pictures of that."""
+    make = KINDS[opened.kind].figure
+    if make is None:
+        return []
+    figure = make(opened.content)
+    pictures = [
+        f"<figure>{_image(picture, caption)}<figcaption>{escape(caption)}</figcaption></figure>"
+        for caption, picture in figure.pictures.items()
+    ]
+    text = f'<h2>{escape(figure.title)}</h2><p class="faint">{escape(figure.text)}</p>'
+    return [text, '<div class="maps">', *pictures, "</div>"]
 
 
 def _definitions(facts: Mapping[str, str]) -> str:

@@ -1,11 +1,13 @@
 """Radiance views of a reflectance model, integrated exactly: the second method of [Cabral1999] section 2."""
 
 from collections.abc import Iterator, Sequence
+from math import ceil, pi
 
 import numpy as np
 
-from ...brdf.layered import Sum, is_diffuse
+from ...brdf.layered import Sum, is_diffuse, uncoated
 from ...brdf.model import Brdf
+from ...brdf.principled import Principled
 from ...conventions import Array, texel_centres
 from ...geometry.lit_sphere import LitSphere, lit_spheres
 from ...maps import sphere_map
@@ -15,7 +17,8 @@ ACROSS = 4
 """Points along each side of a texel, whose mean it is."""
 
 LEAST_RINGS = 64
-"""Fewest rings of points: else two for each row of texels, and one at most for each row of the light."""
+"""Fewest rings of points: else two for each row of texels, or across a lobe's width, and one at most for each
+row of the light."""
 
 
 def parts_of(brdf: Brdf) -> tuple[Brdf | None, Brdf | None]:
@@ -45,19 +48,45 @@ def exact_maps(brdf: Brdf, radiance: Array, view_dirs: Sequence[Array], size: in
     list of ndarray, shape (size, size, 3), float32
         For each view; the corners repeat the rim.
     """
-    spheres = yield from lit_spheres(brdf, radiance, view_dirs, ring_count(size, len(radiance)))
+    rings = ring_count(size, len(radiance), narrowest_alpha(brdf))
+    spheres = yield from lit_spheres(brdf, radiance, view_dirs, rings)
     return [_mean_map(sphere, size) for sphere in spheres]
 
 
-def bytes_needed(height: int, views: int, size: int) -> float:
+def bytes_needed(height: int, views: int, size: int, alpha: float) -> float:
     """Memory that `exact_maps` takes in light of so many rows."""
-    spectra, spheres = 16.0 * 3 * height * (height + 1), 24.0 * 2 * height * ring_count(size, height)
+    spectra, spheres = 16.0 * 3 * height * (height + 1), 24.0 * 2 * height * ring_count(size, height, alpha)
     return 3.0 * views * (spectra + spheres)
 
 
-def ring_count(size: int, height: int) -> int:
-    """How many rings of points are integrated for a map of a size in light of so many rows."""
-    return max(LEAST_RINGS, min(2 * size, height))
+def ring_count(size: int, height: int, alpha: float) -> int:
+    """How many rings of points are integrated.
+
+    Parameters
+    ----------
+    size : int
+        Of the map.
+    height : int
+        Rows of the light.
+    alpha : float
+        Width of the narrowest lobe, in normals.
+    """
+    return max(LEAST_RINGS, min(max(2 * size, ceil(pi / alpha)), height))
+
+
+def narrowest_alpha(brdf: Brdf) -> float:
+    """Width of the narrowest lobe of a model that states one; 1 where none does."""
+    widths = [1.0]
+    for layer in map(uncoated, brdf.layers):
+        widths.append(getattr(layer, "alpha", 1.0))
+        if isinstance(layer, Principled):
+            widths += [layer.roughness**2, layer.coat_roughness**2 if np.any(layer.coat_weight) else 1.0]
+    return max(min(widths), 1e-4)
+
+
+def is_resolved(alpha: float, height: int) -> bool:
+    """Whether the sum over texels of light of so many rows is good for a lobe, two texels wide at least."""
+    return alpha >= pi / height
 
 
 def _mean_map(sphere: LitSphere, size: int) -> Array:

@@ -121,6 +121,40 @@ def views_fragment(
     return _coloured(albedo_table(views.albedo, warping), seen, view_dir, by_normal, by_mirror)
 
 
+def source_shares(
+    views: RadianceViews, view_dir: ArrayLike, size: int, warping: Warping
+) -> tuple[Indices, Array]:
+    """The sphere map of one view, source by source: Figure 4 of [Cabral1999].
+
+    Parameters
+    ----------
+    views : RadianceViews
+    view_dir : array_like, shape (3,)
+        Unit vector from the object to the eye.
+    size : int
+        Width and height of the map in texels.
+    warping : Warping
+
+    Returns
+    -------
+    sources : ndarray of int, shape (3,)
+        Numbers of the views that are blended.
+    shares : ndarray, shape (3, size, size, 3)
+        Each of them warped and weighted; their sum is what `views_fragment` shows.
+    """
+    frame = camera_frame(view_dir)
+    normal = sphere_map.normal_from_uv(texel_centres(size, size)) @ frame.T
+    sources = find_triangle(views.sphere, frame[:, 2])
+    weights = barycentric_weights(frame[:, 2], views.sphere.vertices[sources])
+    table = albedo_table(views.albedo, warping)
+    shares = np.zeros((*normal.shape[:-1], 3, 3))
+    for warp, maps in carried(views.diffuse, views.glossy, warping).items():
+        seen = _seen(views, warp, normal, frame[:, 2], sources)
+        own = albedo_at(table, warp, dot(normal, frame[:, 2]))
+        shares += own[..., None, :] * _weighted(maps, warp, table, sources, seen, weights)
+    return sources, np.moveaxis(shares, -2, 0)
+
+
 def destination_by_texel(
     views: RadianceViews, view_dir: ArrayLike, size: int, warping: Warping
 ) -> Destination:
@@ -248,13 +282,19 @@ def _seen(views: RadianceViews, warp: Warp, normal: Array, view_dir: Array, sour
 
 def _blend(maps: Array, warp: Warp, table: Array, sources: Indices, seen: Array, weights: Array) -> Array:
     """The sources' radiance over their albedo, each looked up at its own place, weighted and summed."""
+    blended: Array = _weighted(maps, warp, table, sources, seen, weights).sum(axis=-2)
+    return blended
+
+
+def _weighted(maps: Array, warp: Warp, table: Array, sources: Indices, seen: Array, weights: Array) -> Array:
+    """What each of the three sources adds, shape (..., 3, 3)."""
     cosine = seen[..., 2]
     # Weights times confidences, scaled to sum 1: [Cabral1999] section 4 divides by the accumulated sum.
     shares = weights * confidence(cosine)
     shares = shares / shares.sum(axis=-1, keepdims=True)
     radiance = bilinear(maps, seen[..., :2], sphere_map.wrap, layer=sources)
-    blended: Array = np.sum(shares[..., None] * radiance / albedo_at(table, warp, cosine), axis=-2)
-    return blended
+    weighted: Array = shares[..., None] * radiance / albedo_at(table, warp, cosine)
+    return weighted
 
 
 def _coloured(table: Array, seen: Seen, view_dir: Array, by_normal: Array, by_mirror: Array) -> Array:

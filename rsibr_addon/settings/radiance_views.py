@@ -109,5 +109,5 @@ class ViewsComparison(ComparisonOptions):
         label="Material",
         help="The material that was captured, where it is in a file",
         none="what the map set names",
-        metavar="PRESET|FILE.blend:NAME",
+        metavar="PRESET|FILE.blend:NAME|MODEL",
     )

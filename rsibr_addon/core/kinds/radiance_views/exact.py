@@ -1,6 +1,6 @@
 """Radiance views of a reflectance model, integrated exactly: the second method of [Cabral1999] section 2."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from math import ceil, pi
 
 import numpy as np
@@ -13,8 +13,14 @@ from ...geometry.lit_sphere import LitSphere, lit_spheres
 from ...maps import sphere_map
 from ...progress import Steps
 
-ACROSS = 4
-"""Points along each side of a texel, whose mean it is."""
+ACROSS, ACROSS_AT_RIM = 4, 16
+"""Points along each side of a texel, whose mean it is, and of one at the rim, which shows many directions."""
+
+RIM = 0.9
+"""Radius from which texels count as the rim's."""
+
+AT_ONCE = 1 << 16
+"""Points that are looked up at a time, about."""
 
 LEAST_RINGS = 64
 """Fewest rings of points: else two for each row of texels, or across a lobe's width, and one at most for each
@@ -90,14 +96,16 @@ def is_resolved(alpha: float, height: int) -> bool:
 
 
 def _mean_map(sphere: LitSphere, size: int) -> Array:
-    rows = list(_mean_rows(sphere, size))
-    return sphere_map.fill_rim(np.stack([row for row, _ in rows]), np.stack([share for _, share in rows]))
-
-
-def _mean_rows(sphere: LitSphere, size: int) -> Iterator[tuple[Array, Array]]:
-    """Of each row of texels the radiance times coverage, and the coverage."""
-    points = texel_centres(ACROSS * size, ACROSS * size).reshape(size, ACROSS, size, ACROSS, 2)
-    for row in points:
-        covered = np.linalg.norm(2.0 * row - 1.0, axis=-1) < 1.0
-        seen = sphere.at(sphere_map.normal_from_uv(row) @ sphere.frame.T)
-        yield (seen * covered[..., None]).mean(axis=(0, 2)), covered.mean(axis=(0, 2))
+    centres = texel_centres(size, size).reshape(-1, 2)
+    radius = np.linalg.norm(2.0 * centres - 1.0, axis=-1)
+    radiance, coverage = np.zeros((size * size, 3)), np.zeros(size * size)
+    for across, chosen in ((ACROSS, radius < RIM), (ACROSS_AT_RIM, radius >= RIM)):
+        offsets = (texel_centres(across, across).reshape(-1, 2) - 0.5) / size
+        texels = np.flatnonzero(chosen & (radius < 1.0 + 2.0 / size))
+        for some in np.array_split(texels, 1 + len(texels) * across**2 // AT_ONCE):
+            points = centres[some][:, None] + offsets
+            covered = np.linalg.norm(2.0 * points - 1.0, axis=-1) < 1.0
+            seen = sphere.at(sphere_map.normal_from_uv(points) @ sphere.frame.T)
+            radiance[some] = (seen * covered[..., None]).mean(axis=1)
+            coverage[some] = covered.mean(axis=1)
+    return sphere_map.fill_rim(radiance.reshape(size, size, 3), coverage.reshape(size, size))

@@ -19,6 +19,7 @@ from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.kinds.lobe_stack import GpuLobeStack
 from rsibr.rsibr_addon.files.fits import read_fit
+from rsibr.rsibr_addon.files.map_set import read_map_set_header
 from rsibr.rsibr_addon.host.meshes import load_mesh
 from rsibr.rsibr_addon.host.pictures import save_png
 from rsibr.rsibr_addon.job import BakeJob
@@ -102,7 +103,8 @@ def main() -> None:
         true = drain(rendered(Captured(spec, light, None), cameras, _Samples()))
         way = StackWay(len(stack.maps), len(stack.mu), 1)
         found = error_beyond_noise(way, ours, true)
-        lines.append(f"| {name} | {found.pooled:.1%} | {found.worst:.1%} | {noise_of(true):.1%} |")
+        pooled = f"{found.pooled:.1%}" if found.pooled else "less than its noise tells"
+        lines.append(f"| {name} | {pooled} | {found.worst:.1%} | {noise_of(true):.1%} |")
         print(lines[-1], flush=True)
         worst = int(
             np.argmax([error_beyond_noise(way, [o], [t]).pooled for o, t in zip(ours, true, strict=True)])
@@ -111,7 +113,11 @@ def main() -> None:
         scale = 0.35 / np.sqrt(np.mean(reference[..., :3] ** 2))
         shown = [each * np.array([scale, scale, scale, 1.0]) for each in (reference, ours[worst])]
         sheet += [*shown, difference_picture(shown[1], shown[0], 0.1)]
-    lines.append(f"\nThe fit states {stated:.1%} for views of its own light that were left out.")
+    noise = read_map_set_header(capture)["error_bound"]["relative_noise"]
+    lines.append(
+        f"\nThe fit states {stated:.1%} for views of its own light that were left out; the capture's own noise "
+        f"is {noise:.0%}."
+    )
     save_png(PICTURE, contact_sheet(sheet, 3))
     write_table("captured-lobes.md", "relit", "\n".join(lines))
 

@@ -1,8 +1,8 @@
 #!/bin/bash
-# Measures the table in docs/accuracy.md, in about half an hour of two cores, and that in docs/captured-lobes.md, in
+# Measures the table in docs/accuracy.md, in about half an hour of two cores, and those in docs/captured-lobes.md, in
 # another half: accuracy.sh FOLDER
 set -euo pipefail
-bench=$(dirname "$(realpath "$0")")/../.ci/bench_captures.py
+ci=$(dirname "$(realpath "$0")")/../.ci
 folder=${1:-accuracy}
 mkdir -p "$folder"
 cd "$folder"
@@ -20,4 +20,5 @@ for environment in forest city; do
     measure $environment car-paint --size 256 --samples 32 --denoise
 done
 
-python "$bench" captures
+python "$ci/bench_captures.py" captures
+python "$ci/bench_relit.py" relit

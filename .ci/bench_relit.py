@@ -115,7 +115,7 @@ def main() -> None:
         sheet += [*shown, difference_picture(shown[1], shown[0], 0.1)]
     noise = read_map_set_header(capture)["error_bound"]["relative_noise"]
     lines.append(
-        f"\nThe fit states {stated:.1%} for views of its own light that were left out; the capture's own noise "
+        f"\nThe fit states {stated:.1%} for views of its own light that were left out; the capture's noise "
         f"is {noise:.0%}."
     )
     save_png(PICTURE, contact_sheet(sheet, 3))

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.progress import Steps
-from ...core.conventions import Array
 from ...device.drawing import GpuMapSet
 from ...files.map_set_data import MapSet
 from ..compare.truth import Truth

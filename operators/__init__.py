@@ -15,7 +15,9 @@ from .cancel_bake import RSIBR_OT_cancel_bake
 from .capture_environment import RSIBR_OT_capture_environment
 from .compare import RSIBR_OT_compare
 from .convert_light import RSIBR_OT_convert_light
+from .discard_paint import RSIBR_OT_discard_paint
 from .drag_split import RSIBR_OT_drag_split
+from .edit_as_images import RSIBR_OT_edit_as_images
 from .fit_lobes import RSIBR_OT_fit_lobes
 from .lift_painting import RSIBR_OT_lift_painting
 from .merge_brackets import RSIBR_OT_merge_brackets
@@ -25,6 +27,7 @@ from .pack import RSIBR_OT_pack
 from .preview_scene import RSIBR_OT_preview_scene
 from .rebake import RSIBR_OT_rebake
 from .reload_map_sets import RSIBR_OT_reload_map_sets
+from .save_back import RSIBR_OT_save_back
 from .send_to_farm import RSIBR_OT_send_to_farm
 from .unpack import RSIBR_OT_unpack
 from .unwrap_ball import RSIBR_OT_unwrap_ball
@@ -53,6 +56,9 @@ CLASSES: tuple[type, ...] = (
     RSIBR_OT_accept,
     RSIBR_OT_pack,
     RSIBR_OT_unpack,
+    RSIBR_OT_edit_as_images,
+    RSIBR_OT_save_back,
+    RSIBR_OT_discard_paint,
     RSIBR_OT_open_report,
     RSIBR_OT_open_comparison,
     *export.CLASSES,

@@ -11,6 +11,7 @@ import bpy
 from ..rsibr_addon.core.options import declared_options
 from ..rsibr_addon.core.progress import Steps, drain
 from ..rsibr_addon.files.kinds.registry import look_types
+from ..rsibr_addon.files.output_paths import bare_name
 from ..rsibr_addon.host.map_sets import planned_path, written_path
 from ..rsibr_addon.host.meshes import mesh_of_objects
 from ..rsibr_addon.host.option_properties import options_of, properties_of
@@ -56,7 +57,7 @@ class _Export:
 
     def invoke(self: Any, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Ask for the file."""
-        name = Path(planned_path(context.object.rsibr)).name.removesuffix(".exr").removesuffix(".rsibr")
+        name = bare_name(Path(planned_path(context.object.rsibr)))
         self.filepath = f"{name}{self.ending()}"
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}

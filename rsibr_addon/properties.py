@@ -67,6 +67,14 @@ class RSIBR_PG_live(bpy.types.PropertyGroup):
     )
 
 
+class RSIBR_PG_painted(bpy.types.PropertyGroup):
+    """A map that is being painted; its name is that of the map set's part."""
+
+    image = bpy.props.PointerProperty(
+        type=bpy.types.Image, name="Image", description="What is painted in place of the map", update=_notice
+    )
+
+
 @_with_looks
 class RSIBR_PG_looks(bpy.types.PropertyGroup):
     """How an object is shaded, for each kind of map set."""
@@ -94,6 +102,7 @@ class RSIBR_PG_preview(bpy.types.PropertyGroup):
         get=chosen_path,
         set=use_map_set,
     )
+    painted = bpy.props.CollectionProperty(type=RSIBR_PG_painted)
     show = bpy.props.BoolProperty(
         name="Show", description="Shade the object from its map set", update=_notice, default=True
     )
@@ -155,6 +164,7 @@ class RSIBR_PG_view(bpy.types.PropertyGroup):
 CLASSES = (
     *LOOK_GROUPS.values(),
     RSIBR_PG_live,
+    RSIBR_PG_painted,
     RSIBR_PG_looks,
     RSIBR_PG_preview,
     RSIBR_PG_view,

@@ -17,6 +17,7 @@ def register() -> None:
     from .host.handlers import add_handlers
     from .host.map_sets import unpacked
     from .host.overrides import complete_overrides
+    from .host.painted import keep_paint, painted_files
     from .session.running import begun_session
     from .ui import (
         bake_properties,
@@ -40,7 +41,9 @@ def register() -> None:
             setattr(owner, name, pointer)
             undo.callback(delattr, owner, name)
         add_handlers(dict.fromkeys(("load_post", "blend_import_post", "save_pre"), complete_overrides), undo)
+        add_handlers({"save_pre": keep_paint}, undo)
         undo.callback(unpacked.remove)
+        undo.callback(painted_files.remove)
         viewport_handlers.start(undo)
         render_engine.start(undo)
         render_panel.start(undo)

@@ -41,7 +41,7 @@ def told_errors(header: dict[str, Any]) -> dict[str, str]:
 
 
 def told_making(header: dict[str, Any]) -> dict[str, str]:
-    """The environment, material, settings and software of the bake."""
+    """The environment, material, settings and software of the bake, and what was painted since."""
     environment = header["environment"]
     clamped = f", clamped to {environment['clamp']:g}" if "clamp" in environment else ""
     return {
@@ -49,6 +49,7 @@ def told_making(header: dict[str, Any]) -> dict[str, str]:
         "Layout": in_words(header["layout"]),
         "Axes": header["axes"],
         **_settings(header),
+        **({"Painted": ", ".join(header["painted"]["parts"]) or "nothing"} if "painted" in header else {}),
         "Made by": header["software"],
     }
 

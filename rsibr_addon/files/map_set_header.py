@@ -108,6 +108,21 @@ class Recipe(TypedDict):
     software: str
 
 
+class Painted(TypedDict):
+    """Of what a map set was painted.
+
+    Attributes
+    ----------
+    of : str
+        Content hash of the map set that was there before.
+    parts : list of str
+        The parts that differ.
+    """
+
+    of: Hash
+    parts: Annotated[list[Name], length(0, MOST_PARTS)]
+
+
 class Header(TypedDict):
     """The description that all kinds of map sets share."""
 
@@ -121,6 +136,7 @@ class Header(TypedDict):
     settings: dict[str, Any]
     software: str
     recipe: NotRequired[Recipe]
+    painted: NotRequired[Painted]
 
 
 def role_in_words(part: dict[str, Any]) -> str:
@@ -146,6 +162,8 @@ class StoredKind:
         Role -> schema of a part's fields beyond name, role, size and hash; parts of other roles have none.
     numbers : tuple of str
         Roles of parts that are small tables of numbers, which a picture would not explain.
+    painted : tuple of str
+        Roles of parts that people may paint.
     problems : callable
         From a description with all fields to the contradictions in it.
     facts : callable
@@ -166,6 +184,7 @@ class StoredKind:
     material: Any = Material
     roles: Mapping[str, Any] = field(default_factory=dict)
     numbers: tuple[str, ...] = ()
+    painted: tuple[str, ...] = ()
     problems: Callable[[dict[str, Any]], Iterator[str]] = lambda header: iter(())
     facts: Callable[[dict[str, Any]], dict[str, str]] = lambda header: {}
     part_title: Callable[[dict[str, Any]], str] = role_in_words

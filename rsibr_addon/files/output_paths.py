@@ -5,12 +5,12 @@ from pathlib import Path
 
 def report_beside(map_set: Path) -> Path:
     """The default path of a map set's report: NAME.html beside NAME.rsibr.exr."""
-    return map_set.with_name(f"{_name(map_set)}.html")
+    return map_set.with_name(f"{bare_name(map_set)}.html")
 
 
 def comparison_beside(map_set: Path) -> Path:
     """The folder of the panel's comparison of a map set: NAME-compared beside NAME.rsibr.exr."""
-    return map_set.with_name(f"{_name(map_set)}-compared")
+    return map_set.with_name(f"{bare_name(map_set)}-compared")
 
 
 def comparison_page(map_set: Path) -> Path:
@@ -18,5 +18,6 @@ def comparison_page(map_set: Path) -> Path:
     return comparison_beside(map_set) / "index.html"
 
 
-def _name(map_set: Path) -> str:
+def bare_name(map_set: Path) -> str:
+    """The name of a map set's file without .rsibr.exr."""
     return map_set.name.removesuffix(".exr").removesuffix(".rsibr")

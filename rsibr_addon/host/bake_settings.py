@@ -10,7 +10,7 @@ import bpy
 from ..core.errors import InputFileError, OutputFileError, SceneError
 from ..files.pictures import split_layer
 from .installation import studio_environments
-from .map_sets import Settings, chosen_path, stored_path, use_file, written_path
+from .map_sets import Settings, chosen_path, stored_path, use_file, written_file
 from .materials import check_saved, surface_output
 from .worlds import world_of
 
@@ -82,7 +82,7 @@ def chosen_environment(chosen: LightSettings, scene: bpy.types.Scene) -> str | N
         case "STUDIO":
             return str(studio_environments()[chosen.studio])
         case _:
-            picture = chosen.picture and str(written_path(chosen))
+            picture = chosen.picture and str(written_file(chosen))
             file = existing(picture, "environment", "a latitude-longitude picture")
             return f"{file}:{chosen.layer}" if chosen.layer else file
 

@@ -16,6 +16,7 @@ from ..files.atomic import written_aside
 from ..files.map_set import read_map_set_header
 from ..files.map_set_header import content_hash
 from ..files.read_once import read_once
+from .painted import PaintedSettings, painted_files
 
 
 class Settings(Protocol):
@@ -24,11 +25,10 @@ class Settings(Protocol):
     image: Any  # A bpy.types.Image or None
 
 
-class PreviewSettings(Settings, Protocol):
+class PreviewSettings(Settings, PaintedSettings, Protocol):
     """`properties.RSIBR_PG_preview`."""
 
     content: str
-    id_data: Any
 
 
 class UnpackedFiles:
@@ -102,14 +102,15 @@ def use_file(settings: Settings, path: str) -> None:
 
 
 def use_map_set(settings: PreviewSettings, path: str) -> None:
-    """Shade an object from a file, as `use_file`, and remember the file's content."""
+    """Shade an object from a file, as `use_file`, and remember the file's content; nothing is painted now."""
+    settings.painted.clear()
     use_file(settings, path)
     remember_content(settings)
 
 
 def remember_content(settings: PreviewSettings) -> None:
     """Remember what an object's map set holds, and forget the settings of another's bake."""
-    path, before = planned_path(settings), settings.content
+    path, before = planned_file(settings), settings.content
     try:
         settings.content = _content_of(Path(path)) if path else ""
     except MapSetError:
@@ -124,10 +125,10 @@ def _content_of(path: Path) -> str:
     return content_hash(read_map_set_header(path))
 
 
-def planned_path(settings: Settings) -> str:
+def planned_file(settings: Settings) -> str:
     """The absolute path of the file; empty if there is none.
 
-    For a packed file it is a file of our own, which `written_path` writes.
+    For a packed file it is a file of our own, which `written_file` writes.
     """
     image = settings.image
     if image is None:
@@ -138,7 +139,7 @@ def planned_path(settings: Settings) -> str:
     return _absolute(image)
 
 
-def written_path(settings: Settings) -> Path:
+def written_file(settings: Settings) -> Path:
     """The same, ready to be read: a packed file is written out.
 
     Raises
@@ -147,7 +148,27 @@ def written_path(settings: Settings) -> Path:
         It is packed, and the disk is full.
     """
     image = settings.image
-    return unpacked.write(image) if image and image.packed_file else Path(planned_path(settings))
+    return unpacked.write(image) if image and image.packed_file else Path(planned_file(settings))
+
+
+def planned_path(settings: PreviewSettings) -> str:
+    """The absolute path of what shades an object: `planned_file`, or, while it is painted, one of our own."""
+    file = planned_file(settings)
+    return str(painted_files.path(settings, file)) if file and settings.painted else file
+
+
+def written_path(settings: PreviewSettings) -> Path:
+    """The same, ready to be read.
+
+    Raises
+    ------
+    OutputFileError
+        See `written_file`.
+    MapSetError, ShapeError, RangeError, OutputFileError
+        See `painted.PaintedFiles.write`.
+    """
+    file = written_file(settings)
+    return painted_files.write(settings, file) if settings.painted and settings.image else file
 
 
 def is_packed(settings: Settings) -> bool:
@@ -167,7 +188,7 @@ def pack(settings: Settings) -> None:
         settings.image.pack()
     except RuntimeError as error:
         raise OutputFileError(
-            f"{planned_path(settings)} cannot be packed ({error}): keep it beside the .blend."
+            f"{planned_file(settings)} cannot be packed ({error}): keep it beside the .blend."
         ) from error
 
 

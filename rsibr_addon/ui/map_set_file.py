@@ -1,9 +1,11 @@
 """The file that the active object is shaded from: whether it is packed, gone or another; and what to do."""
 
 from pathlib import Path
+from typing import Any
 
 import bpy
 
+from ..files.kinds.registry import STORED
 from ..host.map_sets import is_packed
 from ..tasks.queue.bake_request import plain_name
 from ..tasks.report.facts import map_set_content
@@ -29,6 +31,28 @@ def draw_file(layout: bpy.types.UILayout, item: bpy.types.Object, path: Path) ->
         row.operator("rsibr.pack", text="", icon="UGLYPACKAGE")
 
 
+def draw_painting(layout: bpy.types.UILayout, item: bpy.types.Object, header: dict[str, Any]) -> None:
+    """Offer to paint an object's tables; or show what is painted, and the buttons that end it.
+
+    Parameters
+    ----------
+    layout : bpy.types.UILayout
+    item : bpy.types.Object
+    header : dict
+        The description of its map set.
+    """
+    if not item.rsibr.painted:
+        if STORED[header["kind"]].painted:
+            layout.operator("rsibr.edit_as_images", icon="BRUSHES_ALL")
+        return
+    column = layout.column(align=True)
+    for each in item.rsibr.painted:
+        column.prop(each, "image", text=each.name.capitalize())
+    row = layout.row(align=True)
+    row.operator("rsibr.save_back", icon="FILE_TICK")
+    row.operator("rsibr.discard_paint", icon="X")
+
+
 def draw_change(layout: bpy.types.UILayout, item: bpy.types.Object, path: Path, width: int) -> None:
     """Show whether an object's map set holds something else than when it was chosen, and what helps.
 
@@ -41,7 +65,7 @@ def draw_change(layout: bpy.types.UILayout, item: bpy.types.Object, path: Path, 
     width : int
         Width of the region in pixels.
     """
-    if item.rsibr.content and item.rsibr.content != map_set_content(path):
+    if item.rsibr.content and not item.rsibr.painted and item.rsibr.content != map_set_content(path):
         tell(
             layout,
             f"{path.name} holds something else than when it was chosen: accept that, find the file "

@@ -13,7 +13,7 @@ from ..session.running import session
 from ..tasks.compare.measured_error import measured_facts
 from ..tasks.report.facts import is_picture, map_set_facts, map_set_fit, map_set_header
 from .bakes import draw_progress
-from .map_set_file import draw_file
+from .map_set_file import draw_file, draw_painting
 from .sentences import tell
 from .sidebar import InSidebar
 
@@ -43,12 +43,14 @@ class RSIBR_PT_result(InSidebar, bpy.types.Panel):
         try:
             path = written_path(item.rsibr)
             facts = map_set_facts(path)
-            kind = map_set_header(path)["kind"]
+            header = map_set_header(path)
+            kind = header["kind"]
             measured = measured_facts(path, options_of(look_types()[kind], getattr(item.rsibr, kind)))
         except RsibrError as error:
             tell(layout, str(error), context.region.width)
             return
         draw_file(layout, item, path)
+        draw_painting(layout, item, header)
         column = layout.column(align=True)
         for what, which in {**facts, **measured}.items():
             row = column.split(factor=0.4)

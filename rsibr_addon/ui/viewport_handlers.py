@@ -11,6 +11,7 @@ from bpy.app.handlers import persistent
 from ..device.shaders import release_programs
 from ..host.handlers import add_handlers
 from ..host.materials import materials_changed
+from ..host.painted import painted_files
 from ..host.sidebars import redraw_viewports
 from ..host.visible_surfaces import RENDER_ENGINE, current_view, shown_layers
 from ..session.running import Session, session
@@ -155,6 +156,7 @@ def _stop_timers() -> None:
 @_guarded
 def _scene_changed(running: Session, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     if depsgraph.mode == "VIEWPORT":  # A render evaluates scenes too, in a thread of its own.
+        painted_files.changed(each.id for each in depsgraph.updates if isinstance(each.id, bpy.types.Image))
         running.previews.scene_changed(materials_changed(depsgraph))
         if running.previews.has_baked_inputs:
             _ask_soon(_ask_for_inputs)
@@ -165,6 +167,7 @@ def _scene_changed(running: Session, scene: bpy.types.Scene, depsgraph: bpy.type
 @persistent
 @_guarded
 def _data_replaced(running: Session, *_: object) -> None:
+    painted_files.all_changed()
     running.previews.data_replaced()
 
 

@@ -169,6 +169,14 @@ def scenario(told):
     cube.rsibr.kernel_pyramid.own = False
     yield from press_all([("compare", {}), ("open_comparison", {})])
     told["opened"] = len(opened)
+    # Images are made, and gone with what ends painting
+    tables = {"filepath": "/job/tables.rsibr.exr", "environment": "sunset"}
+    bpy.ops.rsibr.bake_reflection_tables(**tables, preset="clay", diffuse_rows=8)
+    bpy.ops.rsibr.assign(filepath=tables["filepath"])
+    for ending in ("save_back", "discard_paint"):
+        bpy.ops.rsibr.edit_as_images()
+        pressed.add("edit_as_images")
+        yield from press_all([(ending, {})])
     libraries = bpy.context.preferences.filepaths.asset_libraries
     known = len(libraries)
     pressed.add("add_materials")

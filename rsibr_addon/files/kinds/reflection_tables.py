@@ -86,4 +86,5 @@ STORED = StoredKind(
     comparison=TablesComparison,
     roles={WEIGHTS: _Weights, Role.REFRACTION: _Refraction},
     numbers=(WEIGHTS,),
+    painted=tuple(Role),
 )

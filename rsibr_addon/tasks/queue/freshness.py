@@ -108,6 +108,8 @@ class Freshness:
 
 
 def _is_baked(item: Any) -> bool:
+    if item.rsibr.painted:
+        return False
     return item.rsibr.image is not None and item.is_editable and item.is_property_set("rsibr_baked")
 
 

@@ -3,6 +3,7 @@
 #include "lib/fresnel_lib.glsl"
 #include "lib/irradiance_lib.glsl"
 #include "lib/mip_chain_lib.glsl"
+#include "lib/near_diffuse_lib.glsl"
 #include "lib/near_room_lib.glsl"
 #include "lib/sides_lib.glsl"
 
@@ -10,8 +11,16 @@ void main()
 {
   Seen seen = seen_surface(draw.eye, draw.model, world_position, world_normal, gl_FrontFacing);
   vec3 fresnel = fresnel_schlick(clamp(dot(seen.mirror_normal, seen.view_dir), 0.0, 1.0), look.f0.rgb);
-  vec3 diffuse = look.kd.rgb / PI * max(irradiance(harmonics, seen.normal), 0.0);
-  vec3 mirror_dir = near_direction(world_position - look.captured_at.xyz,
+  vec3 position = world_position - look.captured_at.xyz;
+  vec3 diffuse = look.kd.rgb;
+  if (look.room.w < 0.5) {
+    diffuse *= max(irradiance(harmonics, seen.normal), 0.0) / PI;
+  }
+  else {
+    diffuse *= near_diffuse(
+        atlas, look.middle.w, position, seen.normal, look.room.w, look.room.xyz, look.middle.xyz);
+  }
+  vec3 mirror_dir = near_direction(position,
                                    reflect_dir(seen.view_dir, seen.mirror_normal),
                                    look.room.w,
                                    look.room.xyz,

@@ -9,9 +9,11 @@ import pytest
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.geometry.camera import Camera
 from rsibr.rsibr_addon.core.geometry.near_room import Room
+from rsibr.rsibr_addon.core.kinds.live_environment import chain_of_faces
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
 from rsibr.rsibr_addon.core.kinds.mip_chain.lobe_mips import environment_faces
 from rsibr.rsibr_addon.core.kinds.mip_chain.shading import MipLook, mip_chain_radiance
+from rsibr.rsibr_addon.core.kinds.mip_chain.texture_space import tent_halved
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.radiance_pictures import read_radiance
@@ -24,7 +26,6 @@ from rsibr.tests.cycles.test_reflection_tables import shader
 
 pytestmark = [pytest.mark.needs("cycles"), pytest.mark.slow]
 
-SIZE, FINE = 32, 128
 WIDTHS, MIDDLE, CAPTURED_AT = (5.0, 4.6, 4.4), (0.2, 0.1, -0.1), (0.5, -0.4, 0.3)
 CAMERA = Camera((0.5, -0.7, 0.4))
 
@@ -45,28 +46,51 @@ def add_walls(scene: bpy.types.Scene) -> None:
     bpy.context.object.data.materials.append(material)
 
 
-def test_a_ball_in_a_room_is_a_third_as_wrong_as_in_distant_light(tmp_path: Path) -> None:
+@pytest.fixture
+def chain(tmp_path: Path) -> MipChain:
+    """The room, with a point in it captured, and room for a ball."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     add_walls(scene)
     light = SceneLight(size=512, samples=1, point=CAPTURED_AT)
     radiance = read_radiance(drain(illuminate_from_scene(light, tmp_path / "light.exr")))
-    add_sphere(scene, shader("Glossy", Roughness=0.0))
+    return chain_of_faces(environment_faces(radiance, 128).astype(np.float32), tent_halved)
+
+
+def rendered(material: bpy.types.Material, size: int, samples: int) -> np.ndarray:
+    """A ball in the room by Cycles, lit by the walls alone."""
+    scene = bpy.context.scene
+    add_sphere(scene, material)
     add_camera(scene, CAMERA)
-    configure_cycles(scene, SIZE, SIZE, 64)
-    scene.cycles.max_bounces = scene.cycles.glossy_bounces = 1
+    configure_cycles(scene, size, size, samples)
+    cycles = scene.cycles
+    cycles.max_bounces = cycles.glossy_bounces = cycles.diffuse_bounces = 1
     scene.view_settings.view_transform = "Standard"
-    reference = render_passes(scene)["Combined"][..., :3]
-    chain = MipChain((environment_faces(radiance, 128).astype(np.float32),), np.zeros((9, 3)))
-    normal = sphere_map.normal_from_uv(texel_centres(FINE, FINE)) @ CAMERA.frame.T
-    near = MipLook(
-        f0=(1.0, 1.0, 1.0), room=Room.BOX, room_size=WIDTHS, room_middle=MIDDLE, captured_at=CAPTURED_AT
-    )
-    inside = np.linalg.norm(2.0 * texel_centres(SIZE, SIZE) - 1.0, axis=-1) < 0.9
+    return render_passes(scene)["Combined"][..., :3]
+
+
+@pytest.mark.parametrize(
+    ("material", "colours", "size", "samples"),
+    [
+        (("Glossy", {"Roughness": 0.0}), {"f0": (1.0,) * 3, "kd": (0.0,) * 3}, 32, 64),
+        # By hemispheres full of light, whose noise so many samples make less than a fifth of the error
+        (("Diffuse", {}), {"f0": (0.0,) * 3, "kd": (1.0,) * 3}, 16, 1024),
+    ],
+    ids=["mirror", "diffuse"],
+)
+def test_a_ball_in_a_room_is_a_third_as_wrong_as_in_distant_light(
+    chain: MipChain, material: tuple, colours: dict, size: int, samples: int
+) -> None:
+    name, inputs = material
+    reference = rendered(shader(name, **inputs), size, samples)
+    normal = sphere_map.normal_from_uv(texel_centres(4 * size, 4 * size)) @ CAMERA.frame.T
+    # Without the outline, where Schlick's term has the diffuse ball mirror
+    inside = np.linalg.norm(2.0 * texel_centres(size, size) - 1.0, axis=-1) < 0.9
+    near = MipLook(**colours, room=Room.BOX, room_size=WIDTHS, room_middle=MIDDLE, captured_at=CAPTURED_AT)
 
     def error(look: MipLook) -> float:
         shaded = mip_chain_radiance(chain, normal, CAMERA.view_dir, look, position=normal)
-        shown = shaded.reshape(SIZE, 4, SIZE, 4, 3).mean(axis=(1, 3))
+        shown = shaded.reshape(size, 4, size, 4, 3).mean(axis=(1, 3))
         return float(np.sqrt(np.mean((shown - reference)[inside] ** 2)))
 
     assert error(near) < error(replace(near, room=Room.DISTANT)) / 3.0

@@ -10,6 +10,7 @@ from rsibr.rsibr_addon.core.filtering.zonal import zonal_coefficients
 from rsibr.rsibr_addon.core.geometry.directions import normalize
 from rsibr.rsibr_addon.core.geometry.near_room import Room, near_direction
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
+from rsibr.rsibr_addon.core.kinds.mip_chain.near_diffuse import cosine_lobes
 from rsibr.rsibr_addon.core.kinds.mip_chain.shading import Borders, glossy_mean, glossy_radiance
 from rsibr.rsibr_addon.core.kinds.mip_chain.texture_space import filtered_mips, tent_halved
 from rsibr.rsibr_addon.core.maps import cube_map
@@ -47,6 +48,23 @@ def in_a_room() -> list[np.ndarray]:
     """Points in a room, none of them close to a wall, and directions."""
     inside = np.random.default_rng(30).uniform(-0.5, 0.5, (COUNT, 3)) * (2.0, 1.5, 1.0)
     return [single(inside + (0.25, 0.0, -0.25)), unit_vectors(31)]
+
+
+def lobes_of_a_cosine(normal: np.ndarray, number: np.ndarray) -> np.ndarray:
+    """Axis and share of one lobe of each normal."""
+    found = np.empty((COUNT, 4))
+    for place, (direction, share) in enumerate(cosine_lobes(normal)):
+        chosen = number[:, 0] == place
+        found[chosen, :3], found[chosen, 3] = direction[chosen], share
+    return found
+
+
+def diffuse_in_a_room(position: np.ndarray, normal: np.ndarray) -> np.ndarray:
+    light = np.zeros((COUNT, 3))
+    for towards, share in cosine_lobes(normal):
+        direction = near_direction(position, towards, Room.BOX, (2.0, 1.5, 1.0), (0.25, 0.0, -0.25))
+        light += share * glossy_radiance(CHAIN, direction, 1.5, Borders.SEAMLESS)
+    return light
 
 
 def of_degree(degree: int) -> np.ndarray:
@@ -143,6 +161,24 @@ TWINS = {
         )
         for number, room in enumerate(Room)
     },
+    "near_diffuse": Twin(
+        "near_diffuse_lib.glsl",
+        "vec3 half_size = vec3(2.0, 1.5, 1.0), middle = vec3(0.25, 0.0, -0.25);"
+        "result_0.xyz = near_diffuse(atlas, 1.5, in_0.xyz, in_1.xyz, BOX, half_size, middle);",
+        in_a_room,
+        diffuse_in_a_room,
+        # As of glossy radiance, of places 1e-5 off
+        2.0 / 256.0 + 16 * 1e-4,
+        samplers=atlas,
+    ),
+    "cosine_lobe": Twin(
+        "near_diffuse_lib.glsl",
+        "result_0 = cosine_lobe(in_0.xyz, int(in_1.x + 0.5));",
+        lambda: [unit_vectors(25), (np.arange(COUNT) % 14)[:, None].astype(np.float64)],
+        lobes_of_a_cosine,
+        # Sines, cosines and a frame, each good to some roundings
+        4e-6,
+    ),
     "cube_place": Twin(
         "cube_map_lib.glsl",
         "result_0.xyz = cube_place(in_0.xyz);",

@@ -9,9 +9,11 @@ from rsibr.rsibr_addon.core.errors import RangeError
 from rsibr.rsibr_addon.core.geometry.camera import Camera
 from rsibr.rsibr_addon.core.geometry.directions import reflect
 from rsibr.rsibr_addon.core.geometry.near_room import Room
+from rsibr.rsibr_addon.core.kinds.live_environment import chain_of_faces
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
 from rsibr.rsibr_addon.core.kinds.mip_chain.shading import Borders, MipLook, mip_chain_radiance
 from rsibr.rsibr_addon.core.kinds.mip_chain.texture_space import box_halved, filtered_mips, tent_halved
+from rsibr.rsibr_addon.core.light.lamps import directions_in_cap
 from rsibr.rsibr_addon.core.maps.representation import representation
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.kinds.mip_chain import GpuMipChain, atlas_texels
@@ -100,7 +102,12 @@ def test_a_mirror_in_a_room_shows_the_walls_where_they_are(room: Room) -> None:
     renderer = PreviewRenderer(GpuMipChain(chain))
     camera = Camera((0.8, -0.9, 0.4))
     look = MipLook(
-        f0=(1.0, 1.0, 1.0), room=room, room_size=WIDTHS, room_middle=AROUND, captured_at=CAPTURED_AT
+        f0=(1.0, 1.0, 1.0),
+        kd=(0.0, 0.0, 0.0),
+        room=room,
+        room_size=WIDTHS,
+        room_middle=AROUND,
+        captured_at=CAPTURED_AT,
     )
 
     def of_reference(normal: np.ndarray, view_dir: np.ndarray, footprint: np.ndarray) -> np.ndarray:
@@ -118,6 +125,49 @@ def test_a_mirror_in_a_room_shows_the_walls_where_they_are(room: Room) -> None:
     error, before = (np.sqrt(np.mean((picture - truth)[inside] ** 2)) for picture in (found, distant))
     assert before > 0.05
     assert error < 0.05 * before
+
+
+DIRECTIONS = directions_in_cap((0.0, 0.0, 1.0), np.pi, 1500)
+"""So many tell the irradiance of smooth walls to 1e-3."""
+
+
+def wall_irradiance(normal: np.ndarray, position: np.ndarray, room: Room) -> np.ndarray:
+    """Irradiance over pi of points in the room, as a sum over directions."""
+    cosines = normal @ DIRECTIONS.T
+    light = np.zeros(normal.shape)
+    for number, direction in enumerate(DIRECTIONS):
+        facing = cosines[:, number] > 0.0
+        towards = np.broadcast_to(direction, (np.count_nonzero(facing), 3))
+        shown = wall_light(met(position[facing], towards, room))
+        light[facing] += 4.0 / len(DIRECTIONS) * cosines[facing, number, None] * shown
+    return light
+
+
+@pytest.mark.parametrize("room", [Room.BOX, Room.SPHERE])
+def test_diffuse_light_in_a_room_shifts_too(room: Room) -> None:
+    ensure_context()
+    seen = met(np.array(CAPTURED_AT), representation("cube_map").texel_directions(64), room)
+    chain = chain_of_faces(np.float32(wall_light(seen)), tent_halved)
+    look = MipLook(f0=(0.0, 0.0, 0.0), kd=(1.0, 1.0, 1.0), room=room)
+    look = replace(look, room_size=WIDTHS, room_middle=AROUND, captured_at=CAPTURED_AT)
+    normal = directions_in_cap((0.0, 0.0, 1.0), np.pi, 60)
+    truth = wall_irradiance(normal, normal, room)
+
+    def error(look: MipLook) -> float:
+        shaded = mip_chain_radiance(chain, normal, normal, look, position=normal)
+        return float(np.sqrt(np.mean((shaded - truth) ** 2)))
+
+    assert error(replace(look, room=Room.DISTANT)) > 0.05
+    assert error(look) < error(replace(look, room=Room.DISTANT)) / 3.0
+
+    def of_reference(normal: np.ndarray, view_dir: np.ndarray, footprint: np.ndarray) -> np.ndarray:
+        return mip_chain_radiance(chain, normal, view_dir, look, footprint, position=normal)
+
+    camera = Camera((0.8, -0.9, 0.4))
+    expected, inside = reference_pixels(camera, of_reference)
+    found = PreviewRenderer(GpuMipChain(chain)).draw(*SPHERE, camera, SIZE, look)[..., :3]
+    # As of mirrors, above
+    assert np.abs(found - expected)[inside].max() < 6e-3 * expected.max()
 
 
 def test_a_chain_that_does_not_say_how_blurred_it_is() -> None:

@@ -24,9 +24,10 @@ def look_fields(look: MipLook, lobes: MipLobes) -> tuple[Array, ...]:
     Raises
     ------
     RangeError
-        See `MipLook.level`.
+        See `MipLook.level` and `MipLook.diffuse_level`.
     """
     clamped = look.borders is Borders.CLAMPED
     numbers = np.array([look.level(lobes), lobes.count - 1.0, float(clamped), float(look.antialiased)])
     room = np.array([*look.half_size, float(list(Room).index(look.room))])
-    return np.array(look.f0), np.array(look.kd), numbers, room, look.middle, np.array(look.captured_at)
+    middle = np.array([*look.middle, look.diffuse_level(lobes)])
+    return np.array(look.f0), np.array(look.kd), numbers, room, middle, np.array(look.captured_at)

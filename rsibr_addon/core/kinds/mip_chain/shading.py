@@ -23,6 +23,7 @@ from ...resample import bilinear, clamp_to_edge, lookup
 from ..look_options import antialiased_option, colour_option
 from .chain import MipChain
 from .mip_lobes import MipLobes
+from .near_diffuse import EXPONENT, cosine_lobes
 
 _CUBE = representation("cube_map")
 
@@ -104,10 +105,10 @@ class MipLook(Options):
     room: Room = option(
         Room.DISTANT,
         label="Room",
-        help="What the surroundings are for reflections",
+        help="What the surroundings are",
         choices={
             Room.DISTANT: Choice("Distant", "far away, the same from everywhere"),
-            Room.BOX: Choice("Box", "a box along the axes, so that reflections shift as one moves"),
+            Room.BOX: Choice("Box", "a box along the axes, so that light shifts as one moves"),
             Room.SPHERE: Choice("Sphere", "an ellipsoid, likewise"),
         },
         advanced=True,
@@ -174,6 +175,18 @@ class MipLook(Options):
             return lobes.level_of_roughness(self.roughness)
         return min(self.mip, lobes.count - 1.0)
 
+    def diffuse_level(self, lobes: MipLobes) -> float:
+        """The level of detail to look up the lobes of `near_diffuse` at; 0 where they are not needed.
+
+        Raises
+        ------
+        RangeError
+            See `MipLobes.level_of_exponent`.
+        """
+        if self.room is Room.DISTANT or not any(self.kd):
+            return 0.0
+        return lobes.level_of_exponent(EXPONENT)
+
 
 def mip_chain_radiance(
     chain: MipChain,
@@ -196,7 +209,7 @@ def mip_chain_radiance(
     Raises
     ------
     RangeError
-        See `MipLook.level`.
+        See `MipLook.level` and `MipLook.diffuse_level`.
 
     Notes
     -----
@@ -206,11 +219,13 @@ def mip_chain_radiance(
     seen = seen_surface(normal, view_dir, facet)
     cosine = np.clip(dot(seen.mirror_normal, view_dir), 0.0, 1.0)
     fresnel = fresnel_schlick(cosine[..., None], look.f0)
-    diffuse = diffuse_radiance(chain, seen.normal, look.kd)
     mirror_dir = reflect(view_dir, seen.mirror_normal)
     corners = footprint_or_point(mirror_footprint if look.antialiased else None, mirror_dir)
-    if position is not None:
+    if position is None or look.room is Room.DISTANT:
+        diffuse = diffuse_radiance(chain, seen.normal, look.kd)
+    else:
         start, room = np.asarray(position) - look.captured_at, (look.room, look.half_size, look.middle)
+        diffuse = near_diffuse_radiance(chain, start, seen.normal, look)
         mirror_dir = near_direction(start, mirror_dir, *room)
         corners = near_direction(start[..., None, :], corners, *room)
     glossy = glossy_mean(chain, mirror_dir, corners, look.level(chain.lobes), look.borders)
@@ -237,6 +252,37 @@ def diffuse_radiance(chain: MipChain, normal: ArrayLike, kd: ArrayLike) -> Array
     irradiance = irradiance_from_harmonics(chain.harmonics, normal)
     radiance: Array = np.asarray(kd) / np.pi * np.maximum(irradiance, 0.0)
     return radiance
+
+
+def near_diffuse_radiance(chain: MipChain, position: Array, normal: Array, look: MipLook) -> Array:
+    """Light that a Lambertian surface reflects in a near room.
+
+    Parameters
+    ----------
+    chain : MipChain
+    position, normal : ndarray, shape (..., 3)
+        Of the points, relative to where the map was captured; unit vectors.
+    look : MipLook
+
+    Returns
+    -------
+    ndarray, shape (..., 3), float64
+
+    Raises
+    ------
+    RangeError
+        See `MipLook.diffuse_level`.
+
+    Notes
+    -----
+    GLSL twin: gpu_shaders/lib/near_diffuse_lib.glsl `near_diffuse`.
+    """
+    level, room = look.diffuse_level(chain.lobes), (look.room, look.half_size, look.middle)
+    light = np.zeros(normal.shape)
+    for towards, share in cosine_lobes(normal):
+        direction = near_direction(position, towards, *room)
+        light += share * glossy_radiance(chain, direction, level, Borders.SEAMLESS)
+    return np.asarray(look.kd) * light
 
 
 def glossy_mean(

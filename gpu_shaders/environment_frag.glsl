@@ -1,9 +1,9 @@
 // Twin of core/kinds/environment.py `mirrored_environment`.
+#include "lib/averaging_lib.glsl"
 #include "lib/directions_lib.glsl"
 #include "lib/footprint_lib.glsl"
 #include "lib/fresnel_lib.glsl"
 #include "lib/sides_lib.glsl"
-#include "lib/summed_area_lib.glsl"
 
 void main()
 {
@@ -14,7 +14,7 @@ void main()
   pixel_sides(mirror_dir, 1.0, across, up);
   parallelogram(mirror_dir, across, up, corners);
   vec3 light = (look.antialiased > 0.5) ?
-                   footprint_mean(environment, sums, look.unit.rgb, mirror_dir, corners) :
+                   footprint_mean(environment, sums, look.unit.rgb, mirror_dir, corners, look.averaging) :
                    equirect_radiance(environment, mirror_dir);
   radiance = vec4(fresnel * light, 1.0);
 }

@@ -34,7 +34,8 @@ void main()
                                 TABLE_SPECULAR,
                                 cosine,
                                 mirror_dir,
-                                mirrored);
+                                mirrored,
+                                tables.averaging);
   radiance.rgb += weighted_mean(tables.coat.rgb,
                                 coat,
                                 coat_sums,
@@ -43,7 +44,8 @@ void main()
                                 TABLE_COAT,
                                 cosine,
                                 mirror_dir,
-                                mirrored);
+                                mirrored,
+                                tables.averaging);
   radiance.rgb += weighted_mean(tables.retro.rgb,
                                 retro,
                                 retro_sums,
@@ -52,7 +54,8 @@ void main()
                                 TABLE_RETRO,
                                 cosine,
                                 seen.view_dir,
-                                seen_back);
+                                seen_back,
+                                tables.averaging);
   radiance.rgb += weighted_mean(tables.refraction.rgb,
                                 refraction,
                                 refraction_sums,
@@ -61,5 +64,6 @@ void main()
                                 TABLE_REFRACTION,
                                 cosine,
                                 refracted_dir,
-                                refracted);
+                                refracted,
+                                tables.averaging);
 }

@@ -23,13 +23,25 @@ void parallelogram(vec3 middle, vec3 across, vec3 up, out vec3 corners[4])
       lower - 0.5 * across, lower + 0.5 * across, upper + 0.5 * across, upper - 0.5 * across);
 }
 
+// Sides of a footprint, taken as a parallelogram.
+void footprint_sides(vec3 corners[4], out vec3 across, out vec3 up)
+{
+  across = 0.5 * (corners[1] - corners[0] + corners[2] - corners[3]);
+  up = 0.5 * (corners[3] - corners[0] + corners[2] - corners[1]);
+}
+
 // From here on, twin of rsibr_addon/core/antialiased/sampling.py.
 
-// Lookups of a pixel along its sides: a texel apart, but four at most.
-ivec2 sample_counts(vec3 across, vec3 up, float texel_angle)
+// Lookups of a pixel along its sides: a texel apart, as far as `most` allows.
+ivec2 sample_counts(vec3 across, vec3 up, float texel_angle, int most)
 {
   vec2 sides = vec2(length(across), length(up));
-  return ivec2(clamp(ceil(sides / texel_angle), 1.0, 4.0));
+  return ivec2(clamp(ceil(sides / texel_angle), 1.0, float(most)));
+}
+
+ivec2 sample_counts(vec3 across, vec3 up, float texel_angle)
+{
+  return sample_counts(across, up, texel_angle, 4);
 }
 
 // The direction of one of these lookups; number runs over the product of the counts.

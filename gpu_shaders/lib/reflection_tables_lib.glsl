@@ -1,6 +1,6 @@
 // Twin of rsibr_addon/core/kinds/reflection_tables/shading.py: [Miller1984] sections 3, 7 and 9.
 #include "lib/equirect_lib.glsl"
-#include "lib/summed_area_lib.glsl"
+#include "lib/averaging_lib.glsl"
 
 // Rows of the weights, in the order of core/kinds/reflection_tables/tables.py `Role`.
 #define TABLE_DIFFUSE 0
@@ -24,7 +24,7 @@ vec3 weighted_table(vec3 factor, sampler2D table, sampler2D weights, int role, f
   return factor * table_weight(weights, role, cosine) * equirect_radiance(table, direction);
 }
 
-// The same for a table that is averaged over a pixel's footprint (see summed_area_lib.glsl).
+// The same for a table that is averaged over a pixel's footprint (see averaging_lib.glsl).
 vec3 weighted_mean(vec3 factor,
                    sampler2D table,
                    sampler2DArray sums,
@@ -33,10 +33,12 @@ vec3 weighted_mean(vec3 factor,
                    int role,
                    float cosine,
                    vec3 direction,
-                   vec3 corners[4])
+                   vec3 corners[4],
+                   float averaging)
 {
   if (factor == vec3(0.0)) {
     return vec3(0.0);
   }
-  return factor * table_weight(weights, role, cosine) * footprint_mean(table, sums, unit, direction, corners);
+  return factor * table_weight(weights, role, cosine) *
+         footprint_mean(table, sums, unit, direction, corners, averaging);
 }

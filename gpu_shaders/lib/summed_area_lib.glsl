@@ -4,9 +4,7 @@
 // next and the highest, as whole numbers. Sums and differences of four such numbers are whole and below
 // 2^24, so single precision holds them exactly, in whatever order a compiler takes them.
 #include "lib/equirect_lib.glsl"
-#include "lib/footprint_lib.glsl"
 
-const float PART_ROWS = 2.0;
 const float DIGIT = 2097152.0;  // 2^21
 
 // u and v of the box's lower left and upper right corners; u of the right one may lie beyond the seam.
@@ -102,31 +100,4 @@ vec3 box_mean(sampler2DArray table, vec3 unit, vec4 box)
   vec3 bands = 2.0 * sin(0.5 * (from + to)) * sin(0.5 * (to - from));
   float turn = dot(column_weights, vec3(columns.yzw - columns.xyz)) * (2.0 * PI / float(size.x));
   return power * unit / (turn * dot(row_weights, bands));
-}
-
-// Mean radiance over a footprint, of whose parts each has a box. Of less than a texel, the map interpolated
-// in the footprint's middle: the same except for the solid angles of the rows, in a quarter of the time.
-vec3 footprint_mean(
-    sampler2D bordered, sampler2DArray table, vec3 unit, vec3 direction, vec3 corners[4])
-{
-  vec2 size = vec2(textureSize(table, 0).xy - 1);
-  vec4 box = footprint_box(corners, size);
-  vec2 extent = (box.zw - box.xy) * size;
-  if (max(extent.x, extent.y) < 1.001) {
-    return equirect_radiance(bordered, direction);
-  }
-  vec3 across = 0.5 * (corners[1] - corners[0] + corners[2] - corners[3]);
-  vec3 up = 0.5 * (corners[3] - corners[0] + corners[2] - corners[1]);
-  ivec2 counts = sample_counts(across, up, PART_ROWS * PI / size.y);
-  vec3 sum = vec3(0.0);
-  for (int number = 0; number < counts.x * counts.y; number++) {
-    vec2 low = vec2(number % counts.x, number / counts.x) / vec2(counts);
-    vec2 high = low + 1.0 / vec2(counts);
-    vec3 part[4] = vec3[4](within(corners, low),
-                           within(corners, vec2(high.x, low.y)),
-                           within(corners, high),
-                           within(corners, vec2(low.x, high.y)));
-    sum += box_mean(table, unit, footprint_box(part, size));
-  }
-  return sum / float(counts.x * counts.y);
 }

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..core.antialiased.averaging import Averaging
 from ..core.antialiased.summed_area import summed_area_table
 from ..core.conventions import Array
 from ..core.maps import equirect
@@ -26,6 +27,11 @@ class Sums:
 
     texture: GpuTexture
     unit: Array
+
+
+def averaging_number(averaging: Averaging) -> float:
+    """What gpu_shaders/lib/averaging_lib.glsl calls a way to average."""
+    return float(list(Averaging).index(averaging))
 
 
 def no_map() -> GpuTexture:

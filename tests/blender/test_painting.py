@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import MapSetError, ShapeError
 from rsibr.rsibr_addon.files.map_set import read_map_set, read_map_set_header, write_map_set
+from rsibr.rsibr_addon.files.map_set_facts import told_making
 from rsibr.rsibr_addon.files.map_set_header import content_hash
 from rsibr.rsibr_addon.host.map_sets import written_path
 from rsibr.tests.faults.small_map_sets import map_sets
@@ -68,10 +69,12 @@ def test_the_object_shows_paint_at_once_and_the_file_tells_of_it(source: Path) -
     painted("specular", 5.0)
     shown = read_map_set(written_path(settings()))
     np.testing.assert_array_equal(shown.maps["specular"][0], 5.0)
-    after = read_map_set(saved_back())
+    path = saved_back()
+    after = read_map_set(path)
     np.testing.assert_array_equal(after.maps["specular"], shown.maps["specular"])
     assert after.header["painted"]["parts"] == ["specular"]
     assert "recipe" not in after.header
+    assert told_making(read_map_set_header(path))["Painted"] == "specular"
     # A second time, of the painted file
     bpy.ops.rsibr.edit_as_images()
     painted("diffuse", 0.5)

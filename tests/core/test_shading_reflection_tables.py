@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from rsibr.rsibr_addon.core.antialiased.averaging import Averaging
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.errors import RangeError
 from rsibr.rsibr_addon.core.filtering.radial_lobes import phong_lobe
@@ -123,7 +124,8 @@ def test_antialiased_tables_are_means_over_the_pixel() -> None:
         weights[row, 0] * np.sum(maps[role][6:7, 8:10] * solid_angle, axis=(0, 1)) / solid_angle.sum()
         for row, role in ((1, Role.SPECULAR), (2, Role.COAT))
     )
-    shown = reflect_tables(tables, normal, view_dir, TablesLook(antialiased=True), corners)
+    look = TablesLook(averaging=Averaging.SUMMED)
+    shown = reflect_tables(tables, normal, view_dir, look, corners)
     np.testing.assert_allclose(shown, expected, rtol=1e-12)
 
 

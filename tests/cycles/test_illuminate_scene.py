@@ -295,6 +295,17 @@ def test_the_subject_and_its_parts_are_left_out(tmp_path: Path) -> None:
         captured(tmp_path)  # from inside the box
 
 
+def test_what_stands_within_the_subjects_bounding_box_is_seen(tmp_path: Path) -> None:
+    add_world(1.0)
+    subject = add_box(POINT)
+    # Two pieces, far apart, and a small thing between them and beside the middle
+    subject.data.transform(Matrix.Scale(0.2, 4))
+    for vertex in subject.data.vertices:
+        vertex.co += Vector((4.0 if vertex.co.x > 0.0 else -4.0, 0.0, 0.0))
+    add_box((POINT[0] + 1.0, *POINT[1:]), 0.4)
+    assert captured(tmp_path, subject=subject.name, point=None).min() < 0.9
+
+
 def test_the_place_is_the_middle_of_the_subject_at_its_frame_or_the_cursor(
     add_lamp: AddLamp, tmp_path: Path
 ) -> None:

@@ -1,8 +1,13 @@
 """Looking reflection tables up, on the GPU and in numpy."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.antialiased.summed_area import footprint_mean, summed_area_table
+from rsibr.rsibr_addon.core.antialiased.averaging import Averaging, footprint_mean, summed_means
+from rsibr.rsibr_addon.core.antialiased.footprint import footprint_sides
+from rsibr.rsibr_addon.core.antialiased.strips import strip_means
+from rsibr.rsibr_addon.core.antialiased.summed_area import summed_area_table
 from rsibr.rsibr_addon.core.geometry.directions import dot, normalize, refract
 from rsibr.rsibr_addon.core.kinds.reflection_tables.shading import TablesLook, reflect_tables
 from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTables, Role
@@ -86,7 +91,7 @@ def weighted_mean(*arguments: np.ndarray) -> np.ndarray:
     tables = ReflectionTables({Role.SPECULAR: IMAGE}, WEIGHTS)
     normal = np.array([0.0, 0.0, 1.0])
     view_dir = np.stack([np.sqrt(1.0 - more[:, 0] ** 2), np.zeros(COUNT), more[:, 0]], axis=-1)
-    averaged = TablesLook(antialiased=True)
+    averaged = TablesLook(averaging=Averaging.SUMMED)
     return more[:, 1:] * reflect_tables(tables, normal, view_dir, averaged, np.stack(corners, axis=1))
 
 
@@ -128,21 +133,11 @@ TWINS = {
         FILTERING,
         samplers=samplers,
     ),
-    "footprint_mean": Twin(
-        "summed_area_lib.glsl",
-        f"{CORNERS} vec3 middle = normalize(in_0.xyz + in_1.xyz + in_2.xyz + in_3.xyz);"
-        f"result_0.xyz = footprint_mean(image, sums, {UNIT}, middle, corners);",
-        footprints,
-        lambda *corners: footprint_mean(IMAGE, normalize(np.sum(corners, axis=0)), np.stack(corners, axis=1)),
-        # As of interpolation, and of boxes, below
-        2.0 * (FILTERING + 2 * ROWS * ARCTANGENT) + 6e-6 * 2 * ROWS,
-        samplers=lambda: samplers() | {"sums": ("FLOAT_2D_ARRAY", summed_area_texture(SUMMED).whole())},
-    ),
     "weighted_mean": Twin(
         "reflection_tables_lib.glsl",
         f"{CORNERS} result_0.xyz = weighted_mean("
         f"vec3(in_4.y), image, sums, {UNIT}, weights, TABLE_SPECULAR, in_4.x, "
-        "vec3(-sqrt(1.0 - in_4.x * in_4.x), 0.0, in_4.x), corners);",
+        "vec3(-sqrt(1.0 - in_4.x * in_4.x), 0.0, in_4.x), corners, 2.0);",
         lambda: [
             *footprints(),
             single(np.c_[RNG.uniform(0.0, 1.0, COUNT), RNG.integers(0, 2, COUNT).astype(np.float64)]),
@@ -150,7 +145,7 @@ TWINS = {
         weighted_mean,
         # Boxes off by 3e-6, at worst over one texel, of which neighbours differ by up to 1
         2.0 * FILTERING + 6e-6 * 2 * ROWS,
-        samplers=lambda: samplers() | {"sums": ("FLOAT_2D_ARRAY", summed_area_texture(SUMMED).whole())},
+        samplers=lambda: all_samplers(),
     ),
 } | {
     f"weighted_table {role}": Twin(
@@ -166,6 +161,63 @@ TWINS = {
     )
     for role in Role
 }
+
+
+def all_samplers() -> Samplers:
+    return samplers() | {"sums": ("FLOAT_2D_ARRAY", summed_area_texture(SUMMED).whole())}
+
+
+def averaged(averaging: Averaging) -> Callable[..., np.ndarray]:
+    """The reference's mean over footprints."""
+    return lambda *corners: footprint_mean(
+        IMAGE, normalize(np.sum(corners, axis=0)), np.stack(corners, axis=1), averaging
+    )
+
+
+MEANS: dict[str, tuple[str, Callable[..., np.ndarray]]] = {
+    "summed_mean": (
+        f"summed_mean(sums, {UNIT}, corners)",
+        lambda *corners: summed_means(SUMMED, np.stack(corners, axis=1)),
+    ),
+    "strip_mean": (
+        f"strip_mean(sums, {UNIT}, corners, footprint_box(corners, vec2({2 * ROWS}, {ROWS})))",
+        lambda *corners: strip_means(SUMMED, np.stack(corners, axis=1)),
+    ),
+    "subdivided_mean": (
+        f"subdivided_mean(image, sums, {UNIT}, middle, corners)",
+        averaged(Averaging.SUBDIVIDE),
+    ),
+} | {
+    f"footprint_mean {averaging}": (
+        f"footprint_mean(image, sums, {UNIT}, middle, corners, {float(number)!r})",
+        averaged(averaging),
+    )
+    for number, averaging in enumerate(Averaging)
+}
+"""Means over footprints -> their code, and the reference."""
+
+TWINS |= {
+    name: Twin(
+        "averaging_lib.glsl",
+        f"{CORNERS} vec3 middle = normalize(in_0.xyz + in_1.xyz + in_2.xyz + in_3.xyz);"
+        f"result_0.xyz = {code};",
+        footprints,
+        expected,
+        # As of interpolation, and of boxes, above
+        2.0 * (FILTERING + 2 * ROWS * ARCTANGENT) + 6e-6 * 2 * ROWS,
+        samplers=all_samplers,
+    )
+    for name, (code, expected) in MEANS.items()
+}
+TWINS["footprint_sides"] = Twin(
+    "footprint_lib.glsl",
+    f"{CORNERS} vec3 across, up; footprint_sides(corners, across, up);"
+    "result_0.xyz = across; result_1.xyz = up;",
+    footprints,
+    lambda *corners: np.stack(footprint_sides(np.stack(corners, axis=1)), axis=1),
+    4.0 * ULP * 3.0,  # four roundings of directions that are 3 long at most
+    results=2,
+)
 
 
 @pytest.mark.parametrize("name", TWINS)

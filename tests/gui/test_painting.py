@@ -75,15 +75,26 @@ def scenario(told):
     sidebar()
     yield from drawn()
     sidebar()[1].active_panel_category = "RSIBR"
+    # The other panels would push it down and out of sight
+    result = bpy.types.RSIBR_PT_result
+    for panel in reversed(bpy.types.Panel.__subclasses__()):
+        if panel.__name__.startswith("RSIBR_PT_"):
+            bpy.utils.unregister_class(panel)
+    del result.bl_parent_id
+    bpy.utils.register_class(result)
     yield from look()
     xshot.save(xshot.grab(), "/job/panel.png")
+    told["pressed"] = yield from press("bpy.ops.rsibr.save_back(")
+    yield from look()
+    told["after"] = [os.path.basename(ball.rsibr.map_set)[:15], len(ball.rsibr.painted)]
 """
 
 
-def test_strokes_show_and_are_undone(told: Callable[[str], dict]) -> None:
+def test_strokes_show_and_are_undone_and_the_panel_saves_them(told: Callable[[str], dict]) -> None:
     answer = told(PRELUDE + PAINTING)
     assert answer["editor"] == ["tables diffuse", "PAINT"]
     assert answer["untouched"] == pytest.approx(answer["before"], abs=2.0)
     red, _, blue = answer["painted"]
     assert blue - red > answer["before"][2] - answer["before"][0] + 30.0
     assert answer["undone"] == pytest.approx(answer["before"], abs=2.0)
+    assert answer["after"] == ["tables-painted-", 0]

@@ -153,7 +153,7 @@ def footprint_parts(corners: Array, height: int) -> Iterator[tuple[NDArray[np.bo
     Notes
     -----
     A pixel's area is parted evenly: along each side into as many as leave two rows to each, but `MOST` at
-    most. GLSL twin: gpu_shaders/lib/summed_area_lib.glsl `footprint_mean`.
+    most. GLSL twin: gpu_shaders/lib/averaging_lib.glsl `summed_mean`.
     """
     counts = sample_counts(*footprint_sides(corners), PART_ROWS * np.pi / height)
     number_of = np.prod(counts, axis=-1)

@@ -17,7 +17,7 @@ MOST = 4
 """Most lookups along each side of a pixel: sixteen in all, where wrinkles are as small as pixels."""
 
 
-def sample_counts(across: ArrayLike, up: ArrayLike, texel_angle: ArrayLike) -> Indices:
+def sample_counts(across: ArrayLike, up: ArrayLike, texel_angle: ArrayLike, most: int = MOST) -> Indices:
     """Numbers of lookups of a pixel along its sides.
 
     Parameters
@@ -26,11 +26,12 @@ def sample_counts(across: ArrayLike, up: ArrayLike, texel_angle: ArrayLike) -> I
         Sides of the footprint.
     texel_angle : array_like, shape (...,)
         Square root of the solid angle of a texel there.
+    most : int
 
     Returns
     -------
     ndarray of int, shape (..., 2)
-        1 to `MOST` along `across`, and along `up`: at most a texel from one to the next, as far as `MOST`
+        1 to `most` along `across`, and along `up`: at most a texel from one to the next, as far as `most`
         allows.
 
     Notes
@@ -39,7 +40,7 @@ def sample_counts(across: ArrayLike, up: ArrayLike, texel_angle: ArrayLike) -> I
     may differ by one.
     """
     sides = np.linalg.norm(np.stack([across, up], axis=-2), axis=-1)
-    counts: Indices = np.clip(np.ceil(sides / np.asarray(texel_angle)[..., None]), 1, MOST).astype(np.intp)
+    counts: Indices = np.clip(np.ceil(sides / np.asarray(texel_angle)[..., None]), 1, most).astype(np.intp)
     return counts
 
 

@@ -14,14 +14,9 @@ from numpy.typing import NDArray
 from ..conventions import Array, ArrayLike, Indices
 from ..errors import RangeError
 from ..maps import equirect
-from ..resample import bilinear
-from .footprint import footprint_box, footprint_parts
 
 TOTAL_BITS = 61
 """A table's total is about 2**61 of its units: two turns around it still fit a signed 64-bit integer."""
-
-SMALL = 1.001
-"""Width and height [texels] of the smallest boxes that `footprint_box` makes, for smaller footprints."""
 
 
 @dataclass(frozen=True)
@@ -112,48 +107,6 @@ def box_mean(table: SummedAreaTable, box: ArrayLike) -> Array:
         "...i,...i->...", column_weights, np.diff(columns, axis=-1)
     )
     mean: Array = power * table.unit / solid_angle[..., None]
-    return mean
-
-
-def footprint_mean(image: Array, direction: ArrayLike, corners: ArrayLike) -> Array:
-    """Mean radiance over footprints on a map.
-
-    Parameters
-    ----------
-    image : ndarray, shape (height, 2 * height, channels)
-        An equirectangular map.
-    direction : array_like, shape (..., 3)
-        Unit directions in the footprints' middles.
-    corners : array_like, shape (..., 4, 3)
-        See `footprint.footprint_box`.
-
-    Returns
-    -------
-    ndarray, shape (..., channels), float64
-        Mean over the boxes that hold parts of a footprint, see `footprint.footprint_parts`. For boxes no
-        larger than a texel, radiance interpolated in the middle, which is the same except for the solid
-        angles of the rows.
-
-    Raises
-    ------
-    RangeError
-        See `summed_area_table`.
-
-    Notes
-    -----
-    Interpolation takes a quarter of the time. GLSL twin: gpu_shaders/lib/summed_area_lib.glsl
-    `footprint_mean`.
-    """
-    height, width = image.shape[:2]
-    box = footprint_box(corners, width, height)
-    extent = (box[..., 2:] - box[..., :2]) * (width, height)
-    small = np.all(extent < SMALL, axis=-1)
-    mean = bilinear(image, equirect.uv_from_direction(direction), equirect.wrap)
-    table, corners = summed_area_table(image), np.asarray(corners)[~small]
-    means = np.zeros((len(corners), image.shape[-1]))
-    for chosen, part, weight in footprint_parts(corners, height):
-        means[chosen] += weight * box_mean(table, footprint_box(part, width, height))
-    mean[~small] = means
     return mean
 
 

@@ -11,12 +11,12 @@ from ...core.kinds.reflection_tables.shading import AVERAGED, TablesLook
 from ...core.kinds.reflection_tables.tables import ReflectionTables, Role
 from .. import buffers
 from ..drawing import Draw, GpuMesh, Inputs, ProgramMapSet
-from ..equirect import Sums, map_sums, map_texture, no_map, no_sums
+from ..equirect import Sums, averaging_number, map_sums, map_texture, no_map, no_sums
 from ..shaders import MeshProgram
 from ..textures import GpuTexture
 
 # Factors of each table, in the order of `Role`; what is added to the diffuse one; the units of the sums of
-# those of `AVERAGED`; the index of refraction, and 1 where they are averaged.
+# those of `AVERAGED`; the index of refraction, 1 where they are averaged, and how.
 _FACTORS = " ".join(f"vec4 {role};" for role in Role)
 _UNITS = " ".join(f"vec4 {role}_unit;" for role in AVERAGED)
 _MAPS = dict.fromkeys([*(role.value for role in Role), "weights"], "FLOAT_2D")
@@ -24,7 +24,7 @@ _MAPS = dict.fromkeys([*(role.value for role in Role), "weights"], "FLOAT_2D")
 reflection_tables_shader = MeshProgram(
     "reflection_tables",
     "Tables tables",
-    f"{_FACTORS} vec4 added; {_UNITS} float eta; float antialiased; float unused_0; float unused_1;",
+    f"{_FACTORS} vec4 added; {_UNITS} float eta; float antialiased; float averaging; float unused_0;",
     _MAPS | {f"{role}_sums": "FLOAT_2D_ARRAY" for role in AVERAGED},
 )
 """Draws a mesh from reflection tables."""
@@ -72,7 +72,7 @@ class GpuReflectionTables(ProgramMapSet):
             *(_factor(tables, look, role) for role in Role),
             look.weight(Role.DIFFUSE) * tables.added,
             *(each.unit for each in sums.values()),
-            np.array([tables.eta, float(look.antialiased)]),
+            np.array([tables.eta, float(look.antialiased), averaging_number(look.averaging)]),
         )
         textures = {role.value: texture for role, texture in self._textures.items()}
         textures |= {f"{role}_sums": each.texture for role, each in sums.items()}

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ...antialiased.summed_area import footprint_mean
+from ...antialiased.averaging import Averaging, footprint_mean
 from ...conventions import Array, ArrayLike
 from ...errors import RangeError
 from ...geometry.directions import dot, mirror_normal, reflect, refract
@@ -13,7 +13,7 @@ from ...geometry.sides import Seen, seen_surface
 from ...maps import equirect, sphere_map
 from ...options import Choice, Options, option
 from ...resample import bilinear
-from ..look_options import antialiased_option
+from ..look_options import antialiased_option, averaging_option
 from .changes import changed_tables
 from .material import PARTS, changed_parts
 from .part_options import part_option
@@ -72,6 +72,7 @@ class TablesLook(Options):
         help="Take from lobes what of them is beneath the horizon, where the paper's take light as well",
     )
     antialiased: bool = antialiased_option("all but diffuse light")
+    averaging: Averaging = averaging_option()
     diffuse: str | None = part_option("diffuse", _AS_BAKED)
     emission: str | None = part_option("emission", _AS_BAKED)
     specular: str | None = part_option("specular", _AS_BAKED)
@@ -164,7 +165,7 @@ def reflect_tables(
     Notes
     -----
     Tables are interpolated (section 7.1) between texel centres, across seam and poles too, weights between
-    their columns. Antialiased tables are averaged as in section 8.3. GLSL twin:
+    their columns. Antialiased tables are averaged as in section 8. GLSL twin:
     gpu_shaders/reflection_tables_frag.glsl.
     """
     tables = look.changes(tables)
@@ -182,7 +183,7 @@ def reflect_tables(
         table, direction = tables.maps[role], lookup_direction(role, seen, view_dir, tables.eta)
         if look.antialiased and mirror_footprint is not None and role in AVERAGED:
             corners = _footprint(role, seen, view_dir, mirror_footprint, view_footprint, tables.eta)
-            found = footprint_mean(table, direction, corners)
+            found = footprint_mean(table, direction, corners, look.averaging)
         else:
             found = bilinear(table, equirect.uv_from_direction(direction), equirect.wrap)
         added = tables.added if role is Role.DIFFUSE else 0.0

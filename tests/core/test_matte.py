@@ -9,6 +9,8 @@ from rsibr.rsibr_addon.core.pictures.matte import (
     backdrop_directions,
     fitted,
     flattened,
+    floor_area,
+    floor_from_world,
     floor_share,
     over,
     rays,
@@ -105,3 +107,29 @@ def test_blur_and_exposure_need_a_background() -> None:
         MatteOptions(background="photo.exr", background_blur=3.0)
     with pytest.raises(RangeError, match="no background to expose: choose one"):
         MatteOptions(background_exposure=1.0)
+
+
+@pytest.mark.parametrize("flat", [False, True])
+def test_a_floor_has_coordinates_of_its_own(flat: bool) -> None:
+    """Those of a plane that a matrix shears, also of one without thickness; the eye is above."""
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = RNG.normal(size=(3, 3)), (1.0, -2.0, 0.5)
+    if flat:
+        matrix[:3, 2] = 0.0
+    points = np.concatenate([RNG.normal(size=(5, 2)), np.full((5, 1), 0.7)], axis=1)
+    placed = points @ matrix[:3, :3].T + matrix[:3, 3]
+    for eye in ((3.0, 2.0, 1.0, 1.0), (-3.0, 2.0, -1.0, 1.0), (0.3, -0.5, 0.2, 0.0)):
+        floor = floor_from_world(matrix, np.array([points[0], [0.0, 0.0, 1.0]]), np.array(eye))
+        assert floor is not None
+        np.testing.assert_allclose(floor[:3, :3] @ floor[:3, :3].T, np.eye(3), atol=1e-12)
+        assert np.linalg.det(floor[:3, :3]) == pytest.approx(1.0)
+        np.testing.assert_allclose((placed @ floor[:3, :3].T + floor[:3, 3])[:, 2], 0.0, atol=1e-12)
+        assert (floor @ eye)[2] > 0.0
+    assert floor_from_world(np.diag([1.0, 0.0, 1.0, 1.0]), np.eye(3)[[0, 2]], np.array(eye)) is None
+
+
+def test_what_stands_on_a_floor_is_where_shadows_do_not_fade() -> None:
+    corners = RNG.uniform((-3.0, 2.0, 0.0), (5.0, 2.5, 0.1), (50, 3))
+    middle, half_width = floor_area(corners)
+    assert np.linalg.norm(corners[:, :2] - middle, axis=1).max() <= 0.75 * half_width
+    assert floor_area(corners + (0.0, 0.0, 2.0))[1] == pytest.approx(half_width + 3.0)

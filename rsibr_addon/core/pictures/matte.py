@@ -128,7 +128,7 @@ def flattened(direction: ArrayLike, height: float) -> Array:
     )
 
 
-def floor_from_world(matrix: Array, plane: Array, eye: Array) -> Array:
+def floor_from_world(matrix: Array, plane: Array, eye: Array) -> Array | None:
     """Coordinates of a floor, which lies at z = 0 and is seen from above.
 
     Parameters
@@ -142,13 +142,17 @@ def floor_from_world(matrix: Array, plane: Array, eye: Array) -> Array:
 
     Returns
     -------
-    ndarray, shape (4, 4)
-        A rotation, and a translation.
+    ndarray, shape (4, 4), or None
+        A rotation, and a translation; None where the matrix makes a line or a point of the plane.
     """
-    linear, place = matrix[:3, :3], matrix[:3, :3] @ plane[0] + matrix[:3, 3]
-    up = normalize(np.linalg.inv(linear).T @ plane[1])
+    point, normal = plane
+    linear, place = matrix[:3, :3], matrix[:3, :3] @ point + matrix[:3, 3]
+    side = np.cross(np.eye(3)[np.argmin(np.abs(normal))], normal)
+    along, up = linear @ side, np.cross(linear @ side, linear @ np.cross(normal, side))
+    if not up.any():
+        return None
+    along, up = normalize(along), normalize(up)
     up = up if up @ (eye[:3] - eye[3] * place) >= 0.0 else -up
-    along = normalize(np.cross(np.eye(3)[np.argmin(np.abs(up))], up))
     made: Array = np.eye(4)
     made[:3, :3] = along, np.cross(up, along), up
     made[:3, 3] = -made[:3, :3] @ place

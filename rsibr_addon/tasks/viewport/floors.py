@@ -79,6 +79,8 @@ class Floors:
         if catcher.plane is None or light is None:
             return None
         floor = floor_from_world(catcher.drawable.surface.matrix, catcher.plane, eye)
+        if floor is None:
+            return None
         placed = [(each, floor @ each.surface.matrix) for each in casters]
         bounds = {each: _moved(model, each.corners) for each, model in placed if each.corners is not None}
         above = [(each, model) for each, model in placed if bounds[each][:, 2].max() > 0.0]

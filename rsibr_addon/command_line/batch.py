@@ -118,7 +118,7 @@ def _run_part(name: str, bakes: Sequence["BatchBake"], folder: Path, console: Co
     _warn_of(result.failures)
     passing = {output: failure for output, failure in result.failures.items() if failure["try_again"]}
     if passing:
-        raise _failed(passing, f"{len(passing)} bakes of part {name} failed: give it again.")
+        raise _failed(passing, f"{counted(len(passing), 'bake')} of part {name} failed: give it again.")
     console.say(f"{name}: {counted(len(parts[name]), 'bake')}, {result.found} of them there already")
     return {"page": str(result.page), "made": result.made, "found": result.found}
 

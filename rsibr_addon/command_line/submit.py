@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..core.errors import RangeError
 from .batch import add_batch, check_failures, counted, listed
 from .console import Console
 
@@ -70,6 +71,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         return listed(bakes, console)
     if arguments.flamenco is not None:
         return _sent(arguments, title, bakes, folder, console)
+    if arguments.shared or arguments.wait:
+        raise RangeError("--shared and --wait are for --flamenco: leave them out, as nothing is sent yet.")
     program = shlex.split(arguments.program or "rsibr")
     template = console.steps(write_bundle(arguments.openjd, title, bakes, program))
     console.say(f"{template}: {counted(len(bakes), 'bake')}")

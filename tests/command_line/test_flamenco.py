@@ -61,18 +61,23 @@ def test_a_batch_is_sent_whole_with_every_setting(farm: Stub, capfd: pytest.Capt
 def test_what_is_waited_for_is_fetched_and_what_failed_is_named(
     farm: Stub, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    words = ("submit", batch(materials=["chrome", "wood"]), "--flamenco", farm.url, "--wait")
+    Path(batch(materials=["chrome", "wood"])).rename("metals.v2.json")
+    words = ("submit", "metals.v2.json", "--flamenco", farm.url, "--wait")
     failed = told(capfd, *words, code=1)
     assert failed["error"].startswith("2 of 4 bakes failed")
     assert not failed["try_again"]
     assert any("There is no preset wood" in warning for warning in failed["warnings"])
-    assert Path("metals-batch/index.html").read_text() == "the page"
+    assert Path("metals.v2-batch/index.html").read_text() == "the page"
     before = Path("dawn-chrome.rsibr.exr").stat()
     read_map_set(Path("dawn-chrome.rsibr.exr"))
     # Given again, it finds what is on shared storage, and leaves what was fetched
     told(capfd, *words, code=1)
     assert len(list(farm.shared.iterdir())) == 1
     assert Path("dawn-chrome.rsibr.exr").stat() == before
+    # What was made with other settings stays, and that is told
+    Path("dawn-chrome.rsibr.exr").write_bytes(Path("dusk-chrome.rsibr.exr").read_bytes())
+    warnings = told(capfd, *words, code=1)["warnings"]
+    assert any("dawn-chrome.rsibr.exr exists, made with other settings" in each for each in warnings)
 
 
 def test_a_job_is_one_bake_whose_error_is_told(farm: Stub, capfd: pytest.CaptureFixture[str]) -> None:
@@ -141,6 +146,9 @@ def test_a_missing_job_type_says_where_it_belongs(farm: Stub, capfd: pytest.Capt
 
 
 def test_storage_that_is_not_here_is_told(farm: Stub, capfd: pytest.CaptureFixture[str]) -> None:
+    (farm.shared.parent / "here").mkdir()
+    told(capfd, "submit", batch(), "--flamenco", farm.url, "--shared", "here")
+    assert Path(farm.jobs[0]["settings"]["folder"]).parent == Path("here").resolve()
     words = ("submit", batch(), "--flamenco", farm.url, "--shared", "nowhere")
     assert "shared storage nowhere is no folder here: mount it" in told(capfd, *words, code=1)["error"]
 

@@ -283,7 +283,7 @@ def _read_job(path: Path) -> BakeJob[Any] | None:
         return None
     if not isinstance(plain, dict) or "settings" not in plain:
         return None
-    job = read_job(data.decode(), str(path))
+    job = read_job(data.decode("utf-8-sig"), str(path))
     if not isinstance(job, BakeJob):
         raise InputFileError(f"{path} is no bake: send a batch, or the job of a bake.")
     return job

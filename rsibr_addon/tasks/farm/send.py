@@ -9,10 +9,13 @@ from pathlib import Path
 
 from ...core.errors import FarmError, NotNowError, OutputFileError
 from ...core.progress import Progress, Steps
+from ...core.warned import warn
 from ...files.atomic import written_aside
+from ...files.map_set import read_map_set_header
 from ..batch.bakes import BatchBake, parts_of
 from ..batch.notes import Failure, batch_folder
 from ..batch.run import UNKNOWN, kept_result
+from ..methods.recipe import check_made_by
 from .flamenco import FarmTask, Manager
 from .folder import INPUTS, MAPS, folder_name, make_folder, plain_name, write_inputs
 
@@ -89,7 +92,7 @@ def send(
         raise OutputFileError(
             f"The farm's shared storage {root} is no folder here: mount it, or give its path by --shared."
         )
-    folder, name = root / folder_name(title, bakes), plain_name(title)
+    folder, name = root.absolute() / folder_name(title, bakes), plain_name(title)
     make_folder(folder / INPUTS)
     make_folder(folder / MAPS)
     placed = yield from write_inputs(folder / INPUTS, name, bakes)
@@ -182,7 +185,7 @@ def outcome(manager: Manager, sent: Sent, status: str) -> dict[str, Failure]:
     status : str
         See `watch`.
     """
-    failures = kept_result(batch_folder(Path(sent.name), sent.maps), sent.bakes).failures
+    failures = kept_result(batch_folder(Path(f"{sent.name}.json"), sent.maps), sent.bakes).failures
     if status == "completed" or not failures:
         return failures
     if status == "canceled":
@@ -205,6 +208,11 @@ def fetch(sent: Sent, folder: Path) -> Steps[None]:
     Raises
     ------
     OutputFileError
+
+    Warns
+    -----
+    RsibrWarning
+        A map set that is there already was made with other settings.
     """
     outputs = {Path(bake.job.output) for bake in sent.bakes}
     # What begins with a dot is being written
@@ -214,10 +222,18 @@ def fetch(sent: Sent, folder: Path) -> Steps[None]:
         yield Progress(done, len(files), f"fetching {path.name}")
         target = folder / path.relative_to(sent.maps)
         if path in outputs and target.exists():
+            _warn_unless_same(path, target)
             continue
         make_folder(target.parent)
         with written_aside(target, force=path not in outputs) as aside:
             shutil.copyfile(path, aside)
+
+
+def _warn_unless_same(made: Path, there: Path) -> None:
+    try:
+        check_made_by(there, read_map_set_header(made)["recipe"])
+    except OutputFileError as error:
+        warn(str(error))
 
 
 def _progress(tasks: Sequence[FarmTask]) -> Progress:

@@ -86,6 +86,19 @@ class Fitting(Options):
         advanced=True,
     )
 
+    cosine: str = option(
+        "inside",
+        label="Cosine",
+        help="Where the cosine to the light is, in fits as Kautz & McCool's",
+        choices={
+            "inside": Choice("Inside", "in the lobes, which fit the reflectance times it"),
+            "outside": Choice(
+                "Outside", "outside the integral, as the cosine to the mirror direction (Eq. 2)"
+            ),
+        },
+        advanced=True,
+    )
+
     def __post_init__(self) -> None:
         super().__post_init__()
         joint = (self.taps or 1) > 1 or self.error is not None or self.non_negative
@@ -93,6 +106,8 @@ class Fitting(Options):
             raise RangeError(f"Taps, an error and signs are for the method joint, not {self.method}.")
         if self.seek != "peaks" and self.method != "greedy":
             raise RangeError(f"Where to seek lobes is for the method greedy, not {self.method}.")
+        if self.cosine != "inside" and self.method == "joint":
+            raise RangeError("A cosine outside is for the methods single, single-2d and greedy, not joint.")
 
 
 FITTING = tuple(each.name for each in declared_options(Fitting))

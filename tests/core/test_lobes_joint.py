@@ -2,15 +2,18 @@
 
 import numpy as np
 import pytest
+from rsibr.rsibr_addon.core.brdf.fresnel import Schlick
 from rsibr.rsibr_addon.core.brdf.ggx import Ggx
 from rsibr.rsibr_addon.core.brdf.lambert import Lambert
+from rsibr.rsibr_addon.core.brdf.layered import Sum
 from rsibr.rsibr_addon.core.brdf.metals import METALS
 from rsibr.rsibr_addon.core.brdf.ward import Ward
 from rsibr.rsibr_addon.core.errors import RangeError
+from rsibr.rsibr_addon.core.lobes import joint
 from rsibr.rsibr_addon.core.lobes.accuracy import fit_errors
-from rsibr.rsibr_addon.core.lobes.bank import octaves
+from rsibr.rsibr_addon.core.lobes.bank import SHARP, SHARPEST, octaves
 from rsibr.rsibr_addon.core.lobes.fit import Fit, lobe_axes
-from rsibr.rsibr_addon.core.lobes.joint import JointFitter
+from rsibr.rsibr_addon.core.lobes.joint import JointFitter, bank_for
 from rsibr.rsibr_addon.core.lobes.nonnegative import nonnegative_inverse
 from rsibr.rsibr_addon.core.lobes.projection import Lookups, Projector
 from rsibr.rsibr_addon.core.lobes.target import elevation_slices, target_slices
@@ -154,3 +157,24 @@ def test_too_few_and_too_many_elevations_are_refused(count: int) -> None:
 def test_a_black_model_is_refused() -> None:
     with pytest.raises(RangeError, match="black, NaN or infinite at 60 degrees"):
         target_slices(Lambert(kd=0.0), [0.5])
+
+
+def test_a_thin_peak_on_a_broad_base_has_kernels_of_its_own() -> None:
+    peak, base = Ggx(alpha=0.01, fresnel=Schlick(f0=0.04)), Lambert(kd=0.5)
+    slices = target_slices(Sum(parts=(peak, base)), [0.2, 0.5, 0.8])
+    assert bank_for(slices).concentrations[-1] == SHARPEST
+    # As round lobes have half of their power within a core of that concentration
+    assert min(target.core for target in slices) ** -2 > SHARP / 4.0
+    assert bank_for(target_slices(base, [0.2, 0.5, 0.8])).concentrations[-1] < 1e3
+
+
+def test_smoothing_keeps_the_greatest_amplification(monkeypatch: pytest.MonkeyPatch) -> None:
+    coat = Ggx(alpha=0.3, fresnel=Schlick(f0=0.04))
+    fitter = JointFitter(target_slices(coat, elevation_slices(6)), "coat")
+    for _ in range(3):
+        fitter.grow()
+    fit, _ = fitter.fit()
+    most = fit_errors(fit, coat).amplification.max()
+    assert most > 3.0
+    monkeypatch.setattr(joint, "MOST_AMPLIFICATION", 3.0)
+    assert fit_errors(fitter.smooth(fit, 0.3), coat).amplification.max() <= 3.0

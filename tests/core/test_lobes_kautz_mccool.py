@@ -1,16 +1,19 @@
 """The fits of Kautz & McCool: profiles, energy, the paper's error curve, clustering, and its extensions."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.brdf.albedo import directional_albedo
 from rsibr.rsibr_addon.core.brdf.ggx import Ggx
+from rsibr.rsibr_addon.core.brdf.lambert import Lambert
 from rsibr.rsibr_addon.core.brdf.metals import METALS
 from rsibr.rsibr_addon.core.brdf.retroreflective import Retroreflective
 from rsibr.rsibr_addon.core.brdf.ward import Ward
 from rsibr.rsibr_addon.core.lobes.accuracy import fit_errors
 from rsibr.rsibr_addon.core.lobes.bank import octaves
 from rsibr.rsibr_addon.core.lobes.clustering import clustered
-from rsibr.rsibr_addon.core.lobes.fit import lobe_axes, offsets_from_axes
+from rsibr.rsibr_addon.core.lobes.fit import Fit, lobe_axes, offsets_from_axes
 from rsibr.rsibr_addon.core.lobes.kautz_mccool import (
     PLANES,
     Remainder,
@@ -19,6 +22,8 @@ from rsibr.rsibr_addon.core.lobes.kautz_mccool import (
     greedy_fit,
     single_2d_fit,
     single_fit,
+    with_outer_cosine,
+    without_cosine,
 )
 from rsibr.rsibr_addon.core.lobes.radial_profile import RadialProfile, around
 from rsibr.rsibr_addon.core.lobes.seeking import best_place, search
@@ -137,3 +142,18 @@ def test_searching_beats_peaks_on_copper() -> None:
     assert by_search.error < 0.8 * by_peaks.error
     # Minimum profiles stay within the model, so that energy is lost and never gained
     assert by_search.albedo.max() < 1e-2
+
+
+@pytest.mark.parametrize("fit", [single_fit, single_2d_fit])
+def test_with_the_cosine_outside_uniform_light_counts_as_equation_2_says(fit: Callable[..., Fit]) -> None:
+    # n.v times the integral of kd / pi over the hemisphere, where the cosine inside gives kd
+    outside = with_outer_cosine(fit(without_cosine(Lambert(kd=0.4)), "lambert:kd=0.4", MU))
+    np.testing.assert_allclose(outside.albedo[0], 0.8 * np.tile(MU[:, None], 3), rtol=1e-3)
+
+
+def test_a_cosine_that_hardly_changes_may_be_outside() -> None:
+    # Within a lobe of a hundredth, seen from near the normal, n.l is n.r
+    sharp = Ward(alpha=0.01, ks=0.8)
+    inside = single_fit(sharp, "", np.array([0.9]))
+    outside = with_outer_cosine(single_fit(without_cosine(sharp), "", np.array([0.9])))
+    np.testing.assert_allclose(outside.albedo, inside.albedo, rtol=0.01)

@@ -1,9 +1,12 @@
 """Reflectance from scattered measurements, such as those of Cornell's goniometer, made into a table."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from ..conventions import Array
 from ..errors import RangeError
+from ..ties import first_greatest
 from .fresnel import fresnel_schlick
 from .model import Geometry
 from .tabulated import Tabulated, directions_from_angles, half_difference_angles
@@ -19,6 +22,16 @@ HORIZON = 0.05
 
 NEIGHBOURS = 8
 """Samples from which a cell is computed."""
+
+REACHES = (3.0, 8.0, 20.0)
+"""Half angles [degrees] up to which a peak may be one profile for all difference angles."""
+
+KNOTS = 65
+"""Half angles at which such a profile is computed."""
+
+PREDICTED, BETTER = 32, 0.9
+"""Samples nearest to the peak that are predicted from the others, and the greatest share of the error of
+planes alone at which a profile is used."""
 
 MOST_SAMPLES = 10_000
 """The laboratory's measurements have 1500; a table takes time in proportion, of so many some seconds."""
@@ -58,8 +71,9 @@ def scattered_brdf(light_dir: Array, view_dir: Array, brdf: Array, spec: str) ->
     Planes are fitted to the nearest samples (moving least squares) in the half and difference angles of
     [Rusinkiewicz1998], where lobes stay in place while the view moves. The planes fit the logarithm of
     reflectance times 4 n.l n.v / F, the density of facets that would explain it under a coat of index 1.5. It
-    hardly changes along theta_d, so the few samples that hit a sharp peak tell about all its elevations. A
-    fit never leaves the range of its samples.
+    hardly changes along theta_d, so the few samples that hit a sharp peak tell about all its elevations.
+    Where that predicts left-out samples better, planes are fitted to what a profile over theta_h alone
+    leaves. A fit never leaves the range of its samples.
     """
     bright = brdf.mean(axis=1) >= DARKEST
     if np.count_nonzero(bright) <= NEIGHBOURS:
@@ -69,10 +83,11 @@ def scattered_brdf(light_dir: Array, view_dir: Array, brdf: Array, spec: str) ->
     if len(brdf) > MOST_SAMPLES:
         raise RangeError(f"A reflectance of {len(brdf)} samples takes too long: keep {MOST_SAMPLES} at most.")
     geometry, brdf = Geometry(light_dir[bright], view_dir[bright]), brdf[bright]
-    samples = _coordinates(*half_difference_angles(geometry))
+    places = _coordinates(*half_difference_angles(geometry))
     brightness = brdf.sum(axis=1)
     facets = np.log(brightness / _boundary(geometry.n_dot_l, geometry.n_dot_v, geometry.h_dot_l))
     hues = brdf / brightness[:, None]
+    predicted = _predictor(places, facets, hues, _best_reach(places, facets, hues))
     # phi_d and pi - phi_d are mirror images: half of the azimuths give the other half
     half_angle = ((np.arange(SHAPE[0]) + 0.5) / SHAPE[0]) ** 2 * (np.pi / 2.0)
     difference_angle = (np.arange(SHAPE[1]) + 0.5)[:, None] / SHAPE[1] * (np.pi / 2.0)
@@ -82,7 +97,7 @@ def scattered_brdf(light_dir: Array, view_dir: Array, brdf: Array, spec: str) ->
         light, view = directions_from_angles(theta_h, difference_angle, azimuth)
         boundary = _boundary(light[..., 2], view[..., 2], np.cos(difference_angle))
         cells = _coordinates(*np.broadcast_arrays(theta_h, difference_angle, azimuth))
-        log_facets, hue = _fit(cells.reshape(-1, 3), samples, facets, hues)
+        log_facets, hue = predicted(cells.reshape(-1, 3))
         fitted = np.exp(log_facets).reshape(boundary.shape) * boundary
         row[:] = fitted[..., None] * hue.reshape(*boundary.shape, 3)
     return Tabulated(np.concatenate([table, table[:, :, ::-1]], axis=2), spec, scattered=True)
@@ -103,20 +118,57 @@ def _boundary(n_dot_l: Array, n_dot_v: Array, h_dot_l: Array) -> Array:
     return boundary
 
 
+def _best_reach(places: Array, facets: Array, hues: Array) -> float:
+    """The reach [degrees] of the peak's profile that predicts left-out samples best; 0 where none does."""
+    reaches = (0.0, *REACHES)
+    missed = np.zeros(len(reaches))
+    for index in np.argsort(places[:, 0], kind="stable")[:PREDICTED]:
+        others = np.arange(len(facets)) != index
+        for row, reach in enumerate(reaches):
+            predicted = _predictor(places[others], facets[others], hues[others], reach)
+            found, _ = predicted(places[index : index + 1])
+            missed[row] += (found[0] - facets[index]) ** 2
+    best = first_greatest(-missed)
+    return reaches[best] if missed[best] < BETTER**2 * missed[0] else 0.0
+
+
+def _predictor(
+    places: Array, facets: Array, hues: Array, reach: float
+) -> Callable[[Array], tuple[Array, Array]]:
+    """What gives the logarithm of facets, shape (P,), and hues at some `_coordinates`, shape (P, 3)."""
+    if not reach:
+        return lambda points: _fit(points, places, facets, hues)
+    knots = np.linspace(0.0, np.sqrt(reach / 90.0), KNOTS)
+    profile, _ = _fit(knots[:, None], places[:, :1], facets, hues)
+
+    def peak(points: Array) -> Array:
+        values: Array = np.interp(points[:, 0], knots, profile)
+        return values
+
+    rest = facets - peak(places)
+
+    def predicted(points: Array) -> tuple[Array, Array]:
+        value, hue = _fit(points, places, rest, hues)
+        return value + peak(points), hue
+
+    return predicted
+
+
 def _fit(points: Array, samples: Array, values: Array, hues: Array) -> tuple[Array, Array]:
     """Planes through the nearest samples' values, and the weighted means of their hues."""
     squared = np.zeros((len(points), len(samples)))
     for point, sample in zip(points.T, samples.T, strict=True):
         squared += (point[:, None] - sample) ** 2
-    nearest = np.argpartition(squared, NEIGHBOURS, axis=1)[:, : NEIGHBOURS + 1]
+    count = min(NEIGHBOURS, len(samples) - 1)
+    nearest = np.argpartition(squared, count, axis=1)[:, : count + 1]
     offset = samples[nearest] - points[:, None]
     distance = np.linalg.norm(offset, axis=2)
     # The weight falls to (almost) 0 at the farthest sample, so that neighbours are replaced without a jump
-    weight = (1.0 - 0.999 * distance / distance.max(axis=1, keepdims=True)) ** 2
+    weight = (1.0 - 0.999 * distance / np.maximum(distance.max(axis=1, keepdims=True), 1e-12)) ** 2
     weight /= weight.sum(axis=1, keepdims=True)
     design = np.concatenate([np.ones_like(distance)[..., None], offset], axis=2)
     weighted = design * weight[..., None]
-    ridge = 1e-6 * np.eye(4)
+    ridge = 1e-6 * np.eye(design.shape[2])
     near = values[nearest]
     normal_matrix = np.einsum("pki,pkj->pij", weighted, design) + ridge
     plane = np.linalg.solve(normal_matrix, np.einsum("pki,pk->pi", weighted, near)[..., None])

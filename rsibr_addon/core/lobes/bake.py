@@ -16,7 +16,7 @@ from ..kinds.kernel_bank.filtered_bank import FilteredBank, bound_from_bank, sta
 from ..kinds.lobe_stack.stack import LobeStack, stack_representation
 from ..progress import Progress, Steps
 from ..ties import TIE
-from .bank import SHARPEST, KernelBank, octaves
+from .bank import SHARP, SHARPEST, KernelBank, octaves
 from .fit import Fit
 
 SIZES = (16, 32, 64, 128, 256, 512)
@@ -135,7 +135,7 @@ def bake_bank(radiance: Array, layout: str, size: int, afford: Afford = _at_any_
     """
     sheets = stack_representation(layout, size)
     yield Progress(0, 2, "analysing the environment")
-    bank = octaves(min(_SHARPEST_BY_TEXELS * size**2, sharpest_resolved(len(radiance))))
+    bank = octaves(min(_SHARPEST_BY_TEXELS * size**2, sharpest_resolved(len(radiance)), SHARP))
     series = _expanded(bank)
     harmonics = analyse_environment(radiance, analysis_degree(series))
     lookups = BilinearLookups(sheets, size)

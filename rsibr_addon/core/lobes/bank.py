@@ -20,8 +20,10 @@ from ..ties import TIE
 BROADEST = 0.5
 """Concentration of the broadest kernel: nearly uniform over the sphere."""
 
-SHARPEST = 2.0**15
-"""Concentration of the sharpest kernel that fits use; an environment of 1024x512 texels resolves it."""
+SHARPEST, SHARP = 2.0**17, 2.0**15
+"""Concentration of the sharpest kernel of fits to lobes with a core so thin, and of the sharpest one of other
+fits and of kernel banks; environments of 2048x1024 and 1024x512 texels resolve them.
+"""
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..conventions import Array
-from .bank import SHARPEST, KernelBank, octaves
+from .bank import SHARP, SHARPEST, KernelBank, octaves
 from .descent import descend
 from .fit import Fit
 from .projection import Lookups, Projection, Projector
@@ -25,13 +25,15 @@ from .target import TargetSlice
 MOST_AMPLIFICATION, MOST_OF_ONE = 8.0, 2.0
 """Greatest `amplification` of several lobes, and of the taps of one; ridges grow until it is kept."""
 
-_SHARPNESS, _THINNEST = 20.0, 3.0
+_SHARPNESS, _THINNEST, _CORE = 20.0, 3.0, 1.66
 _START = 0.25
 _ANGLES = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 33)
 _TIE = 1.0
 _SPREADS, _TIES = (0.5, 1.0, 2.0), (_TIE, 0.01)
 _BETTER = 0.99
-_STIFFER, _STIFFEST = 1.4, 1e4
+_STIFFER = 1.4
+# A finer quadrature of a noisy target may find a little less power, and so more amplification
+_MARGIN = 0.98
 
 
 @dataclass(frozen=True)
@@ -55,10 +57,12 @@ class State:
 def bank_for(slices: Sequence[TargetSlice], sharpest: float = SHARPEST) -> KernelBank:
     """Kernels for targets in ascending order of elevation, none sharper than asked for.
 
-    Down to a 20th of the last lobe's width, for its peak, or a third of the thinnest one's.
+    Down to a 20th of the last lobe's width, for its peak, or a third of the thinnest one's, but not beyond
+    `SHARP`; and down to half the width of the thinnest core, for a peak on a broad base.
     """
-    thinnest = min(target.radius for target in slices)
-    return octaves(min(max(_SHARPNESS / slices[-1].radius, _THINNEST / thinnest) ** 2, sharpest))
+    thinnest, core = (min(getattr(target, width) for target in slices) for width in ("radius", "core"))
+    whole = max(_SHARPNESS / slices[-1].radius, _THINNEST / thinnest) ** 2
+    return octaves(min(max(min(whole, SHARP), (_CORE / core) ** 2), sharpest))
 
 
 class JointFitter:
@@ -115,10 +119,18 @@ class JointFitter:
             for target, each, taps in zip(self._slices, tilts, fit.taps.swapaxes(0, 1), strict=True)
         ]
         lookups = smoothed_lookups(self._slices, tracked, price)
-        projectors = [Projector(target, self._bank) for target in self._slices]
-        weights = smoothed_weights(projectors, lookups, price)
-        states = [State(*both, np.nan) for both in zip(lookups, weights, strict=True)]
-        return _fit(self._slices, self._bank, states, self._brdf)
+        stiffness = np.ones(len(self._slices))
+        while True:
+            projectors = [
+                Projector(target, self._bank, each)
+                for target, each in zip(self._slices, stiffness, strict=True)
+            ]
+            weights = smoothed_weights(projectors, lookups, price)
+            states = [State(*both, np.nan) for both in zip(lookups, weights, strict=True)]
+            quiet = [is_quiet(self._bank, *both) for both in zip(states, self._slices, strict=True)]
+            if all(quiet):
+                return _fit(self._slices, self._bank, states, self._brdf)
+            stiffness[~np.array(quiet)] *= _STIFFER
 
     def fit(self, taps: int = 1) -> tuple[Fit, Array]:
         """Track the lobes, at least one, over all elevations.
@@ -153,6 +165,12 @@ def amplification(bank: KernelBank, state: State, target: TargetSlice) -> float:
     loudness = np.sqrt(np.einsum("jkc,kl,jlc->j", state.weights, own, state.weights))
     total = np.sum(loudness * np.abs(state.lookups.taps).sum(axis=1))
     return float(total / np.sqrt(target.power))
+
+
+def is_quiet(bank: KernelBank, state: State, target: TargetSlice) -> bool:
+    """Whether the fit at one elevation keeps the greatest amplification."""
+    most = MOST_AMPLIFICATION if len(state.lookups.taps) > 1 else MOST_OF_ONE
+    return amplification(bank, state, target) <= _MARGIN * most
 
 
 def added_lobe(projector: Projector, angles: Array) -> Array:
@@ -261,14 +279,13 @@ def settled(target: TargetSlice, bank: KernelBank, lookups: Lookups, non_negativ
     non_negative : bool
         Whether no kernel may have a negative weight.
     """
-    most = MOST_AMPLIFICATION if len(lookups.taps) > 1 else MOST_OF_ONE
     stiffness = 1.0
     while True:
         projector = Projector(target, bank, stiffness, non_negative)
         with_taps = lookups.taps.shape[1] > 1
         lookups, projection = descend(projector, lookups, with_taps, _TIE)
         state = State(lookups, projection.weights, float(np.sqrt(projection.objective)))
-        if amplification(bank, state, target) <= most or stiffness > _STIFFEST:
+        if is_quiet(bank, state, target):
             return state
         stiffness *= _STIFFER
 

@@ -1,17 +1,17 @@
 """The fits of Kautz & McCool: one lobe by a mean profile, several by minimum profiles, one for all views.
 
-As everywhere here, lobes approximate brdf * n.l. [Kautz2000] fits the brdf, and approximates the cosine (its
-Eq. 2).
+As everywhere here, lobes approximate brdf * n.l. [Kautz2000] fits the brdf, and approximates the cosine by
+n.r (its Eq. 2): `without_cosine` and `with_outer_cosine` before and after a fit do the same.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from ..brdf.albedo import hemisphere_quadrature
 from ..brdf.model import BrdfFunction
-from ..conventions import Array
+from ..conventions import Array, ArrayLike
 from ..ties import first_greatest
 from .bank import SHARPEST
 from .clustering import clustered
@@ -218,6 +218,24 @@ def greedy_fit(
             rest.subtract(rest.minimum_profile(seek(rest)))
         found.append(rest.lobes)
     return _fit(brdf, spec, "greedy", mu, found, sharpest)
+
+
+def without_cosine(brdf: BrdfFunction) -> BrdfFunction:
+    """What times n.l is the brdf alone, which the paper's section 3 fits; 0 where n.l is."""
+
+    def quotient(light_dir: ArrayLike, view_dir: ArrayLike) -> Array:
+        cosine = np.asarray(light_dir, np.float64)[..., 2:]
+        values = brdf(light_dir, view_dir)
+        return np.divide(values, cosine, out=np.zeros_like(values), where=cosine > 0.0)
+
+    return quotient
+
+
+def with_outer_cosine(fit: Fit) -> Fit:
+    """A fit of a brdf alone times n.r, which is n.v: Eq. 2."""
+    if fit.weights.shape[1] == 1:
+        return replace(fit, scale=fit.scale * fit.mu[:, None])
+    return replace(fit, weights=fit.weights * fit.mu[:, None, None])
 
 
 def _angles(brdf: BrdfFunction, mu: float) -> Array:

@@ -9,6 +9,7 @@ from ..brdf.albedo import hemisphere_quadrature
 from ..brdf.model import BrdfFunction
 from ..conventions import Array
 from ..errors import RangeError
+from ..ties import first_greatest
 
 RADIAL_NODES, ARC_NODES = 20, 24
 _FINENESS = 10.0
@@ -54,6 +55,20 @@ class TargetSlice:
     def radius(self) -> float:
         """Angle [rad] about an axis within which a flat lobe of the same albedo has the same power."""
         return float(np.sqrt(np.sum(self.albedo) ** 2 / (len(self.albedo) * np.pi * self.power)))
+
+    @property
+    def core(self) -> float:
+        """Chord about the brightest direction within which half of the power lies: a peak's own width.
+
+        `radius` is wider where a broad base holds most of the light.
+        """
+        square = self.weight * np.sum(self.lobe**2, axis=1)
+        peak = self.light_dir[first_greatest(np.sum(self.lobe, axis=1))]
+        chord = np.linalg.norm(self.light_dir - peak, axis=1)
+        order = np.argsort(chord, kind="stable")
+        within = np.cumsum(square[order])
+        # 0 where a single node holds as much
+        return max(float(chord[order][np.searchsorted(within, 0.5 * within[-1])]), 1e-6)
 
 
 def elevation_slices(count: int) -> Array:

@@ -11,7 +11,13 @@ from ...core.errors import OutputFileError, RangeError
 from ...core.lobes.accuracy import FitErrors, fit_errors
 from ...core.lobes.bank import SHARPEST
 from ...core.lobes.fit import Fit
-from ...core.lobes.kautz_mccool import greedy_fit, single_2d_fit, single_fit
+from ...core.lobes.kautz_mccool import (
+    greedy_fit,
+    single_2d_fit,
+    single_fit,
+    with_outer_cosine,
+    without_cosine,
+)
 from ...core.lobes.layers import layered_fit
 from ...core.lobes.seeking import SEEKING
 from ...core.lobes.target import elevation_slices
@@ -130,8 +136,11 @@ def fitted(brdf: Brdf, settings: Fitting, sharpest: float = SHARPEST) -> Steps[F
             )
         )
     yield Progress(0, 1, "fitting profiles")
-    spec = spec_from_brdf(brdf)
+    spec, outside = spec_from_brdf(brdf), settings.cosine == "outside"
+    target = without_cosine(brdf) if outside else brdf
     if settings.method == "greedy":
-        return greedy_fit(brdf, spec, mu, settings.lobes, SEEKING[settings.seek], sharpest)
-    single = single_fit if settings.method == "single" else single_2d_fit
-    return single(brdf, spec, mu, sharpest)
+        fit = greedy_fit(target, spec, mu, settings.lobes, SEEKING[settings.seek], sharpest)
+    else:
+        single = single_fit if settings.method == "single" else single_2d_fit
+        fit = single(target, spec, mu, sharpest)
+    return with_outer_cosine(fit) if outside else fit

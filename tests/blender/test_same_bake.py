@@ -35,7 +35,12 @@ TEXTS |= {"specular": "phong:n=9,ks=0.1", "coat": "fresnel:eta=1.4", "retro": "p
 TEXTS |= {"refraction": "clear:eta=1.3", "weights": "fresnel:eta=1.4"}
 """A value of each option that is text."""
 
-TOGETHER = {"seek": {"method": "greedy"}, "fit": {"brdf": None}, "exponents": {"filter": "phong"}}
+TOGETHER = {
+    "seek": {"method": "greedy"},
+    "cosine": {"method": "single"},
+    "fit": {"brdf": None},
+    "exponents": {"filter": "phong"},
+}
 """Option -> others that it cannot be without."""
 
 SMALL: dict[str, dict[str, Any]] = {

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..brdf.albedo import hemisphere_quadrature
 from ..brdf.model import BrdfFunction
-from ..conventions import Array, ArrayLike
+from ..conventions import Array
 from ..ties import first_greatest
 from .bank import SHARPEST
 from .clustering import clustered
@@ -223,8 +223,8 @@ def greedy_fit(
 def without_cosine(brdf: BrdfFunction) -> BrdfFunction:
     """What times n.l is the brdf alone, which the paper's section 3 fits; 0 where n.l is."""
 
-    def quotient(light_dir: ArrayLike, view_dir: ArrayLike) -> Array:
-        cosine = np.asarray(light_dir, np.float64)[..., 2:]
+    def quotient(light_dir: Array, view_dir: Array) -> Array:
+        cosine = light_dir[..., 2:]
         values = brdf(light_dir, view_dir)
         return np.divide(values, cosine, out=np.zeros_like(values), where=cosine > 0.0)
 

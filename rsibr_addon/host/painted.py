@@ -75,7 +75,7 @@ class PaintedFiles:
             path.parent.mkdir(parents=True, exist_ok=True)
             write_painted(path, settings, source)
             last = self._written.get(settings.id_data.session_uid)
-            if last is not None:
+            if last is not None and last != path:
                 shutil.rmtree(last.parent, ignore_errors=True)
         self._written[settings.id_data.session_uid] = path
         return path

@@ -23,7 +23,7 @@ from .ties import TIE
 
 Scalar = TypeVar("Scalar", bound=np.generic)
 
-TILE = 128
+TILE = 192
 """Rows and columns of a map at a time, so that their data stay in a processor's cache however large it is."""
 
 BLOCK = TILE**2

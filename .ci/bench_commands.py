@@ -55,6 +55,9 @@ COMMANDS = {
 }
 """What is measured -> arguments of rsibr; the interior is Blender's, as Radiance HDR of 1024x512."""
 
+BLENDER = [sys.executable, "-c", "import bpy"]
+"""What a command that needs Blender waits for before anything else."""
+
 INPUTS = {"interior.hdr": 1024, "large.exr": 8192}
 """Pictures that the commands read -> their width in texels."""
 
@@ -135,6 +138,7 @@ def main() -> None:
                 lines.append(row("cmgen, five GGX mips, 256 to 16 texels", other, other))
             lines.append(row(what, used, other))
             print(lines[-1], flush=True)
+        lines.append(row("`import bpy` alone, which `preview` contains", *measured(BLENDER, None, folder)))
     table = "\n".join(lines)
     print(f"\n{table}")
     if installed:

@@ -4,11 +4,13 @@ import errno
 import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import contextmanager
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from .errors import RangeError
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -98,6 +100,10 @@ def in_order(function: Callable[[Item], Result], items: Iterable[Item]) -> Itera
     if count == 1:
         yield from map(function, items)
         return
+    from concurrent.futures import (
+        ThreadPoolExecutor,
+    )  # with logging it takes 0.01 s, and few commands need it
+
     ahead: deque[Future[Result]] = deque()
     with ThreadPoolExecutor(count) as threads:
         for item in items:
@@ -109,16 +115,3 @@ def in_order(function: Callable[[Item], Result], items: Iterable[Item]) -> Itera
                 yield ahead.popleft().result()
         while ahead:
             yield ahead.popleft().result()
-
-
-class AtOnce(Executor):
-    """Does work when it is given, where nobody need be kept from waiting."""
-
-    def submit(self, function: Callable[..., Result], /, *given: Any, **named: Any) -> Future[Result]:
-        """Do it."""
-        done = Future[Result]()
-        try:
-            done.set_result(function(*given, **named))
-        except Exception as error:  # Raised where the result is asked for, as a thread's own would be
-            done.set_exception(error)
-        return done

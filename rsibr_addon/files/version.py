@@ -1,6 +1,6 @@
 """Our name and version, for the files that we write."""
 
-import tomllib
+import re
 from functools import cache
 from pathlib import Path
 
@@ -10,5 +10,6 @@ MANIFEST = Path(__file__).parents[2] / "blender_manifest.toml"
 @cache
 def rsibr() -> str:
     """Name and version of RSIBR, as "rsibr 0.2.0"."""
-    manifest = tomllib.loads(MANIFEST.read_text(encoding="utf-8"))
+    # Of these lines a pattern tells as much as tomllib, whose import takes 0.01 s
+    manifest = dict(re.findall(r'^(\w+) = "(.*)"$', MANIFEST.read_text(encoding="utf-8"), re.MULTILINE))
     return f"{manifest['id']} {manifest['version']}"

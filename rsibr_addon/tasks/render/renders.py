@@ -4,8 +4,8 @@ from collections.abc import Collection, Iterable
 from pathlib import Path
 from typing import Any
 
+from ...core.at_once import AtOnce
 from ...core.errors import RenderError
-from ...core.threads import AtOnce
 from ...device.drawing import GpuMapSet
 from ...device.preview_stage import Sight
 from ...host.render_views import CameraView

@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from ....core.at_once import AtOnce
 from ....core.errors import SceneError
 from ....core.materials.principled import Input, PrincipledInputs
 from ....core.options import declared_options
-from ....core.threads import AtOnce
 from ....core.warned import warn
 from ....device.context import ensure_context
 from ....host.baked_inputs import add_unwrapping

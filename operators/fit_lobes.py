@@ -6,9 +6,10 @@ from typing import Any
 import bpy
 
 from ..rsibr_addon.core.errors import SceneError
+from ..rsibr_addon.core.options import declared_options
 from ..rsibr_addon.core.progress import Steps
-from ..rsibr_addon.host.option_properties import options_of
-from ..rsibr_addon.settings.fit import FitSettings
+from ..rsibr_addon.host.option_properties import options_of, property_name
+from ..rsibr_addon.settings.fit import FITTING, FitSettings
 from ..rsibr_addon.tasks.reflectance.fit_lobes import fit_lobes
 from .file_properties import file_path
 from .stepwise import Stepwise
@@ -24,6 +25,15 @@ class RSIBR_OT_fit_lobes(Stepwise, bpy.types.Operator):
     interrupted = "Fit interrupted; nothing was written"
 
     filepath = file_path("Fit")
+
+    def draw(self: Any, context: bpy.types.Context) -> None:
+        """Show what is fitted first, and of the other options those that count for it."""
+        column = self.layout.column()
+        column.use_property_split = True
+        names = {each.name: property_name(each) for each in declared_options(FitSettings)}
+        for name in ("captures", *(("captured_views",) if self.captures else ("brdf", *FITTING))):
+            column.prop(self, names[name])
+        column.prop(self, "force")
 
     def work(self, context: bpy.types.Context) -> Steps[Any]:
         """See `Stepwise`."""

@@ -2,10 +2,12 @@
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
 import pytest
+from rsibr.operators.fit_lobes import RSIBR_OT_fit_lobes
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError
 from rsibr.rsibr_addon.files.fits import read_fit
@@ -169,6 +171,18 @@ def test_the_operator_writes_what_the_command_writes(tmp_path: Path) -> None:
     np.testing.assert_array_equal(read_fit(path).weights, read_fit(other).weights)
     with pytest.raises(RuntimeError, match="--force to replace it"):
         bpy.ops.rsibr.fit_lobes(filepath=str(path), brdf=spec, lobes=2, slices=3)
+
+
+@pytest.mark.usefixtures("registered")
+@pytest.mark.parametrize("captures", ["", "views.rsibr.exr"])
+def test_the_dialog_shows_what_counts_for_what_is_fitted(captures: str) -> None:
+    shown: list[str] = []
+    column = SimpleNamespace(prop=lambda owner, name: shown.append(name))
+    asked = SimpleNamespace(captures=captures, layout=SimpleNamespace(column=lambda: column))
+    RSIBR_OT_fit_lobes.draw(asked, bpy.context)
+    assert set(shown) <= set(bpy.ops.rsibr.fit_lobes.get_rna_type().properties.keys())
+    assert shown[0] == "captures"
+    assert ("captured_views" in shown, "lobes" in shown) == (bool(captures), not captures)
 
 
 def test_methods_have_no_use_for_what_is_anothers() -> None:

@@ -24,7 +24,7 @@ void main()
                             look.coat.rgb,
                             look.emission.rgb);
   radiance.rgb = principled_radiance(atlas,
-                                     places,
+                                     lookups,
                                      ggx,
                                      leaning,
                                      albedos,

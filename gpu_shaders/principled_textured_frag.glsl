@@ -56,9 +56,11 @@ void add_texels(int number, vec4 texel)
 {
   vec4 range = material.ranges[number];
   texel.rgb *= (material.mapping[2 * number + 1].w > 0.0) ? texel.a : 1.0;
-  for (int row = int(range.x); row < int(range.y); row++) {
+  // A range has one row at least; see principled_radiance_lib.glsl for why the test comes last
+  int row = int(range.x);
+  do {
     numbers[int(material.targets[row].x)] += dot(material.rows[row], texel);
-  }
+  } while (++row < int(range.y));
 }
 
 // Makes the numbers of all inputs. Each texture is sampled once; `count` is the same for all fragments, so
@@ -227,7 +229,7 @@ void main()
                             color_of(COAT_TINT),
                             emitted(color_of(EMISSION_COLOR) * numbers[EMISSION_STRENGTH], draw.strength));
   radiance.rgb = principled_radiance(atlas,
-                                     places,
+                                     lookups,
                                      ggx,
                                      leaning,
                                      albedos,

@@ -1,8 +1,23 @@
-// Twin of rsibr_addon/core/brdf/principled.py. The texture `albedos` (see device/kinds/kernel_pyramid.py) has
-// a column for each width and a row for each elevation. Layer 0 holds the directional albedos of GGX times
-// the powers from 2 onwards; layer 1 that of GGX itself, and twice its integral over mu.
+// Twin of rsibr_addon/core/brdf/principled.py. The texture `albedos` (see
+// device/kinds/kernel_pyramid_texels.py) has a column for each width and a row for each elevation. Layer 0
+// holds the directional albedos of GGX times the powers from 2 onwards; layer 1 that of GGX itself, and twice
+// its integral over mu.
+//
+// A program for surfaces without a coat, or without rough facets below it, may define UNCOATED or
+// SMOOTH_DIFFUSE: where fragments may differ, drivers compute both ways of a branch.
 #include "lib/family_lib.glsl"
 #include "lib/fresnel_powers_lib.glsl"
+
+#ifdef UNCOATED
+const bool MAY_BE_COATED = false;
+#else
+const bool MAY_BE_COATED = true;
+#endif
+#ifdef SMOOTH_DIFFUSE
+const bool MAY_HAVE_FACETS = false;
+#else
+const bool MAY_HAVE_FACETS = true;
+#endif
 
 struct Surface {
   vec3 base_color;
@@ -68,7 +83,7 @@ float left_of(vec3 reflected)
 Powers coat_of(Surface surface, float mu, sampler2DArray albedos, sampler2D rises, out vec3 below)
 {
   float weight = clamp(surface.coat_weight, 0.0, 1.0);
-  if (weight == 0.0) {
+  if (!MAY_BE_COATED || weight == 0.0) {
     below = vec3(1.0);
     return Powers(vec3(0.0), mat4x3(0.0));
   }

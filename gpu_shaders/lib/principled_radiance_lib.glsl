@@ -1,6 +1,7 @@
 // Twin of rsibr_addon/core/kinds/kernel_pyramid/shading.py. Layer 0 of a family's texture (see
-// device/kinds/kernel_pyramid.py) holds the tilts of its lobes, then come for each kernel a layer of each
-// function, with the weights of these lobes.
+// device/kinds/kernel_pyramid_texels.py) holds the tilts of its lobes, then come for each four lookups a
+// layer of each function, with their weights. A column of `lookups` tells of a width and the next one how
+// many lookups these need, and of each lookup the place of its map (see pyramid_lib.glsl) and its lobe.
 #include "lib/bumped_diffuse_lib.glsl"
 #include "lib/directions_lib.glsl"
 #include "lib/lobe_axes_lib.glsl"
@@ -8,29 +9,20 @@
 #include "lib/principled_lib.glsl"
 #include "lib/pyramid_lib.glsl"
 
-const int GGX_LOBES = 4;
-const int LEANING_LOBES = 2;
+const int FUNCTIONS = 5;
 
-// Rising powers of glass, of an index of 1.5, over the first of them: device/kinds/kernel_pyramid.py `GLASS`.
+// Rising powers of glass, of an index of 1.5, over the first of them: `GLASS` of
+// device/kinds/kernel_pyramid_texels.py.
 const vec4 GLASS = vec4(1.0, 22.052702, -36.772641, 24.508813);
 
 // Coefficients of less are not looked up, beside others of the same lobes: roundings of `GLASS`.
-const float LEAST_COEFFICIENT = 1e-3;
+const vec3 LEAST = vec3(1e-3);
 
-// Kernels below the first whose lobes of a width have no weight: concentrations end at (16 / alpha)^2, of the
-// width's narrower neighbour.
-int kernels_of(sampler2D places, float alpha)
-{
-  float octaves = 8.5 - 2.0 * log2(max(alpha, 1e-4));
-  float number = (octaves <= 4.0) ? octaves + 1.0 : 3.0 + 0.5 * octaves;
-  return min(int(number) + 1, kernel_count(places));
-}
-
-// The sum of a family's lobes, GGX_LOBES at most, whose functions are the first of the powers.
+// The sum of a family's lobes, which has one function or all; first: of its columns.
 vec3 lobes_radiance(sampler2D atlas,
-                    sampler2D places,
+                    sampler2D lookups,
                     sampler2DArray family,
-                    int lobes,
+                    int first,
                     int functions,
                     float alpha,
                     float mu,
@@ -40,49 +32,49 @@ vec3 lobes_radiance(sampler2D atlas,
 {
   vec2 place = family_place(family, alpha, mu);
   vec4 tilts = textureLod(family, vec3(place, 0.0), 0.0);
-  vec2 uv[GGX_LOBES];
-  for (int lobe = 0; lobe < lobes; lobe++) {
-    uv[lobe] = octahedral_uv(lobe_axis(normal, mirror_dir, vec2(tilts[lobe], 0.0)));
-  }
+  vec3 axes[4];
+  tilted_axes(normal, mirror_dir, tilts, axes);
+  vec2 uv[4] = vec2[4](
+      octahedral_uv(axes[0]), octahedral_uv(axes[1]), octahedral_uv(axes[2]), octahedral_uv(axes[3]));
   // What is left beside glass, of which the first of the rising functions is made
   vec3 glass = coefficients.rising[0];
   mat4x3 rest = coefficients.rising - outerProduct(glass, GLASS);
-  const vec3 LEAST = vec3(LEAST_COEFFICIENT);
+  vec3 factors[FUNCTIONS] = vec3[FUNCTIONS](glass, coefficients.zeroth, rest[1], rest[2], rest[3]);
+  // Those that count are neighbours
+  int begin = (glass == vec3(0.0)) ? 1 : 0;
   bvec3 counts = bvec3(any(greaterThan(abs(rest[1]), LEAST)),
                        any(greaterThan(abs(rest[2]), LEAST)),
                        any(greaterThan(abs(rest[3]), LEAST)));
+  int end = counts.z ? 5 : (counts.y ? 4 : (counts.x ? 3 : 2));
   vec3 radiance = vec3(0.0);
-  int kernels = kernels_of(places, alpha);
-  for (int kernel = 0; kernel < kernels; kernel++) {
-    float layer = float(1 + kernel * functions);
-    mat4x3 weights = outerProduct(coefficients.zeroth, textureLod(family, vec3(place, layer), 0.0));
-    if (functions > 1 && glass != vec3(0.0)) {
-      weights += outerProduct(glass, textureLod(family, vec3(place, layer + 1.0), 0.0));
+  int column = first + family_column(family, place);
+  int slots = int(texelFetch(lookups, ivec2(column, 0), 0).x);
+  // Loops end with their test: one that begins with it is run once more in vain, where fragments differ
+  int slot = 0;
+  do {
+    // Of the first function; a family of one has that of 1 alone
+    int layer = 1 + slot / 4 * functions - ((functions > 1) ? 0 : 1);
+    mat4x3 weights = mat4x3(0.0);
+    int number = begin;
+    do {
+      vec3 texel = vec3(place, float(layer + number));
+      weights += outerProduct(factors[number], textureLod(family, texel, 0.0));
+    } while (++number < end);
+    for (int lane = 0; lane < 4; lane++) {
+      vec4 map = texelFetch(lookups, ivec2(column, 1 + slot + lane), 0);
+      // Chosen, as some drivers keep arrays with such an index out of registers
+      vec2 early = (map.w < 0.5) ? uv[0] : uv[1];
+      vec2 late = (map.w < 2.5) ? uv[2] : uv[3];
+      radiance += weights[lane] * atlas_radiance(atlas, map.xyz, (map.w < 1.5) ? early : late);
     }
-    if (functions > 1 && counts.x) {
-      weights += outerProduct(rest[1], textureLod(family, vec3(place, layer + 2.0), 0.0));
-    }
-    if (functions > 1 && counts.y) {
-      weights += outerProduct(rest[2], textureLod(family, vec3(place, layer + 3.0), 0.0));
-    }
-    if (functions > 1 && counts.z) {
-      weights += outerProduct(rest[3], textureLod(family, vec3(place, layer + 4.0), 0.0));
-    }
-    // Broad lobes have no sharp kernels: what has no weight is not looked up
-    if (weights != mat4x3(0.0)) {
-      // As pyramid_radiance, with one place for all
-      vec4 map = texelFetch(places, ivec2(kernel, 0), 0);
-      for (int lobe = 0; lobe < lobes; lobe++) {
-        radiance += weights[lobe] * textureLod(atlas, map.xy + uv[lobe] * map.zw, 0.0).rgb;
-      }
-    }
-  }
+    slot += 4;
+  } while (slot < slots);
   return radiance;
 }
 
 // GGX; 0 where signed lobes sum to less.
 vec3 ggx_radiance(sampler2D atlas,
-                     sampler2D places,
+                     sampler2D lookups,
                      sampler2DArray ggx,
                      float alpha,
                      float mu,
@@ -94,19 +86,19 @@ vec3 ggx_radiance(sampler2D atlas,
   vec3 radiance = vec3(0.0);
   if (share < 1.0) {
     Powers rough = coloured(vec3(1.0 - share), coefficients);
-    radiance = lobes_radiance(atlas, places, ggx, GGX_LOBES, 5, alpha, mu, rough, normal, mirror_dir);
+    radiance = lobes_radiance(atlas, lookups, ggx, 0, 5, alpha, mu, rough, normal, mirror_dir);
   }
   if (share > 0.0) {
     vec3 factor = coefficients.zeroth + coefficients.rising * powers_of(mu);
     vec2 uv = octahedral_uv(mirror_dir);
-    radiance += share * factor * pyramid_radiance(atlas, places, kernel_count(places), uv);
+    radiance += share * factor * pyramid_radiance(atlas, lookups, MIRROR_MAP, uv);
   }
   return max(radiance, 0.0);
 }
 
 // Oren and Nayar's reflection of the base colour.
 vec3 diffuse_radiance(sampler2D atlas,
-                      sampler2D places,
+                      sampler2D lookups,
                       sampler2DArray leaning,
                       vec3 base_color,
                       float roughness,
@@ -119,14 +111,15 @@ vec3 diffuse_radiance(sampler2D atlas,
   vec2 ab = facets(roughness);
   vec4 left = bumped_cosine(normal, smooth_normal);
   vec2 uv = octahedral_uv(left.xyz);
-  int number = kernel_count(places) + 1;
-  vec3 white = PI * pyramid_radiance(atlas, places, number, uv);
+  vec3 white = PI * pyramid_radiance(atlas, lookups, COSINE_MAP, uv);
   vec3 radiance = ab.x * white;
-  if (ab.y > 0.0) {
-    vec3 lost = LOST_BY_LEANING * white - pyramid_radiance(atlas, places, number + 1, uv);
+  if (MAY_HAVE_FACETS && ab.y > 0.0) {
+    vec3 lost = LOST_BY_LEANING * white - pyramid_radiance(atlas, lookups, LEANING_MAP, uv);
     Powers white_facets = Powers(vec3(1.0), mat4x3(0.0));
+    // The column before that of the maps
+    int column = textureSize(lookups, 0).x - 2;
     vec3 leant = lobes_radiance(
-        atlas, places, leaning, LEANING_LOBES, 1, 1.0, mu, white_facets, normal, mirror_dir);
+        atlas, lookups, leaning, column, 1, 1.0, mu, white_facets, normal, mirror_dir);
     radiance += ab.y * (bounces(color, roughness, mu) * lost + leant);
   }
   return left.w * color * max(radiance, 0.0);
@@ -135,7 +128,7 @@ vec3 diffuse_radiance(sampler2D atlas,
 // Covered by the surface's alpha. The normals are those of `Seen`: for diffuse light, the surface's own
 // where that is bumped, and for the rest; and that of the coat's own.
 vec3 principled_radiance(sampler2D atlas,
-                         sampler2D places,
+                         sampler2D lookups,
                          sampler2DArray ggx,
                          sampler2DArray leaning,
                          sampler2DArray albedos,
@@ -153,7 +146,7 @@ vec3 principled_radiance(sampler2D atlas,
   vec3 radiance = layers.emission;
   if (layers.diffuse != vec3(0.0)) {
     radiance += layers.diffuse * diffuse_radiance(atlas,
-                                                  places,
+                                                  lookups,
                                                   leaning,
                                                   surface.base_color,
                                                   surface.diffuse_roughness,
@@ -163,7 +156,8 @@ vec3 principled_radiance(sampler2D atlas,
                                                   reflect_dir(view_dir, normal));
   }
   // One loop for both, so that the program has the lobes' code once
-  for (int coat = 0; coat < 2; coat++) {
+  int coat = 0;
+  do {
     // WebGL chooses no structures by ?:
     Powers coefficients = layers.base;
     if (coat == 1) {
@@ -174,7 +168,7 @@ vec3 principled_radiance(sampler2D atlas,
     float layer_mu = (coat == 1) ? coat_mu : mu;
     if (coefficients.zeroth != vec3(0.0) || coefficients.rising != mat4x3(0.0)) {
       radiance += ggx_radiance(atlas,
-                               places,
+                               lookups,
                                ggx,
                                roughness * roughness,
                                layer_mu,
@@ -182,6 +176,6 @@ vec3 principled_radiance(sampler2D atlas,
                                layer_normal,
                                reflect_dir(view_dir, layer_normal));
     }
-  }
+  } while (++coat < (MAY_BE_COATED ? 2 : 1));
   return radiance;
 }

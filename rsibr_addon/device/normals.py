@@ -39,4 +39,4 @@ def normal_shader() -> gpu.types.GPUShader:
 @kept_until_exit
 def shading_normal_shader() -> gpu.types.GPUShader:
     """Draws the normals that a material is shaded with."""
-    return textured_program("principled_textured", {}, NORMALS)
+    return textured_program("principled_textured", {}, (NORMALS,))

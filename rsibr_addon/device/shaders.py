@@ -7,6 +7,7 @@ import atexit
 from collections.abc import Callable, Mapping
 from functools import cache, wraps
 from threading import current_thread, main_thread
+from typing import Any, ParamSpec
 
 import gpu
 
@@ -18,19 +19,23 @@ DRAW_STRUCT = "struct Draw { mat4 model; mat4 view; mat4 projection; mat4 turn; 
 _DESTINATION_BLOCK = "struct Destination { vec4 view_dir; };"
 
 
-def kept_until_exit(build: Callable[[], gpu.types.GPUShader]) -> Callable[[], gpu.types.GPUShader]:
-    """Build a program on first use, and free it before Blender's graphics end.
+Given = ParamSpec("Given")
+
+
+def kept_until_exit(build: Callable[Given, gpu.types.GPUShader]) -> Callable[Given, gpu.types.GPUShader]:
+    """Build a program on first use, one for all that is given, and free it before Blender's graphics end.
 
     A program that is freed after them ends the process with a segmentation fault. The values that are set of
     one belong to all threads, so renders, which have a thread of their own in a window, have programs of
     their own.
     """
-    cached = cache(lambda of_render: build())
+    cached: Any = cache(lambda of_render, *given, **named: build(*given, **named))
     _kept.append(cached.cache_clear)
 
     @wraps(build)
-    def program() -> gpu.types.GPUShader:
-        return cached(current_thread() is not main_thread())
+    def program(*given: Given.args, **named: Given.kwargs) -> gpu.types.GPUShader:
+        shader: gpu.types.GPUShader = cached(current_thread() is not main_thread(), *given, **named)
+        return shader
 
     return program
 

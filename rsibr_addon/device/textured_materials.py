@@ -1,6 +1,6 @@
 """The program that draws a material whose inputs are textures, and what it reads of one."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 from weakref import WeakKeyDictionary
@@ -21,7 +21,7 @@ from ..core.materials.principled import (
     Texture,
 )
 from . import buffers
-from .own_materials import MOST_TEXTURES, DrawnMaterial
+from .own_materials import MOST_TEXTURES, TRANSLUCENT, DrawnMaterial
 from .shaders import build, mesh_interface
 
 INPUTS = (
@@ -48,7 +48,7 @@ and color and strength of the coat's normal map."""
 
 MATERIAL_STRUCT = (
     f"struct Material {{ vec4 counts; vec4 antialiasing; vec4 height; vec4 constants[{NUMBERS // 4}]; "
-    f"vec4 rows[{NUMBERS}]; vec4 targets[{NUMBERS}]; "
+    f"vec4 rows[{NUMBERS + 1}]; vec4 targets[{NUMBERS + 1}]; "
     f"vec4 ranges[{MOST_TEXTURES}]; vec4 mapping[{2 * MOST_TEXTURES}]; }};"
 )
 """A material in the shader: see `material_rows`."""
@@ -68,14 +68,13 @@ _BLACK = Input(((0.0,) * 5,) * 3)
 _ZERO = Input(((0.0,) * 5,))
 
 
-TRANSLUCENT, NORMALS = "TRANSLUCENT", "NORMALS"
-"""Variants of a program. The first leaves out what covers nothing, and draws what covers all if its constant
-`whole` is 1, and the rest if that is 0; a program that leaves fragments out is a fifth slower, everywhere.
-The second draws the normals that the material is shaded with, where its alpha is a half or more.
-"""
+NORMALS = "NORMALS"
+"""Defined by a program that draws the normals of a material instead, where its alpha is a half or more."""
 
 
-def textured_program(fragment: str, samplers: Mapping[str, str], variant: str = "") -> gpu.types.GPUShader:
+def textured_program(
+    fragment: str, samplers: Mapping[str, str], defines: Collection[str]
+) -> gpu.types.GPUShader:
     """Build a program that draws `GpuTexturedMesh` with one `DrawnMaterial`.
 
     Parameters
@@ -84,8 +83,8 @@ def textured_program(fragment: str, samplers: Mapping[str, str], variant: str = 
         The source, without its ending _frag.glsl.
     samplers : mapping of str to str
         Textures of what lights the material, as `MeshProgram` takes them.
-    variant : str, optional
-        `TRANSLUCENT` or `NORMALS`.
+    defines : collection of str
+        Names that are defined: `NORMALS`, or see `DrawnMaterial.defines`.
 
     Raises
     ------
@@ -93,9 +92,9 @@ def textured_program(fragment: str, samplers: Mapping[str, str], variant: str = 
         The driver refuses it.
     """
     info = mesh_interface(MATERIAL_STRUCT)
-    if variant:
-        info.define(variant)
-    if variant == TRANSLUCENT:
+    for name in defines:
+        info.define(name)
+    if TRANSLUCENT in defines:
         info.push_constant("FLOAT", "whole")
     info.uniform_buf(1, "Material", "material")
     info.vertex_in(2, "VEC4", "tangent")
@@ -227,7 +226,8 @@ def material_rows(inputs: PrincipledInputs, textures: tuple[Texture, ...], uv_ma
         )
     numbered = [(row, value.texture) for value in _inputs(inputs) for row in value.rows]
     constants = np.array([row[4] for row, _ in numbered], np.float32)
-    factors, targets = np.zeros((2, NUMBERS, 4), np.float32)
+    # The last one adds nothing, for a texture of no number, as that of a bump's height
+    factors, targets = np.zeros((2, NUMBERS + 1, 4), np.float32)
     ranges = np.zeros((MOST_TEXTURES, 4), np.float32)
     end = 0
     for texture, begin_and_end in zip(textures, ranges, strict=False):
@@ -237,6 +237,8 @@ def material_rows(inputs: PrincipledInputs, textures: tuple[Texture, ...], uv_ma
                 factors[end], targets[end, 0] = row[:4], number
                 end += 1
         begin_and_end[1] = end
+        if begin_and_end[0] == end:
+            begin_and_end[:2] = NUMBERS, NUMBERS + 1
     mapping = np.zeros((MOST_TEXTURES, 2, 4), np.float32)
     for texture, rows in zip(textures, mapping, strict=False):
         rows[:, :3] = np.reshape(texture.mapping, (2, 3))

@@ -103,6 +103,18 @@ TWINS = {
         # 2^-21 of their argument's range here.
         1e-6,
     ),
+    "tilted_axes": Twin(
+        "lobe_stack_lib.glsl",
+        "vec3 axes[4]; tilted_axes(in_0.xyz, in_1.xyz, in_2, axes);"
+        + "".join(f"result_{n}.xyz = axes[{n}];" for n in range(4)),
+        lambda: [unit_vectors(34), unit_vectors(35), np.hstack([offsets(), offsets()])],
+        lambda normal, mirror_dir, tilts: lobe_axes(
+            normal[:, None], mirror_dir[:, None], np.stack([tilts, 0.0 * tilts], axis=-1)
+        ),
+        # As `lobe_axis`; the tangent's direction is lost as far as the normal is near the mirror direction
+        1e-6,
+        results=4,
+    ),
     "stack_place": Twin(
         "lobe_stack_lib.glsl",
         f"result_0.xyz = stack_place(LAYOUT_DUAL_PARABOLOID, {SIZE}.0, in_0.xyz);"

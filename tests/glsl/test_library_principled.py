@@ -22,12 +22,8 @@ from rsibr.rsibr_addon.core.lobes.family import KERNELS
 from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.core.resample import lookup
-from rsibr.rsibr_addon.device.kinds.kernel_pyramid import (
-    GGX_LOBES,
-    SAMPLERS,
-    GpuPyramid,
-    family_texels,
-)
+from rsibr.rsibr_addon.device.kinds.kernel_pyramid import SAMPLERS, GpuPyramid
+from rsibr.rsibr_addon.device.kinds.kernel_pyramid_texels import family_texels, lookup_slots
 from rsibr.rsibr_addon.files.kinds.kernel_pyramid import shipped_families
 from rsibr.rsibr_addon.settings.kernel_pyramid import KernelPyramidSettings
 from rsibr.tests.glsl.evaluation import Samplers, evaluate
@@ -367,24 +363,32 @@ def test_family_place() -> None:
         np.testing.assert_allclose(np.clip(place * count - 0.5, 0.0, count - 1.0), expected, atol=1e-4)
 
 
-def test_kernel_count() -> None:
-    code = "result_0.x = float(kernel_count(places));"
-    found = evaluate("pyramid_lib.glsl", code, [np.zeros((1, 1))], 1, {"places": samplers()["places"]})
-    assert found[0, 0, 0] == KERNEL_COUNT
-
-
 def test_pyramid_radiance() -> None:
     direction = unit_vectors(42)[:POINTS]
     light = pyramid()
-    maps = {number: light.kernel(kappa, direction) for number, kappa in enumerate(KERNELS.concentrations)}
-    maps[KERNEL_COUNT] = lookup(light.mirror, direction, OCTAHEDRAL)
-    maps[KERNEL_COUNT + 1], maps[KERNEL_COUNT + 2] = shading.lookup_diffuse(light, direction)
-    textures = {name: samplers()[name] for name in ("atlas", "places")}
-    for number, expected in maps.items():
-        code = f"result_0.rgb = pyramid_radiance(atlas, places, {number}, octahedral_uv(in_0.xyz));"
+    maps = [lookup(light.mirror, direction, OCTAHEDRAL), *shading.lookup_diffuse(light, direction)]
+    textures = {name: samplers()[name] for name in ("atlas", "lookups")}
+    for name, expected in zip(("MIRROR_MAP", "COSINE_MAP", "LEANING_MAP"), maps, strict=True):
+        code = f"result_0.rgb = pyramid_radiance(atlas, lookups, {name}, octahedral_uv(in_0.xyz));"
         found = evaluate("pyramid_lib.glsl", code, [direction], 1, textures)[:, 0, :3]
-        # Half floats are good to 2^-12 of a value; weights of 8 bits to 2 / 512 of what neighbours differ by
-        assert np.abs(found - expected).max() < 3e-3 * expected.max()
+        assert_as_stored(found, expected)
+
+
+def test_atlas_radiance() -> None:
+    direction = unit_vectors(42)[:POINTS]
+    light = pyramid()
+    _, places = atlas_texels(light)
+    for number, kappa in enumerate(KERNELS.concentrations):
+        place = ", ".join(map(repr, places[0, number, :3].tolist()))
+        code = f"result_0.rgb = atlas_radiance(atlas, vec3({place}), octahedral_uv(in_0.xyz));"
+        textures = {"atlas": samplers()["atlas"]}
+        found = evaluate("pyramid_lib.glsl", code, [direction], 1, textures)[:, 0, :3]
+        assert_as_stored(found, light.kernel(kappa, direction))
+
+
+def assert_as_stored(found: np.ndarray, expected: np.ndarray) -> None:
+    """Half floats are good to 2^-12 of a value; weights of 8 bits to 2 / 512 of what neighbours differ by."""
+    assert np.abs(found - expected).max() < 3e-3 * expected.max()
 
 
 def points(count: int = POINTS) -> tuple[np.ndarray, np.ndarray, list[np.ndarray]]:
@@ -409,7 +413,7 @@ def assert_near(found: np.ndarray, expected: np.ndarray, peak: float) -> None:
 
 def shaded(light: Pyramid, normal: np.ndarray, view_dir: np.ndarray, inputs: list[np.ndarray]) -> np.ndarray:
     code = SURFACE + (
-        "result_0.rgb = principled_radiance(atlas, places, ggx, leaning, albedos, rises, surface, in_6.xyz, "
+        "result_0.rgb = principled_radiance(atlas, lookups, ggx, leaning, albedos, rises, surface, in_6.xyz, "
         "in_6.xyz, in_6.xyz, in_6.xyz, in_7.xyz);"
     )
     facing = seen_surface(normal, view_dir).normal
@@ -445,19 +449,25 @@ def directions() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return normal, single(reflect(view_dir, normal)), single(dot(normal, view_dir)[:, None])
 
 
-def test_kernels_of() -> None:
-    """Kernels beyond have no weight, and few below have none."""
-    ggx, alpha = families().ggx, np.clip(2.0 ** numbers(47, -8.0, 0.5), None, 1.0)
-    found = evaluate(LIBRARY, "result_0.x = float(kernels_of(places, in_0.x));", [alpha], 1, samplers())
-    weighs = np.any(ggx.weights, axis=(1, 2, 4))
-    below = np.searchsorted(ggx.alpha, alpha[:, 0], side="right") - 1
-    last = KERNEL_COUNT - np.argmax(weighs[np.maximum(below, 0), ::-1], axis=1)
-    assert np.all(found[:, 0, 0] >= last)
-    assert np.mean(found[:, 0, 0] - last) < 0.5
-    assert (
-        np.count_nonzero(np.any(families().leaning.weights, axis=(0, 1, 2, 4)))
-        <= found[alpha[:, 0] == 1.0, 0, 0].min()
-    )
+def test_family_column() -> None:
+    """Away from columns themselves, on which rounding decides."""
+    alpha = 2.0 ** (0.25 * (np.arange(-40, 4)[:, None] + 0.5))
+    code = "result_0.x = float(family_column(ggx, family_place(ggx, in_0.x, 0.5)));"
+    found = evaluate(LIBRARY, code, [alpha], 1, {"ggx": samplers()["ggx"]})[:, 0, 0]
+    below = np.searchsorted(families().ggx.alpha, alpha[:, 0], side="right") - 1
+    np.testing.assert_array_equal(found, np.maximum(below, 0))
+
+
+@pytest.mark.parametrize("name", ["ggx", "leaning"])
+def test_every_weight_has_its_slot_alone(name: str) -> None:
+    family = getattr(families(), name)
+    slots = lookup_slots(family)
+    weighs = np.any(family.weights, axis=(1, 4)).reshape(len(family.alpha), -1)
+    for width, pairs in zip(weighs, slots, strict=True):
+        np.testing.assert_array_equal(np.sort(pairs[pairs >= 0]), np.flatnonzero(width))
+    # What is interpolated between two widths is of one lookup
+    both = (slots[1:] >= 0) & (slots[:-1] >= 0)
+    np.testing.assert_array_equal(slots[1:][both], slots[:-1][both])
 
 
 def test_lobes_radiance() -> None:
@@ -465,12 +475,12 @@ def test_lobes_radiance() -> None:
     color, edge, alpha = (each[:POINTS] for each in (numbers(45, columns=3), numbers(46), numbers(47)))
     code = (
         "Powers of_metal = schlick(in_0.rgb, in_1.xxx);"
-        "result_0.rgb = lobes_radiance(atlas, places, ggx, GGX_LOBES, 5, in_2.x, in_3.x, of_metal, in_4.xyz,"
+        "result_0.rgb = lobes_radiance(atlas, lookups, ggx, 0, 5, in_2.x, in_3.x, of_metal, in_4.xyz,"
         "                              in_5.xyz);"
-        "result_1.rgb = lobes_radiance(atlas, places, leaning, LEANING_LOBES, 1, 1.0, in_3.x,"
+        "result_1.rgb = lobes_radiance(atlas, lookups, leaning, textureSize(ggx, 0).x, 1, 1.0, in_3.x,"
         "                              Powers(vec3(1.0), mat4x3(0.0)), in_4.xyz, in_5.xyz);"
     )
-    textures = {name: samplers()[name] for name in ("atlas", "places", "ggx", "leaning")}
+    textures = {name: samplers()[name] for name in ("atlas", "lookups", "ggx", "leaning")}
     found = evaluate(LIBRARY, code, [color, edge, alpha, mu, normal, mirror_dir], 2, textures)[..., :3]
     metal = np.moveaxis(fresnel_powers.schlick(color, edge), -1, -2)
     for shown, family, width, powers, scale in (
@@ -489,10 +499,10 @@ def test_ggx_radiance() -> None:
     color, alpha = numbers(48, columns=3)[:POINTS], 2.0 ** numbers(49, -8.0, 0.0)[:POINTS]
     alpha[:10] = 0.0
     code = (
-        "result_0.rgb = ggx_radiance(atlas, places, ggx, in_1.x, in_2.x, schlick(in_0.rgb, vec3(0.0)),"
+        "result_0.rgb = ggx_radiance(atlas, lookups, ggx, in_1.x, in_2.x, schlick(in_0.rgb, vec3(0.0)),"
         "                            in_3.xyz, in_4.xyz);"
     )
-    textures = {name: samplers()[name] for name in ("atlas", "places", "ggx")}
+    textures = {name: samplers()[name] for name in ("atlas", "lookups", "ggx")}
     found = evaluate(LIBRARY, code, [color, alpha, mu, normal, mirror_dir], 1, textures)[:, 0, :3]
     metal = np.moveaxis(fresnel_powers.schlick(color), -1, -2)
     expected = shading._glossy(pyramid(), families(), alpha[:, 0], metal, normal, view_dir)
@@ -504,10 +514,10 @@ def test_diffuse_radiance() -> None:
     color, roughness = numbers(50, columns=3)[:POINTS], often_zero(51)[:POINTS]
     smooth = normalize(normal + 0.7 * unit_vectors(52)[:POINTS])
     code = (
-        "result_0.rgb = diffuse_radiance(atlas, places, leaning, in_0.rgb, in_1.x, in_2.x, in_3.xyz,"
+        "result_0.rgb = diffuse_radiance(atlas, lookups, leaning, in_0.rgb, in_1.x, in_2.x, in_3.xyz,"
         "                                in_4.xyz, in_5.xyz);"
     )
-    textures = {name: samplers()[name] for name in ("atlas", "places", "leaning")}
+    textures = {name: samplers()[name] for name in ("atlas", "lookups", "leaning")}
     arguments = [color, roughness, mu, normal, smooth, mirror_dir]
     found = evaluate(LIBRARY, code, arguments, 1, textures)[:, 0, :3]
     surface = Surface(base_color=color, diffuse_roughness=roughness[:, 0])
@@ -558,4 +568,4 @@ def test_a_family_of_another_kind_is_refused() -> None:
         replace(ggx, tilts=np.repeat(ggx.tilts, 2, 2), weights=np.repeat(ggx.weights, 2, 2)),
     ):
         with pytest.raises(ShapeError, match=r"12 kernels and 4 lobes, .* fit it anew"):
-            family_texels(other, GGX_LOBES)
+            family_texels(other)

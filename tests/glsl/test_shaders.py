@@ -19,7 +19,17 @@ from rsibr.rsibr_addon.device.kinds import (
     mip_chain_shaders,
     reflection_tables,
 )
+from rsibr.rsibr_addon.device.own_materials import SMOOTH_DIFFUSE, TRANSLUCENT, UNCOATED
 from rsibr.rsibr_addon.device.shader_source import SHADER_FOLDER, shader_source
+
+
+def any_material_shader() -> object:
+    return kernel_pyramid.material_shader(())
+
+
+def plain_translucent_material_shader() -> object:
+    return kernel_pyramid.material_shader((TRANSLUCENT, UNCOATED, SMOOTH_DIFFUSE))
+
 
 FILES = sorted(path.relative_to(SHADER_FOLDER).as_posix() for path in SHADER_FOLDER.rglob("*.*"))
 PROGRAMS = [
@@ -32,8 +42,9 @@ PROGRAMS = [
     environment.environment_shader,
     lobe_stack.lobe_stack_shader,
     kernel_pyramid.principled_shader,
-    kernel_pyramid.opaque_shader,
-    kernel_pyramid.translucent_shader,
+    any_material_shader,
+    plain_translucent_material_shader,
+    kernel_pyramid.depth_first_shader,
     preview.sample_means_shader,
     floor_shadow.floor_shadow_shader,
     textures.texels_shader,

@@ -1,13 +1,15 @@
-"""Fits families: lobes tracked over widths as over elevations, then smoothed, then solved.
+"""Fits families: lobes tracked over widths as over elevations, then smoothed, thinned, and solved.
 
 The axes are fitted to a few materials together, the guides, such as a white metal and a dielectric, each
-scaled to like power. For given axes the weights of all channels are one linear system (`projection`).
+scaled to like power. For given axes the weights of all channels are one linear system (`projection`); which
+kernels count is decided by the guides too (`thinning`).
 """
 
 from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..brdf.cook_torrance import CookTorrance
 from ..brdf.fresnel import Schlick
@@ -21,9 +23,10 @@ from ..progress import Progress, Steps
 from .bank import KernelBank
 from .family import KERNELS, Family
 from .joint import MOST_AMPLIFICATION, State, added_lobe, amplification, settled, tilts_of, tracked
-from .projection import Lookups, Projector
+from .projection import UNIFORM_LIGHT, Lookups, Projector
 from .smoothing import lines
 from .target import TargetSlice, elevation_slices, target_slices
+from .thinning import Equations, solution, thinned
 
 WIDTHS = 2.0 ** np.linspace(-8.0, 0.0, 33)
 """alpha of the rows of the GGX family, four an octave."""
@@ -39,6 +42,9 @@ GAUSSIAN_GUIDES = np.array([[1.0, 0.0], [0.0, 0.04], [0.0, 0.96]])
 SMOOTHNESS = 0.1
 """Price of tilts' squared distance from the line between their neighbours'."""
 
+THRIFT = 0.06
+"""Share by which the squared error may rise for fewer kernels of fewer lobes."""
+
 _SHARPNESS = 16.0
 _FIRST_WIDTH, _FIRST_ELEVATION = 0.25, 0.25
 _STIFFER, _STIFFEST = 1.4, 1e4
@@ -53,13 +59,14 @@ def fit_leaning(elevations: int = ELEVATIONS, lobes: int = LEANING_LOBES) -> Ste
             np.ones(1),
             elevation_slices(elevations),
             lobes,
+            THRIFT,
         )
     )
 
 
 def fit_ggx(widths: Array = WIDTHS, elevations: int = ELEVATIONS, lobes: int = LOBES) -> Steps[Family]:
     """The family of GGX reflection of all widths and all Fresnel terms that are sums of `POWERS`."""
-    return (yield from fit_family(_ggx, GUIDES, widths, elevation_slices(elevations), lobes))
+    return (yield from fit_family(_ggx, GUIDES, widths, elevation_slices(elevations), lobes, THRIFT))
 
 
 def fit_gaussian(
@@ -70,7 +77,12 @@ def fit_gaussian(
 
 
 def fit_family(
-    model: Callable[[float], BrdfFunction], guides: Array, widths: Array, mu: Array, lobes: int
+    model: Callable[[float], BrdfFunction],
+    guides: Array,
+    widths: Array,
+    mu: Array,
+    lobes: int,
+    thrift: float = 0.0,
 ) -> Steps[Family]:
     """Fit lobes to functions at all widths.
 
@@ -85,6 +97,8 @@ def fit_family(
         Cosines of the view elevations, ascending.
     lobes : int
         Number J of lobes.
+    thrift : float
+        See `thinned`; 0 to keep all kernels that a width needs.
     """
     start = int(np.argmin(np.abs(np.log(widths / _FIRST_WIDTH))))
     tilts: Array = np.empty((len(widths), len(mu), lobes))
@@ -112,12 +126,15 @@ def fit_family(
             tilts_of(target, state.lookups.angles)[:, 0] for target, state in zip(guided, states, strict=True)
         ]
     tilts = smoothed(tilts, np.log(widths), mu, SMOOTHNESS)
+    yield Progress(len(widths), 2 * len(widths), "leaving out what hardly counts")
+    kept = _kept(rows, tilts, widths, guides, thrift)
     weights = np.zeros((*tilts.shape, len(KERNELS), len(guides)))
     for row in range(len(widths)):
         yield Progress(len(widths) + row, 2 * len(widths), f"solving for weights at alpha {widths[row]:.3g}")
         bank = kernels_of(widths[row])
         for column, target in enumerate(rows[row]):
-            weights[row, column, :, : len(bank)] = _solved(target, bank, tilts[row, column], guides)
+            counted = kept[row, :, : len(bank)].ravel()
+            weights[row, column, :, : len(bank)] = _solved(target, bank, tilts[row, column], guides, counted)
     return Family(widths, mu, KERNELS, tilts, weights)
 
 
@@ -194,11 +211,48 @@ def _lookups(target: TargetSlice, tilts: Array) -> Lookups:
     return Lookups(angles, np.ones_like(angles))
 
 
-def _solved(target: TargetSlice, bank: KernelBank, tilts: Array, guides: Array) -> Array:
-    """Weights of kernels, shape (J, K, C), for given axes; no guide is amplified too much."""
+def _kept(
+    rows: dict[int, list[TargetSlice]], tilts: Array, widths: Array, guides: Array, thrift: float
+) -> NDArray[np.bool_]:
+    """Which kernels count of which lobes at each width, shape (A, J, K)."""
+    count, lobes = len(widths), tilts.shape[2]
+    within = np.stack([np.arange(len(KERNELS)) < len(kernels_of(width)) for width in widths])
+    kept = np.repeat(within[:, None], lobes, axis=1)
+    if thrift == 0.0:
+        return kept
+    equations: list[list[Equations]] = []
+    errors = np.zeros(count)
+    for row in range(count):
+        bank, used = kernels_of(widths[row]), kept[row].ravel()
+        equations.append([])
+        for target, each in zip(rows[row], tilts[row], strict=True):
+            projector = Projector(_guided(target, guides), bank)
+            system, right = projector.equations(_lookups(target, each))
+            errors[row] += 1.0 + UNIFORM_LIGHT - np.sum(right * np.linalg.solve(system, right))
+            equations[row].append(_spread_out(system, right, used))
+    chosen = thinned(equations, errors, thrift).reshape(kept.shape)
+    return kept & chosen
+
+
+def _spread_out(system: Array, right: Array, used: NDArray[np.bool_]) -> Equations:
+    """Equations of more unknowns, of which those that are not used are 0."""
+    wider, of_all = np.eye(len(used)), np.zeros((len(used), right.shape[1]))
+    wider[np.ix_(used, used)], of_all[used] = system, right
+    return wider, of_all
+
+
+def _solved(
+    target: TargetSlice, bank: KernelBank, tilts: Array, guides: Array, kept: NDArray[np.bool_]
+) -> Array:
+    """Weights of kernels, shape (J, K, C), for given axes; no guide is amplified too much.
+
+    kept: shape (J * K,), those that count; the others are 0.
+    """
     lookups, stiffness = _lookups(target, tilts), 1.0
     while True:
-        weights = Projector(target, bank, stiffness).project(lookups).weights
+        projector = Projector(target, bank, stiffness)
+        found = solution(projector.equations(lookups), kept)
+        weights = projector.weights(found.reshape(len(tilts), len(bank), -1))
         loudest = max(
             amplification(bank, State(lookups, weights @ guide, np.nan), _mixed(target, guide))
             for guide in guides.T[:, :, None]

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from typing import Any
-from weakref import WeakKeyDictionary
+from weakref import ReferenceType, ref
 
 from ...core.errors import RangeError
 from ...device.drawing import GpuMapSet, WithInputs
@@ -41,12 +41,14 @@ class _Drawn:
 
     Attributes
     ----------
+    map_set : weakref.ref
     asked, look : object
         What was asked for, and what is drawn: the last look before it where the map set does not serve that.
     refusal : str
         Why it is not drawn; empty where it is.
     """
 
+    map_set: ReferenceType[GpuMapSet]
     asked: object
     look: Any
     refusal: str = ""
@@ -64,7 +66,7 @@ class Looks:
     def __init__(self) -> None:
         self._types = look_types()
         self._made: dict[tuple[int, bool], tuple[object, Any]] = {}  # what was said last, and the look
-        self._drawn: WeakKeyDictionary[GpuMapSet, dict[tuple[int, bool], _Drawn]] = WeakKeyDictionary()
+        self._drawn: dict[tuple[int, bool], _Drawn] = {}
         self.asked: dict[tuple[int, str, bool], list[Any]] = {}
 
     def of(self, surface: Surface, map_set: ViewportMapSet, other: bool) -> Any:
@@ -92,9 +94,9 @@ class Looks:
     def warnings(self, item: Any, map_set: ViewportMapSet) -> list[str]:
         """What the makers of an object's looks have to say of them, or why the last ones are still shown."""
         if not KINDS[map_set.kind].live:
-            drawn = self._drawn.get(map_set.gpu_map_set, {})
-            both = (drawn.get((item.session_uid, other)) for other in (False, True))
-            return list(dict.fromkeys(each.refusal for each in both if each and each.refusal))
+            both = (self._drawn.get((item.session_uid, other)) for other in (False, True))
+            of_map_set = (each for each in both if each and each.map_set() is map_set.gpu_map_set)
+            return list(dict.fromkeys(each.refusal for each in of_map_set if each.refusal))
         looks = [self._said(item, map_set.kind, other) for other in (False, True)]
         return [warning for look in dict.fromkeys(looks) if (warning := map_set.gpu_map_set.warning(look))]
 
@@ -104,13 +106,10 @@ class Looks:
 
     def _served(self, map_set: GpuMapSet, shown: tuple[int, bool], asked: Any) -> Any:
         """A look as a map set can draw it; it is tried once, as every frame asks for it."""
-        if not isinstance(map_set, WithInputs):
-            return asked
-        drawn = self._drawn.setdefault(map_set, {})
-        before = drawn.get(shown)
-        if before is None or before.asked is not asked:
-            drawn[shown] = _tried(map_set, asked, before)
-        return drawn[shown].look
+        drawn = self._drawn.get(shown)
+        if drawn is None or drawn.asked is not asked or drawn.map_set() is not map_set:
+            drawn = self._drawn[shown] = _tried(map_set, asked, drawn)
+        return drawn.look
 
     def _said(self, item: Any, kind: str, other: bool) -> Any:
         """The look that an object's properties say; it is checked once, as every frame asks for it."""
@@ -123,11 +122,12 @@ class Looks:
         return look
 
 
-def _tried(map_set: WithInputs, asked: Any, before: _Drawn | None) -> _Drawn:
+def _tried(map_set: GpuMapSet, asked: Any, before: _Drawn | None) -> _Drawn:
     try:
-        map_set.inputs(asked)
+        if isinstance(map_set, WithInputs):
+            map_set.inputs(asked)
     except RangeError as error:
-        if before is None:
+        if before is None or before.map_set() is not map_set:
             raise
-        return _Drawn(asked, before.look, str(error))
-    return _Drawn(asked, asked)
+        return _Drawn(before.map_set, asked, before.look, str(error))
+    return _Drawn(ref(map_set), asked, asked)

@@ -1,0 +1,156 @@
+"""The texels of families of lobes, and of what they look up, as gpu_shaders/lib reads them."""
+
+from itertools import groupby
+
+import numpy as np
+
+from ...core.brdf.fresnel_powers import rise
+from ...core.conventions import Array, Indices
+from ...core.errors import ShapeError
+from ...core.kinds.kernel_pyramid.shading import Families
+from ...core.lobes.family import KERNELS, Family
+
+MOST_LOBES = 4
+"""Lobes of a family at most, as many as a texel has numbers."""
+
+GLASS = rise(0.2)[1:] / rise(0.2)[1]
+"""Rising powers of glass, of an index of 1.5, over the first of them.
+
+Most coats and plastics are glass: their weights are a function of their own, in the place of the first rising
+one, which metals do not have. So glass costs two lookups of weights, as does a metal without tinted edges.
+"""
+
+_WIDTHS_AN_OCTAVE = 4
+"""As gpu_shaders/lib/family_lib.glsl has it."""
+
+_SLOTS = 4
+"""Lookups whose weights share a texel."""
+
+
+def family_texels(family: Family) -> Array:
+    """A family as gpu_shaders/lib/principled_radiance_lib.glsl reads it.
+
+    Parameters
+    ----------
+    family : Family
+        Of `MOST_LOBES` at most.
+
+    Returns
+    -------
+    ndarray, shape (1 + G * C, S, A, 4), float32
+        The tilts of the lobes; for each four of `lookup_slots` and each function, their weights. Those of
+        GGX are `GLASS`, in the place of the first rising power, and the others in their order.
+
+    Raises
+    ------
+    ShapeError
+        It has more lobes, or is not sampled as the shader takes it to be.
+    """
+    count, rows, lobes = family.tilts.shape
+    widths = 2.0 ** ((np.arange(count) - count + 1) / _WIDTHS_AN_OCTAVE)
+    regular = np.allclose(family.alpha, widths) and np.allclose(family.mu, (np.arange(rows) + 0.5) / rows)
+    if lobes > MOST_LOBES or not regular or family.bank != KERNELS:
+        raise ShapeError(
+            f"Graphics cards take families of {len(KERNELS)} kernels and {MOST_LOBES} lobes, at "
+            f"{_WIDTHS_AN_OCTAVE} widths an octave and regular elevations: fit it anew."
+        )
+    functions, slots = family.weights.shape[4], lookup_slots(family)
+    texels = np.zeros((1 + slots.shape[1] // _SLOTS * functions, rows, count, 4), dtype=np.float32)
+    texels[0, ..., :lobes] = family.tilts.swapaxes(0, 1)
+    weights = family.weights.reshape(count, rows, -1, functions).astype(np.float64)
+    if functions > 1:
+        weights[..., :2] = np.stack([weights[..., 1:] @ GLASS, weights[..., 0]], axis=-1)
+    of_slots = np.zeros((count, rows, slots.shape[1], functions))
+    for width, pairs in enumerate(slots):
+        there = pairs >= 0
+        of_slots[width][:, there] = weights[width][:, pairs[there]]
+    by_four = of_slots.reshape(count, rows, -1, _SLOTS, functions).transpose(2, 4, 1, 0, 3)
+    texels[1:] = by_four.reshape(-1, rows, count, _SLOTS)
+    return texels
+
+
+def lookup_slots(family: Family) -> Indices:
+    """Where the weights of a family's lookups lie, of each kernel about each axis.
+
+    Returns
+    -------
+    ndarray of int, shape (A, 4 G)
+        The lookup in each slot at a width, lobe * K + kernel; -1 for none. A lookup keeps its slot over
+        neighbouring widths, and a width without any lies between two that share one, so that hardware may
+        interpolate.
+    """
+    weighs = np.any(family.weights, axis=(1, 4)).reshape(len(family.alpha), -1)
+    runs = sorted(
+        (widths[0], widths[-1], pair)
+        for pair, of_pair in enumerate(weighs.T)
+        for widths in _runs(np.flatnonzero(of_pair))
+    )
+    ends: list[int] = []
+    placed = []
+    for first, last, pair in runs:
+        slot = next((slot for slot, end in enumerate(ends) if end < first - 1), len(ends))
+        ends[slot : slot + 1] = [last]
+        placed.append((first, last, slot, pair))
+    slots = np.full((len(weighs), -(-len(ends) // _SLOTS) * _SLOTS), -1)
+    for first, last, slot, pair in placed:
+        slots[first : last + 1, slot] = pair
+    return slots
+
+
+def _runs(numbers: Indices) -> list[list[int]]:
+    """Ascending numbers in runs without gaps."""
+    pairs = enumerate(numbers.tolist())
+    return [[number for _, number in run] for _, run in groupby(pairs, lambda pair: pair[1] - pair[0])]
+
+
+def lookup_texels(families: Families, places: Array) -> Array:
+    """Which maps are looked up about which axes, as gpu_shaders/lib/pyramid_lib.glsl reads it.
+
+    Parameters
+    ----------
+    families : Families
+    places : ndarray, shape (1, K + 3, 4)
+        See `core.kinds.kernel_pyramid.atlas.atlas_texels`.
+
+    Returns
+    -------
+    ndarray, shape (R, A + A' + 1, 4), float32
+        A column for each width of GGX, and of the leaning facets, and the next one: the number of slots in
+        which either has a lookup, up to the last; then for each slot the place of the map, and the lobe. A
+        column with the places of the mirror's map and both diffuse ones.
+    """
+    of_maps = places[0, :, :3]  # all maps are squares
+    columns = [column for family in (families.ggx, families.leaning) for column in _columns(family, of_maps)]
+    columns.append(np.pad(of_maps[-3:], ((0, 0), (0, 1))))
+    texels = np.zeros((max(map(len, columns)), len(columns), 4), dtype=np.float32)
+    for number, column in enumerate(columns):
+        texels[: len(column), number] = column
+    return texels
+
+
+def _columns(family: Family, places: Array) -> list[Array]:
+    slots = lookup_slots(family)
+    wanted = np.maximum(slots, np.concatenate([slots[1:], slots[-1:]]))
+    lobes, kernels = np.divmod(np.maximum(wanted, 0), len(KERNELS))
+    columns: list[Array] = []
+    for width, there in enumerate(wanted >= 0):
+        count = 1 + np.max(np.flatnonzero(there), initial=-1)
+        own = np.column_stack([places[kernels[width]], lobes[width]])
+        columns.append(np.vstack([np.array([[count, 0.0, 0.0, 0.0]]), own]))
+    return columns
+
+
+def albedo_texels(families: Families) -> Array:
+    """Albedos of GGX as gpu_shaders/lib/principled_lib.glsl reads them.
+
+    Returns
+    -------
+    ndarray, shape (2, S, A, 4), float32
+        The albedos of GGX times the powers from 2 onwards; that of GGX itself, its mean, 0 and 0.
+    """
+    albedo = families.ggx.albedo.swapaxes(0, 1)
+    texels = np.zeros((2, *albedo.shape[:2], 4), dtype=np.float32)
+    texels[0] = albedo[..., 1:]
+    texels[1, ..., 0] = albedo[..., 0]
+    texels[1, ..., 1] = families.mean(families.ggx.alpha)
+    return texels

@@ -32,8 +32,6 @@ _TIE = 1.0
 _SPREADS, _TIES = (0.5, 1.0, 2.0), (_TIE, 0.01)
 _BETTER = 0.99
 _STIFFER = 1.4
-# A finer quadrature of a noisy target may find a little less power, and so more amplification
-_MARGIN = 0.98
 
 
 @dataclass(frozen=True)
@@ -170,7 +168,7 @@ def amplification(bank: KernelBank, state: State, target: TargetSlice) -> float:
 def is_quiet(bank: KernelBank, state: State, target: TargetSlice) -> bool:
     """Whether the fit at one elevation keeps the greatest amplification."""
     most = MOST_AMPLIFICATION if len(state.lookups.taps) > 1 else MOST_OF_ONE
-    return amplification(bank, state, target) <= _MARGIN * most
+    return amplification(bank, state, target) <= most
 
 
 def added_lobe(projector: Projector, angles: Array) -> Array:

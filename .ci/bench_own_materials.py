@@ -18,10 +18,10 @@ import numpy as np
 from docs_table import write_table
 from material_objects import GOLD, Material, textured_sphere
 from material_studio import Light, draw, framed, start
+from rsibr.rsibr_addon.core.at_once import AtOnce
 from rsibr.rsibr_addon.core.conventions import Array
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import bake_pyramid
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.core.threads import AtOnce
 from rsibr.rsibr_addon.host.map_sets import use_map_set
 from rsibr.rsibr_addon.host.visible_surfaces import View
 from rsibr.rsibr_addon.settings.kernel_pyramid import KernelPyramidSettings

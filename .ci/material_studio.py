@@ -12,6 +12,7 @@ import gpu
 import numpy as np
 import rsibr
 from mathutils import Matrix
+from rsibr.rsibr_addon.core.at_once import AtOnce
 from rsibr.rsibr_addon.core.conventions import Array
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import RsibrWarning
@@ -21,7 +22,6 @@ from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import Pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import Families
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.split_sum import split_families
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.core.threads import AtOnce
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.kinds.kernel_pyramid import GpuPyramid

@@ -7,8 +7,8 @@ import bpy
 import gpu
 import numpy as np
 import pytest
+from rsibr.rsibr_addon.core.at_once import AtOnce
 from rsibr.rsibr_addon.core.light.transfer_curve import srgb_from_linear
-from rsibr.rsibr_addon.core.threads import AtOnce
 from rsibr.rsibr_addon.host.render_views import NOTHING
 from rsibr.rsibr_addon.host.visible_surfaces import View, layer_of
 from rsibr.rsibr_addon.tasks.light import environments

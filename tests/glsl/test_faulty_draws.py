@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from mathutils import Matrix
 from rsibr.rsibr_addon import host
-from rsibr.rsibr_addon.core.threads import AtOnce
+from rsibr.rsibr_addon.core.at_once import AtOnce
 from rsibr.rsibr_addon.device.shaders import release_programs
 from rsibr.rsibr_addon.files.map_set import MapSet, write_map_set
 from rsibr.rsibr_addon.host.map_sets import use_map_set

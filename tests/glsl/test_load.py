@@ -13,7 +13,7 @@ import bpy
 import gpu
 import pytest
 from mathutils import Matrix
-from rsibr.rsibr_addon.core.threads import AtOnce
+from rsibr.rsibr_addon.core.at_once import AtOnce
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.host.map_sets import use_map_set
 from rsibr.rsibr_addon.host.visible_surfaces import View

@@ -8,7 +8,7 @@ import gpu
 import numpy as np
 import pytest
 from mathutils import Matrix
-from rsibr.rsibr_addon.core.threads import AtOnce
+from rsibr.rsibr_addon.core.at_once import AtOnce
 from rsibr.rsibr_addon.device.kinds.kernel_pyramid import GpuPyramid
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.host.map_sets import use_map_set

@@ -74,9 +74,9 @@ class RSIBR_PT_film(_OfEngine, bpy.types.Panel):
         self.layout.use_property_split = True
         scene, messages = context.scene, session().previews
         self.layout.prop(scene.render, "film_transparent", text="Transparent")
-        column = self.layout.column(heading="Background")
+        column = self.layout.column()
         column.active = not scene.render.film_transparent
-        column.prop(scene.rsibr_render, "background")
+        column.prop(scene.rsibr_render, "background", text="Background")
         blur = column.column()
         blur.active = not scene.rsibr_render.background
         blur.prop(scene.rsibr_render, "background_blur")

@@ -70,6 +70,8 @@ def scenario(told):
     # A viewport that the camera's frame fills: Blender draws it ((sqrt(2) + zoom / 50) / 2)^2 times as large
     scene, part = scene_in_the_world(), region(view())
     bpy.ops.mesh.primitive_monkey_add(location=(0.0, -2.5, 0.5))
+    bpy.ops.mesh.primitive_plane_add(size=6.0, location=(0.0, 0.0, -1.0))
+    bpy.context.object.is_shadow_catcher = True
     scene.render.resolution_x, scene.render.resolution_y = part.width, part.height
     bare(view())
     space = view().spaces.active
@@ -83,14 +85,17 @@ def scenario(told):
     while not like(pixels(), world).any():  # the world's bake has come
         yield from drawn()
     shown, picture = pixels(), rendered()
-    told["shows surfaces"] = float(1.0 - like(picture, world).mean())
+    is_surface = picture[..., 0] > picture[..., 2]
+    told["shows surfaces"] = float(is_surface.mean())
+    told["shows shadow"] = float((~is_surface & (picture[..., 2] < 0.9 * world[2])).mean())
     told["alike"] = float((np.abs(shown - picture).max(axis=-1) <= 4).mean())
 """
 
 
 def test_rendered_shows_what_f12_renders(told: Told) -> None:
     answer = told(PRELUDE + RENDERED)
-    assert 0.05 < answer["shows surfaces"] < 0.5
+    assert 0.05 < answer["shows surfaces"] < 0.5  # in orange, in a blue world
+    assert 0.01 < answer["shows shadow"] < 0.5
     # But for edges; 3 are Mesa's, see in_window.like, and 1 is of rounding
     assert answer["alike"] > 0.98
 

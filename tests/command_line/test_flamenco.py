@@ -80,6 +80,26 @@ def test_what_is_waited_for_is_fetched_and_what_failed_is_named(
     assert any("dawn-chrome.rsibr.exr exists, made with other settings" in each for each in warnings)
 
 
+def test_what_is_damaged_here_is_replaced_by_what_the_farm_made(
+    farm: Stub, capfd: pytest.CaptureFixture[str]
+) -> None:
+    words = ("submit", batch(output="{environment}.rsibr.exr"), "--flamenco", farm.url, "--wait")
+    told(capfd, *words)
+    whole = {name: Path(name).read_bytes() for name in ("dawn.rsibr.exr", "dusk.rsibr.exr")}
+    Path("dawn.rsibr.exr").write_bytes(whole["dawn.rsibr.exr"][:-9])
+    Path("dusk.rsibr.exr").write_bytes(b"")
+    assert told(capfd, *words)["warnings"] == []
+    assert {name: Path(name).read_bytes() for name in whole} == whole
+
+
+def test_a_picture_that_is_no_map_set_is_not_replaced(farm: Stub, capfd: pytest.CaptureFixture[str]) -> None:
+    plain = batch(environments=["dusk.exr"], output="picture.exr")
+    Path("picture.exr").write_bytes(b"mine")
+    warnings = told(capfd, "submit", plain, "--flamenco", farm.url, "--wait")["warnings"]
+    assert any("picture.exr exists, but is no whole map set" in each for each in warnings)
+    assert Path("picture.exr").read_bytes() == b"mine"
+
+
 def test_a_job_is_one_bake_whose_error_is_told(farm: Stub, capfd: pytest.CaptureFixture[str]) -> None:
     (Path.cwd() / "baked").mkdir()
     job = {

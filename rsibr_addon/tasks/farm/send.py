@@ -7,11 +7,11 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from ...core.errors import FarmError, NotNowError, OutputFileError
+from ...core.errors import FarmError, MapSetError, NotNowError, OutputFileError
 from ...core.progress import Progress, Steps
 from ...core.warned import warn
 from ...files.atomic import written_aside
-from ...files.map_set import read_map_set_header
+from ...files.map_set import read_map_set, read_map_set_header
 from ..batch.bakes import BatchBake, parts_of
 from ..batch.notes import Failure, batch_folder
 from ..batch.run import UNKNOWN, kept_result
@@ -197,7 +197,7 @@ def outcome(manager: Manager, sent: Sent, status: str) -> dict[str, Failure]:
 
 
 def fetch(sent: Sent, folder: Path) -> Steps[None]:
-    """Copy what a job has made: map sets, unless they are there already, and of several the page too.
+    """Copy what a job has made: map sets, unless whole ones are there already, and of several the page too.
 
     Parameters
     ----------
@@ -221,12 +221,24 @@ def fetch(sent: Sent, folder: Path) -> Steps[None]:
     for done, path in enumerate(files):
         yield Progress(done, len(files), f"fetching {path.name}")
         target = folder / path.relative_to(sent.maps)
-        if path in outputs and target.exists():
+        replaced = path not in outputs or _is_damaged(target)
+        if target.exists() and not replaced:
             _warn_unless_same(path, target)
             continue
         make_folder(target.parent)
-        with written_aside(target, force=path not in outputs) as aside:
+        with written_aside(target, force=replaced) as aside:
             shutil.copyfile(path, aside)
+
+
+def _is_damaged(there: Path) -> bool:
+    """Whether a file is what is left of a map set; one of another name may be a picture of the artist's."""
+    if not there.is_file() or not there.name.endswith(".rsibr.exr"):
+        return False
+    try:
+        read_map_set(there)
+    except MapSetError:
+        return True
+    return False
 
 
 def _warn_unless_same(made: Path, there: Path) -> None:

@@ -68,7 +68,7 @@ def parsed(argv: Sequence[str]) -> argparse.Namespace:
         Help was asked for; that is printed.
     """
     _limit_threads(argv)
-    return parser().parse_args(_with_joined_directions(_with_todays_names(argv)))
+    return parser().parse_args(_with_joined_values(_with_todays_names(argv)))
 
 
 def _limit_threads(argv: Sequence[str]) -> None:
@@ -177,11 +177,11 @@ def _declare_arguments(command: Any, parser: Parser, words: Sequence[str]) -> No
     parser.set_defaults(run=command.run, command=parser.prog)
 
 
-def _with_joined_directions(argv: Sequence[str]) -> list[str]:
-    """Make `--view -1,0,0` one argument: argparse would take -1,0,0 for an option."""
+def _with_joined_values(argv: Sequence[str]) -> list[str]:
+    """Make `--view -1,0,0` and the like one argument: argparse would take -1,0,0 for an option."""
     joined: list[str] = []
     for argument in argv:
-        if joined and joined[-1] in ("--view", "--point"):
+        if joined and joined[-1] in ("--view", "--point", "--frames"):
             joined[-1] = f"{joined[-1]}={argument}"
         else:
             joined.append(argument)

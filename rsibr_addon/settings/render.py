@@ -9,7 +9,7 @@ from ..core.options import Options, option
 from .matte import BackgroundOptions
 
 LAST_FRAME = 1048574
-"""Blender counts no further."""
+"""Blender counts no further, and no further down than its negative."""
 
 
 def _samples_option(default: int | None, **more: Any) -> Any:
@@ -47,9 +47,9 @@ class FramesOptions(Options):
     frames: str | None = option(
         None,
         label="Frames",
-        help="A frame, or the first and the last of several",
+        help="A frame, or the first and the last of several and the step between them",
         none="the file's current frame",
-        metavar="N|N-N",
+        metavar="N|N-N[:STEP]",
     )
     samples: int | None = _samples_option(None, none="what the file says")
 
@@ -70,12 +70,13 @@ def _range_of(frames: str) -> range:
     Raises
     ------
     RangeError
-        It names none, or one beyond Blender's last.
+        It names none, or one beyond Blender's.
     """
-    named = re.fullmatch(r"(\d+)(?:-(\d+))?", frames)
-    first, last = (int(named[1]), int(named[2] or named[1])) if named else (1, 0)
-    if not first <= last <= LAST_FRAME:
+    named = re.fullmatch(r"(-?\d+)(?:-(-?\d+)(?::(\d+))?)?", frames)
+    first, last, step = (int(named[1]), int(named[2] or named[1]), int(named[3] or 1)) if named else (1, 0, 1)
+    if not -LAST_FRAME <= first <= last <= LAST_FRAME or step < 1:
         raise RangeError(
-            f"Frames cannot be '{frames}': give one, such as 12, or the first and the last, such as 1-48."
+            f"Frames cannot be '{frames}': give one, such as 12, the first and the last, such as 1-48, or a "
+            f"step as well, such as 1-48:2."
         )
-    return range(first, last + 1)
+    return range(first, last + 1, step)

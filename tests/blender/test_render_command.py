@@ -5,7 +5,9 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
+from rsibr.rsibr_addon.core.errors import RangeError
 from rsibr.rsibr_addon.files.pictures import read_exr
+from rsibr.rsibr_addon.settings.render import FramesOptions
 from rsibr.rsibr_addon.tasks.light import environments
 from rsibr.tests.json_command import json_result
 from rsibr.tests.pages import calls
@@ -42,6 +44,35 @@ def test_frames_are_files_beside_the_blender_file(blend: Path, capfd: pytest.Cap
     assert blend.read_bytes() == before
     again = json_result(capfd, "render", str(blend), "--frames", "48", "-o", "//frames/a_###.exr")
     assert "exists" in again["error"]
+
+
+def test_frames_have_steps_and_may_be_negative(blend: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    result = json_result(capfd, "render", str(blend), "--frames", "-5-4:6", "-o", "##.exr")
+    assert result["pictures"] == ["-05.exr", "01.exr"]
+    assert all(Path(path).exists() for path in result["pictures"])
+
+
+@pytest.mark.parametrize(
+    ("text", "numbers"),
+    [
+        ("12", [12]),
+        ("-3", [-3]),
+        ("1-8:3", [1, 4, 7]),
+        ("-5--3", [-5, -4, -3]),
+        ("-1-1", [-1, 0, 1]),
+        ("-5-10:5", [-5, 0, 5, 10]),
+    ],
+)
+def test_a_text_names_frames(text: str, numbers: list[int]) -> None:
+    frames = FramesOptions(frames=text).numbers
+    assert frames is not None
+    assert list(frames) == numbers
+
+
+@pytest.mark.parametrize("text", ["", "-", "1-", "3--1", "1-4:0", "1-4:-1", "4:2", "1.5", "-1048575"])
+def test_what_names_no_frames_is_refused(text: str) -> None:
+    with pytest.raises(RangeError, match=f"Frames cannot be '{text}'"):
+        FramesOptions(frames=text)
 
 
 @pytest.mark.parametrize(

@@ -91,7 +91,8 @@ def render_frames(
 
 
 def _path(output: str, blend: Path, number: int) -> Path:
-    """The file of a frame."""
-    told = re.sub("#+", lambda digits: f"{number:0{len(digits[0])}d}", output)
+    """The file of a frame; a minus is beside its digits, as Blender writes it."""
+    minus = "-" if number < 0 else ""
+    told = re.sub("#+", lambda digits: f"{minus}{abs(number):0{len(digits[0])}d}", output)
     beside = blend.resolve().parent
     return beside / told.removeprefix(BESIDE) if told.startswith(BESIDE) else Path(told)

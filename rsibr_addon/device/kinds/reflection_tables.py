@@ -32,6 +32,9 @@ reflection_tables_shader = MeshProgram(
 LOOKS = 8
 """Looks that weights are kept of: every frame asks for those of all objects."""
 
+UNCHANGED = np.ones(3)
+"""Gain of a table that is shown as it was baked."""
+
 
 class GpuReflectionTables(ProgramMapSet):
     """A map set's reflection tables."""
@@ -106,4 +109,4 @@ def _weights(tables: ReflectionTables) -> GpuTexture:
 def _factor(tables: ReflectionTables, look: TablesLook, role: Role) -> Array:
     """0 where a table is missing or not shown, shape (3,)."""
     there = look.weight(role) if role in tables.maps else 0.0
-    return there * np.broadcast_to(tables.gains.get(role, 1.0), 3)
+    return there * tables.gains.get(role, UNCHANGED)

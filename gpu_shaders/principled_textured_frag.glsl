@@ -51,11 +51,54 @@ vec2 texture_place(int number)
   return vec2(dot(first.xyz, uv), dot(second.xyz, uv));
 }
 
+// Four texels around a place: centres of the lower left and the upper right one, and the place between them.
+struct Corners {
+  vec2 near, far, share;
+  float level;
+  float span;  // texels between neighbours
+};
+
+// The texels next to a place where the image is magnified, else four a texel of its mip apart.
+Corners corners_of(vec2 place, vec2 size)
+{
+  vec2 right, above;
+  pixel_sides(place, right, above);
+  float span = max(max(length(right * size), length(above * size)), 1.0);
+  vec2 texel = place * size - 0.5;
+  vec2 low = (span > 1.0) ? texel - 0.5 * span : floor(texel);
+  return Corners((low + 0.5) / size, (low + 0.5 + span) / size, (texel - low) / span, log2(span), span);
+}
+
+vec4 times_alpha(vec4 texel)
+{
+  return vec4(texel.rgb * texel.a, texel.a);
+}
+
+// Degrees of Texture.covered, as device/textured_materials.py `material_rows` writes them.
+const float COVERED = 1.0;
+const float COVERED_AND_INTERPOLATED = 2.0;
+
+// An image's colour; times alpha before it is interpolated where it is covered, as by Cycles.
+vec4 texel_of(sampler2D image, int number)
+{
+  vec2 place = texture_place(number);
+  float degree = material.mapping[2 * number + 1].w;
+  if (degree < COVERED_AND_INTERPOLATED) {
+    vec4 texel = texture(image, place);
+    return (degree < COVERED) ? texel : times_alpha(texel);
+  }
+  Corners at = corners_of(place, vec2(textureSize(image, 0)));
+  vec4 c00 = times_alpha(textureLod(image, at.near, at.level));
+  vec4 c10 = times_alpha(textureLod(image, vec2(at.far.x, at.near.y), at.level));
+  vec4 c01 = times_alpha(textureLod(image, vec2(at.near.x, at.far.y), at.level));
+  vec4 c11 = times_alpha(textureLod(image, at.far, at.level));
+  return mix(mix(c00, c10, at.share.x), mix(c01, c11, at.share.x), at.share.y);
+}
+
 // Adds what a texture gives to the numbers that are affine in its texels.
 void add_texels(int number, vec4 texel)
 {
   vec4 range = material.ranges[number];
-  texel.rgb *= (material.mapping[2 * number + 1].w > 0.0) ? texel.a : 1.0;
   // A range has one row at least; see principled_radiance_lib.glsl for why the test comes last
   int row = int(range.x);
   do {
@@ -63,7 +106,7 @@ void add_texels(int number, vec4 texel)
   } while (++row < int(range.y));
 }
 
-// Makes the numbers of all inputs. Each texture is sampled once; `count` is the same for all fragments, so
+// Makes the numbers of all inputs, of each texture in turn; `count` is the same for all fragments, so
 // that derivatives exist.
 void evaluate_inputs()
 {
@@ -72,28 +115,28 @@ void evaluate_inputs()
   }
   int count = int(material.counts.x);
   if (count > 0) {
-    add_texels(0, texture(image_0, texture_place(0)));
+    add_texels(0, texel_of(image_0, 0));
   }
   if (count > 1) {
-    add_texels(1, texture(image_1, texture_place(1)));
+    add_texels(1, texel_of(image_1, 1));
   }
   if (count > 2) {
-    add_texels(2, texture(image_2, texture_place(2)));
+    add_texels(2, texel_of(image_2, 2));
   }
   if (count > 3) {
-    add_texels(3, texture(image_3, texture_place(3)));
+    add_texels(3, texel_of(image_3, 3));
   }
   if (count > 4) {
-    add_texels(4, texture(image_4, texture_place(4)));
+    add_texels(4, texel_of(image_4, 4));
   }
   if (count > 5) {
-    add_texels(5, texture(image_5, texture_place(5)));
+    add_texels(5, texel_of(image_5, 5));
   }
   if (count > 6) {
-    add_texels(6, texture(image_6, texture_place(6)));
+    add_texels(6, texel_of(image_6, 6));
   }
   if (count > 7) {
-    add_texels(7, texture(image_7, texture_place(7)));
+    add_texels(7, texel_of(image_7, 7));
   }
 }
 
@@ -102,27 +145,21 @@ vec3 color_of(int number)
   return vec3(numbers[number], numbers[number + 1], numbers[number + 2]);
 }
 
-// How much higher neighbours on the right and above are, by the slope of the first texture's texels:
-// of the four around a point where that is magnified, else of four a texel of its mip apart.
+// How much higher neighbours on the right and above are, by the slope of the first texture's texels.
 vec2 height_rises()
 {
   vec2 place = texture_place(0);
   vec2 size = vec2(textureSize(image_0, 0));
   vec2 right, above;
   pixel_sides(place, right, above);
-  float span = max(max(length(right * size), length(above * size)), 1.0);
-  vec2 texel = place * size - 0.5;
-  vec2 low = (span > 1.0) ? texel - 0.5 * span : floor(texel);
-  vec2 share = (texel - low) / span;
-  float level = log2(span);
+  Corners at = corners_of(place, size);
   vec4 row = material.height;
-  vec2 near = (low + 0.5) / size;
-  vec2 far = (low + 0.5 + span) / size;
-  float h00 = dot(row, textureLod(image_0, near, level));
-  float h10 = dot(row, textureLod(image_0, vec2(far.x, near.y), level));
-  float h01 = dot(row, textureLod(image_0, vec2(near.x, far.y), level));
-  float h11 = dot(row, textureLod(image_0, far, level));
-  vec2 slope = vec2(mix(h10 - h00, h11 - h01, share.y), mix(h01 - h00, h11 - h10, share.x)) * size / span;
+  float h00 = dot(row, textureLod(image_0, at.near, at.level));
+  float h10 = dot(row, textureLod(image_0, vec2(at.far.x, at.near.y), at.level));
+  float h01 = dot(row, textureLod(image_0, vec2(at.near.x, at.far.y), at.level));
+  float h11 = dot(row, textureLod(image_0, at.far, at.level));
+  vec2 slope = vec2(mix(h10 - h00, h11 - h01, at.share.y), mix(h01 - h00, h11 - h10, at.share.x));
+  slope *= size / at.span;
   return vec2(dot(slope, right), dot(slope, above));
 }
 

@@ -19,6 +19,9 @@ const bool MAY_HAVE_FACETS = false;
 const bool MAY_HAVE_FACETS = true;
 #endif
 
+// Greatest factor of what a tinted coat leaves.
+const float LARGEST = 1e9;
+
 struct Surface {
   vec3 base_color;
   float metallic;
@@ -93,7 +96,7 @@ Powers coat_of(Surface surface, float mu, sampler2DArray albedos, sampler2D rise
   Powers coat = bounced(dielectric(rises, index), vec3(dielectric_mean(index)), albedo, reflected);
   // index^2 - 1 first: little is left of it beside 1 at grazing
   float way = index / sqrt((index - 1.0) * (index + 1.0) + mu * mu);
-  vec3 through = pow(max(surface.coat_tint, 0.0), vec3(way));
+  vec3 through = min(pow(max(surface.coat_tint, 0.0), vec3(way)), LARGEST);
   below = left_of(weight * reflected) * (1.0 - weight + weight * through);
   return coloured(vec3(weight), coat);
 }

@@ -212,7 +212,8 @@ def material_rows(inputs: PrincipledInputs, textures: tuple[Texture, ...], uv_ma
         The number of textures, and what changes the normal; a row for antialiasing; the factors of a texel in
         a bump's height; the constants of all numbers; the factors of those that have a texture, texture by
         texture, and which numbers these are; the ranges of textures in these rows; of each texture two rows
-        of its mapping, the first with the number of its UV map or -1, the second with 1 where it is covered.
+        of its mapping, the first with the number of its UV map or -1, the second with 0, with 1 where it is
+        covered, or with 2 where its texels are interpolated too.
 
     Raises
     ------
@@ -243,7 +244,7 @@ def material_rows(inputs: PrincipledInputs, textures: tuple[Texture, ...], uv_ma
     for texture, rows in zip(textures, mapping, strict=False):
         rows[:, :3] = np.reshape(texture.mapping, (2, 3))
         named = texture.uv_map or next(iter(uv_maps), "")
-        rows[1, 3] = texture.covered
+        rows[1, 3] = texture.covered * (1 if texture.closest else 2)
         rows[0, 3] = uv_maps.index(named) if named in uv_maps else -1
     counts = np.array([len(textures), _changes(inputs), 0.0, 0.0], np.float32)
     parts = (

@@ -41,6 +41,8 @@ SHAPES = (
 )
 """Fields that reflection is not linear in."""
 
+THIN = "total reflection, which its IOR below 1 asks for"
+
 SEPARATE = "the highlights of mixed shaders, but for one highlight between them"
 
 
@@ -69,8 +71,16 @@ def principled(material: bpy.types.Material) -> PrincipledInputs:
             field: replace(value, apart=True) if isinstance(value, Baked) else value
             for field, value in found.items()
         }
+    described = replace(PLAIN, **found)
     missing = [*_missing(material, surface, reading), *([SEPARATE] if reading.is_between else [])]
-    return replace(PLAIN, **found, missing=tuple(dict.fromkeys(missing)))
+    missing += [THIN] if _is_thin(described) else []
+    return replace(described, missing=tuple(dict.fromkeys(missing)))
+
+
+def _is_thin(inputs: PrincipledInputs) -> bool:
+    """Whether the boundary may lead into what is thinner than air, which a metal does not have."""
+    is_metal = isinstance(inputs.metallic, Input) and inputs.metallic.least[0] >= 1.0
+    return isinstance(inputs.ior, Input) and inputs.ior.least[0] < 1.0 and not is_metal
 
 
 class _FieldReading:

@@ -1,12 +1,14 @@
 """Cycles' Principled BSDF: what follows of its definition without a renderer."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.brdf.albedo import directional_albedo, hemisphere_quadrature
 from rsibr.rsibr_addon.core.brdf.fresnel import Index
 from rsibr.rsibr_addon.core.brdf.ggx import Ggx
 from rsibr.rsibr_addon.core.brdf.oren_nayar import leaning_albedo, tilt
-from rsibr.rsibr_addon.core.brdf.principled import Principled
+from rsibr.rsibr_addon.core.brdf.principled import ExactAlbedos, Principled, Surface, layers_of
 
 MU = np.array([0.1, 0.3, 0.7, 1.0])
 
@@ -57,6 +59,17 @@ def test_a_tinted_coat_colours_what_is_below() -> None:
     coat = directional_albedo(Principled(base_color=0.0, specular_level=0.0, coat_weight=1.0), 1.0)
     below = (directional_albedo(tinted, 1.0) - coat) / (directional_albedo(clear, 1.0) - coat)
     np.testing.assert_allclose(below, [0.25, 0.5, 1.0], rtol=1e-9)
+
+
+@pytest.mark.parametrize("index", [1.0, 1.5])
+def test_a_coat_s_tint_above_1_brightens_and_stays_finite(index: float) -> None:
+    """Of index 1 it has no end at grazing."""
+    surface = Surface(metallic=1.0, coat_weight=1.0, coat_ior=index, coat_tint=(2.0, 20.0, 1e30))
+    for mu in (1e-6, 0.01, 1.0):
+        base = layers_of(surface, mu, ExactAlbedos()).base
+        assert np.isfinite(base).all()
+    clear = layers_of(replace(surface, coat_tint=(1.0, 1.0, 1.0)), 1.0, ExactAlbedos()).base
+    np.testing.assert_allclose(base[0, :2] / clear[0, :2], [2.0, 20.0], rtol=1e-9)
 
 
 def test_the_edge_of_a_metal_takes_its_tint() -> None:

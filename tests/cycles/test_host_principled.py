@@ -258,6 +258,23 @@ def test_what_is_not_shown_is_listed(nodes: Nodes) -> None:
     assert principled(nodes.material).missing == ("transmission",)
 
 
+@pytest.mark.parametrize(
+    ("ior", "metallic", "is_told"), [(0.7, 0.0, True), (0.7, 1.0, False), (1.0, 0.0, False)]
+)
+def test_an_index_below_1_is_told(nodes: Nodes, ior: float, metallic: float, is_told: bool) -> None:
+    index = nodes.add("Value")
+    index.outputs[0].default_value = ior
+    nodes.link(index.outputs[0], "IOR")
+    nodes.bsdf.inputs["Metallic"].default_value = metallic
+    told = any("IOR below 1" in words for words in principled(nodes.material).missing)
+    assert told == is_told
+
+
+def test_an_image_as_index_may_be_below_1(nodes: Nodes) -> None:
+    nodes.link(nodes.image().outputs["Color"], "IOR")
+    assert any("IOR below 1" in words for words in principled(nodes.material).missing)
+
+
 def test_a_material_without_a_principled_surface_is_refused(nodes: Nodes) -> None:
     output = nodes.tree.get_output_node("CYCLES")
     nodes.link(nodes.add("BsdfGlass").outputs[0], output.inputs["Surface"])

@@ -113,10 +113,11 @@ TEXTURED = replace(
 
 
 @pytest.mark.parametrize("extension", ["REPEAT", "EXTEND", "CLIP", "MIRROR"])
-@pytest.mark.parametrize("closest", [False, True])
-def test_a_picture_is_what_the_reference_says(content: GpuPyramid, extension: str, closest: bool) -> None:
-    # Alpha is multiplied after it is interpolated, where texels are
-    changes = {"extension": extension, "closest": closest, "covered": closest}
+@pytest.mark.parametrize(("closest", "covered"), [(False, False), (False, True), (True, True)])
+def test_a_picture_is_what_the_reference_says(
+    content: GpuPyramid, extension: str, closest: bool, covered: bool
+) -> None:
+    changes = {"extension": extension, "closest": closest, "covered": covered}
     first, second = (replace(texture, **changes) for texture in (PLACED, OTHER))
     inputs = replace(
         TEXTURED,

@@ -20,6 +20,9 @@ from .model import Brdf, Geometry
 from .oren_nayar import bounces, facets, leaning_albedo, tilt
 from .parameters import Color, Range
 
+LARGEST = 1e9
+"""Greatest factor of what a tinted coat leaves: at grazing, tints above 1 pass all bounds, as Cycles' do."""
+
 
 class Albedos(Protocol):
     """Directional albedos of GGX."""
@@ -119,7 +122,9 @@ def _coat(surface: Surface, mu: Array, albedos: Albedos) -> tuple[Array, Array]:
     coat, reflected = _bounced(glass, mean, surface.coat_roughness, mu, albedos)
     # The view's refracted way through the coat, whose depth is 1
     way = 1.0 / np.sqrt(1.0 - (1.0 - mu**2) / index**2)
-    through = np.maximum(np.asarray(surface.coat_tint, np.float64), 0.0) ** way[..., None]
+    with np.errstate(over="ignore"):
+        through = np.maximum(np.asarray(surface.coat_tint, np.float64), 0.0) ** way[..., None]
+    through = np.minimum(through, LARGEST)
     return weight[..., None] * coat, _left(weight * reflected) * (1.0 - weight + weight * through)
 
 

@@ -72,6 +72,11 @@ class Input:
         """The numbers without the texture's part."""
         return tuple(row[4] for row in self.rows)
 
+    @property
+    def least(self) -> tuple[float, ...]:
+        """The smallest numbers that texels within 0 and 1 can give."""
+        return tuple(row[4] + sum(min(factor, 0.0) for factor in row[:4]) for row in self.rows)
+
 
 def constant(numbers: Sequence[float]) -> Input:
     """An input without an image."""

@@ -10,9 +10,9 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Annotated, Any, NotRequired, TypedDict
+from typing import Annotated, Any, NotRequired, Protocol, TypedDict
 
-from ..core.conventions import WORLD_AXES
+from ..core.conventions import WORLD_AXES, Array
 from ..core.environment import Environment
 from ..core.lobes.fit import Fit
 from ..core.options import Options
@@ -139,6 +139,13 @@ class Header(TypedDict):
     painted: NotRequired[Painted]
 
 
+class Shading(Protocol):
+    """How a map set is shaded: see `core.kinds`."""
+
+    def __call__(self, normal: Array, view_dir: Array, *, mirror_footprint: Array) -> Array:
+        """Radiance of surface points."""
+
+
 def role_in_words(part: dict[str, Any]) -> str:
     """The title of a map by its role alone."""
     return str(part["role"]).capitalize()
@@ -176,6 +183,8 @@ class StoredKind:
     lobes : callable
         From a file's path, for messages, and its description to the lobes of its maps; None where it does not
         state them.
+    shading : callable
+        A file's path, for messages, and what it holds to how it is shaded where its look is the default one.
     """
 
     settings: type[MethodSettings]
@@ -190,6 +199,7 @@ class StoredKind:
     part_title: Callable[[dict[str, Any]], str] = role_in_words
     textures: Callable[[Path, MapSet, Up], list[Texture]] | None = None
     lobes: Callable[[Path, dict[str, Any]], Fit | None] = lambda path, header: None
+    shading: Callable[[Path, MapSet], Shading] = field(kw_only=True)
 
 
 @dataclass(frozen=True, eq=False)

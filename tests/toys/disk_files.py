@@ -6,8 +6,8 @@ from typing import Any, TypedDict
 import numpy as np
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.files.map_set_data import ENVIRONMENT, MapSet
-from rsibr.rsibr_addon.files.map_set_header import Origin, StoredKind, make_header
-from rsibr.tests.toys.disk_core import Disk, DiskLook
+from rsibr.rsibr_addon.files.map_set_header import Origin, Shading, StoredKind, make_header
+from rsibr.tests.toys.disk_core import Disk, DiskLook, disk_radiance
 from rsibr.tests.toys.disk_settings import DiskComparison, DiskSettings
 
 KIND = "disk"
@@ -38,6 +38,11 @@ def from_map_set(path: Path, map_set: MapSet) -> Disk:
     return Disk(middle, rim)
 
 
+def _shading(path: Path, map_set: MapSet) -> Shading:
+    disk = from_map_set(path, map_set)
+    return lambda normal, view_dir, *, mirror_footprint: disk_radiance(disk, normal, view_dir, DiskLook())
+
+
 def _facts(header: dict[str, Any]) -> dict[str, str]:
     return {"Shine": f"{header['material']['shine']:.0%}"}
 
@@ -54,4 +59,5 @@ STORED = StoredKind(
     {"colour": _Colour},
     facts=_facts,
     part_title=_part_title,
+    shading=_shading,
 )

@@ -24,11 +24,14 @@ class SpherePixels:
         How much of each is covered, in (0, 1].
     normal : ndarray, shape (N, 3)
         Unit vectors in world coordinates.
+    corner_normals : ndarray, shape (N, 4, 3)
+        Those at the corners of each, counterclockwise from the left one at the bottom.
     """
 
     inside: NDArray[np.bool_]
     coverage: Array
     normal: Array
+    corner_normals: Array
 
     def picture(self, colour: Array) -> Array:
         """Colours of these pixels as a picture.
@@ -58,11 +61,17 @@ def sphere_pixels(size: int, view_dir: tuple[float, float, float]) -> SpherePixe
         From the sphere to the eye, of any positive length.
     """
     place = 2.0 * (np.arange(size) + 0.5) / size - 1.0
-    x, y = np.meshgrid(place, place)
-    radius = np.hypot(x, y)
-    coverage = np.clip(0.5 * size * (1.0 - radius) + 0.5, 0.0, 1.0)
-    inside = coverage > 0.0
-    within = _RIM / np.maximum(radius, _RIM)
-    across, up = within[inside] * x[inside], within[inside] * y[inside]
-    seen = np.stack([across, up, np.sqrt(1.0 - across**2 - up**2)], axis=-1)
-    return SpherePixels(inside, coverage[inside], seen @ camera_frame(normalize(view_dir)).T)
+    middles = np.stack(np.meshgrid(place, place), axis=-1)
+    coverage = np.clip(0.5 * size * (1.0 - np.hypot(*np.moveaxis(middles, -1, 0))) + 0.5, 0.0, 1.0)
+    inside, frame = coverage > 0.0, camera_frame(normalize(view_dir))
+    corners = middles[inside][:, None] + np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)]) / size
+    normals, corner_normals = (_seen_normals(each) @ frame.T for each in (middles[inside], corners))
+    return SpherePixels(inside, coverage[inside], normals, corner_normals)
+
+
+def _seen_normals(places: Array) -> Array:
+    """Normals in camera axes at places of the picture, shape (..., 3); at the rim for those beyond it."""
+    x, y = np.moveaxis(places, -1, 0)
+    within = _RIM / np.maximum(np.hypot(x, y), _RIM)
+    across, up = within * x, within * y
+    return np.stack([across, up, np.sqrt(1.0 - across**2 - up**2)], axis=-1)

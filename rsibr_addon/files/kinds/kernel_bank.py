@@ -1,20 +1,27 @@
 """Map sets of kind `kernel_bank`."""
 
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any, TypedDict
 
 import numpy as np
 
+from ...core.brdf.spec import brdf_from_spec
 from ...core.errors import MapSetError, RangeError, ShapeError
-from ...core.kinds.kernel_bank.filtered_bank import FilteredBank
-from ...core.kinds.kernel_bank.shading import BankLook
+from ...core.kinds.kernel_bank.filtered_bank import FilteredBank, stack_from_bank
+from ...core.kinds.kernel_bank.shading import DRAFT, BankLook
+from ...core.kinds.lobe_stack.shading import StackLook, stack_radiance
 from ...core.kinds.lobe_stack.stack import stack_representation
 from ...core.lobes.bake import BakedBank
 from ...core.lobes.bank import KernelBank
+from ...core.lobes.layers import layered_fit
+from ...core.lobes.target import elevation_slices
+from ...core.progress import drain
 from ...settings.kernel_bank import KernelBankSettings
+from ..brdfs import read_measured
 from ..map_set_data import ENVIRONMENT, MapSet
-from ..map_set_header import Colour, Origin, StoredKind, make_header, role_in_words
+from ..map_set_header import Colour, Origin, Shading, StoredKind, make_header, role_in_words
 from .sheets import sheets_from_strip, strip_from_sheets
 
 KIND = "kernel_bank"
@@ -83,10 +90,20 @@ def _part_title(part: dict[str, Any]) -> str:
     return f"Kernel, Concentration {part['concentration']:.3g}"
 
 
+def _shading(path: Path, map_set: MapSet) -> Shading:
+    filtered = from_map_set(path, map_set)
+    lobes, slices, taps = DRAFT
+    brdf, mu = brdf_from_spec(BankLook().spec, read_measured), elevation_slices(slices)
+    fit = drain(layered_fit(brdf, mu, lobes, taps=taps, sharpest=filtered.sharpest))
+    stack, _ = stack_from_bank(filtered, fit)
+    return partial(stack_radiance, stack, look=StackLook(antialiased=False))
+
+
 STORED = StoredKind(
     settings=KernelBankSettings,
     look=BankLook,
     roles={"prefiltered": _Kernel},
     facts=_facts,
     part_title=_part_title,
+    shading=_shading,
 )

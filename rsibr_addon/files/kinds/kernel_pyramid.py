@@ -6,16 +6,17 @@ from typing import Any, TypedDict
 
 import numpy as np
 
+from ...core.conventions import Array
 from ...core.errors import MapSetError, RangeError, ShapeError
 from ...core.kinds.kernel_pyramid.bake import BakedPyramid, FilterErrors
 from ...core.kinds.kernel_pyramid.look import PrincipledLook
 from ...core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid
-from ...core.kinds.kernel_pyramid.shading import Families
+from ...core.kinds.kernel_pyramid.shading import Families, principled_radiance
 from ...core.lobes.bank import KernelBank
 from ...settings.kernel_pyramid import KernelPyramidSettings, PyramidComparison
 from ..families import shipped_family
 from ..map_set_data import ENVIRONMENT, MapSet
-from ..map_set_header import Colour, Origin, StoredKind, make_header, role_in_words
+from ..map_set_header import Colour, Origin, Shading, StoredKind, make_header, role_in_words
 
 KIND = "kernel_pyramid"
 
@@ -115,6 +116,16 @@ def _part_title(part: dict[str, Any]) -> str:
     return f"Kernel, Concentration {part['concentration']:.3g}"
 
 
+def _shading(path: Path, map_set: MapSet) -> Shading:
+    pyramid, families, surface = from_map_set(path, map_set), shipped_families(), PrincipledLook().surface
+
+    def radiance(normal: Array, view_dir: Array, *, mirror_footprint: Array) -> Array:
+        """Of points, as the default material is too rough for footprints to count."""
+        return principled_radiance(pyramid, families, surface, normal, view_dir)
+
+    return radiance
+
+
 STORED = StoredKind(
     settings=KernelPyramidSettings,
     look=PrincipledLook,
@@ -122,4 +133,5 @@ STORED = StoredKind(
     roles={KERNEL: _Kernel, LAMBERT: _Filtered, LEANING: _Filtered},
     facts=_facts,
     part_title=_part_title,
+    shading=_shading,
 )

@@ -4,6 +4,7 @@ import math
 from collections import defaultdict
 from collections.abc import Callable, Iterable
 from dataclasses import replace
+from functools import partial
 from itertools import chain
 from pathlib import Path
 from typing import Annotated, Any, TypedDict
@@ -14,7 +15,7 @@ from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.errors import MapSetError, RangeError, SchemaError, ShapeError
 from ...core.kinds.kernel_bank.filtered_bank import maps_from_bank
-from ...core.kinds.lobe_stack.shading import StackLook
+from ...core.kinds.lobe_stack.shading import StackLook, stack_radiance
 from ...core.kinds.lobe_stack.stack import LobeStack, stack_representation
 from ...core.lobes.bake import BakedStack
 from ...core.lobes.bank import KernelBank
@@ -22,7 +23,16 @@ from ...core.lobes.fit import Fit
 from ...core.schema import array, between, decode, length
 from ...settings.lobe_stack import LobeStackSettings, StackComparison
 from ..map_set_data import ENVIRONMENT, MapSet, MapsInTurn
-from ..map_set_header import MOST_KERNELS, Colour, Model, Origin, StoredKind, make_header, role_in_words
+from ..map_set_header import (
+    MOST_KERNELS,
+    Colour,
+    Model,
+    Origin,
+    Shading,
+    StoredKind,
+    make_header,
+    role_in_words,
+)
 from .sheets import sheets_from_strip, strip_from_sheets
 
 KIND = "lobe_stack"
@@ -264,6 +274,10 @@ def _part_title(part: dict[str, Any]) -> str:
     return f"Lobe {part['lobe'] + 1}, {at}"
 
 
+def _shading(path: Path, map_set: MapSet) -> Shading:
+    return partial(stack_radiance, from_map_set(path, map_set), look=StackLook(antialiased=False))
+
+
 STORED = StoredKind(
     settings=LobeStackSettings,
     look=StackLook,
@@ -273,4 +287,5 @@ STORED = StoredKind(
     facts=_facts,
     part_title=_part_title,
     lobes=fit_of,
+    shading=_shading,
 )

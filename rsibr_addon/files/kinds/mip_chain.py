@@ -1,5 +1,6 @@
 """Map sets of kind `mip_chain`."""
 
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, NotRequired, TypedDict
 
@@ -8,11 +9,11 @@ import numpy as np
 from ...core.conventions import WORLD_AXES, Array
 from ...core.errors import MapSetError, RangeError, ShapeError
 from ...core.kinds.mip_chain.chain import MipChain
-from ...core.kinds.mip_chain.shading import MipLook
+from ...core.kinds.mip_chain.shading import MipLook, mip_chain_radiance
 from ...core.schema import between
 from ...settings.mip_chain import MipChainSettings, MipComparison
 from ..map_set_data import ENVIRONMENT, MapSet
-from ..map_set_header import Origin, StoredKind, make_header, role_in_words
+from ..map_set_header import Origin, Shading, StoredKind, make_header, role_in_words
 from ..textures import Texture, Up
 
 KIND = "mip_chain"
@@ -115,6 +116,10 @@ def _textures(path: Path, map_set: MapSet, up: Up) -> list[Texture]:
     return [Texture(turned.mips, is_cube=True, note=note)]
 
 
+def _shading(path: Path, map_set: MapSet) -> Shading:
+    return partial(mip_chain_radiance, from_map_set(path, map_set), look=MipLook())
+
+
 STORED = StoredKind(
     settings=MipChainSettings,
     look=MipLook,
@@ -124,4 +129,5 @@ STORED = StoredKind(
     facts=_facts,
     part_title=_part_title,
     textures=_textures,
+    shading=_shading,
 )

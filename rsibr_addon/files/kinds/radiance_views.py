@@ -1,6 +1,7 @@
 """Map sets of kind `radiance_views`."""
 
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, NotRequired, TypedDict
 
@@ -9,13 +10,13 @@ import numpy as np
 from ...core.conventions import Array
 from ...core.errors import MapSetError, RangeError, ShapeError
 from ...core.geometry.geodesic import VERTEX_COUNTS
-from ...core.kinds.radiance_views.shading import ViewsLook
+from ...core.kinds.radiance_views.shading import ViewsLook, views_fragment
 from ...core.kinds.radiance_views.views import RadianceViews
 from ...core.kinds.radiance_views.warping import WarpChoice, Warping, chosen_warping
 from ...core.schema import between
 from ...settings.radiance_views import RadianceViewsSettings, ViewsComparison
 from ..map_set_data import MapSet
-from ..map_set_header import Direction, Model, StoredKind, role_in_words
+from ..map_set_header import Direction, Model, Shading, StoredKind, role_in_words
 
 KIND = "radiance_views"
 
@@ -104,6 +105,11 @@ def _part_title(part: dict[str, Any]) -> str:
     return f"View {part['view'] + 1}, {role}" if part["role"] in STORED.roles else role
 
 
+def _shading(path: Path, map_set: MapSet) -> Shading:
+    views = from_map_set(path, map_set)
+    return partial(views_fragment, views, warping=chosen_warping(ViewsLook().warping, views.left_out))
+
+
 STORED = StoredKind(
     settings=RadianceViewsSettings,
     look=ViewsLook,
@@ -114,4 +120,5 @@ STORED = StoredKind(
     problems=_problems,
     facts=_facts,
     part_title=_part_title,
+    shading=_shading,
 )

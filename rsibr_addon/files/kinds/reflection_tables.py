@@ -1,5 +1,6 @@
 """Map sets of kind `reflection_tables`."""
 
+from functools import partial
 from pathlib import Path
 from typing import Any, TypedDict
 
@@ -7,11 +8,11 @@ import numpy as np
 
 from ...core.errors import MapSetError, RangeError, ShapeError
 from ...core.kinds.reflection_tables.material import PARTS
-from ...core.kinds.reflection_tables.shading import TablesLook
+from ...core.kinds.reflection_tables.shading import TablesLook, reflect_tables
 from ...core.kinds.reflection_tables.tables import ReflectionTables, Role
 from ...settings.reflection_tables import ReflectionTablesSettings, TablesComparison
 from ..map_set_data import ENVIRONMENT, MapSet
-from ..map_set_header import Origin, StoredKind, make_header
+from ..map_set_header import Origin, Shading, StoredKind, make_header
 
 KIND = "reflection_tables"
 WEIGHTS = "weights"
@@ -80,6 +81,10 @@ def from_map_set(path: Path, map_set: MapSet) -> ReflectionTables:
         raise MapSetError(f"{path} holds no reflection tables. {error}") from error
 
 
+def _shading(path: Path, map_set: MapSet) -> Shading:
+    return partial(reflect_tables, from_map_set(path, map_set), look=TablesLook())
+
+
 STORED = StoredKind(
     settings=ReflectionTablesSettings,
     look=TablesLook,
@@ -87,4 +92,5 @@ STORED = StoredKind(
     roles={WEIGHTS: _Weights, Role.REFRACTION: _Refraction},
     numbers=(WEIGHTS,),
     painted=tuple(Role),
+    shading=_shading,
 )

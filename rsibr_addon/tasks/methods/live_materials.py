@@ -9,7 +9,7 @@ import numpy as np
 from ...core.brdf.model import Brdf
 from ...core.brdf.spec import brdf_from_spec
 from ...core.kinds.kernel_bank.filtered_bank import FilteredBank, stack_from_bank
-from ...core.kinds.kernel_bank.shading import BankLook
+from ...core.kinds.kernel_bank.shading import DRAFT, BankLook
 from ...core.kinds.lobe_stack.shading import StackLook
 from ...core.lobes.fit import Fit
 from ...core.lobes.layers import layered_fit
@@ -25,9 +25,6 @@ Result = TypeVar("Result")
 
 SLICES = 16
 """View elevations of a fit."""
-
-DRAFT = (1, 6, 1)
-"""Lobes, elevations and taps of what is shown until the fit is there."""
 
 RESOLVED = 50.0
 """Concentration of the sharpest kernel times a lobe's radius squared. Below, E of a fit grows by more

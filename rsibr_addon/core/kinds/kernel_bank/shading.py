@@ -6,6 +6,9 @@ from ...brdf.spec import with_alpha
 from ...options import Choice, option
 from ..principled_material import PrincipledMaterial
 
+DRAFT = (1, 6, 1)
+"""Lobes, elevations and taps of what is shown until a fit is there, and of small pictures."""
+
 
 @dataclass(frozen=True)
 class BankLook(PrincipledMaterial):

@@ -1,18 +1,21 @@
 """Pictures on a batch's page: spheres, shaded from the map set."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 from OpenImageIO import FLOAT, ImageBuf
-from rsibr.rsibr_addon.core.errors import DeviceError
+from rsibr.rsibr_addon.core.light.transfer_curve import srgb_from_linear
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.device import preview
+from rsibr.rsibr_addon.core.warned import recorded_warnings
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.job import BakeJob
+from rsibr.rsibr_addon.settings.kernel_bank import KernelBankSettings
 from rsibr.rsibr_addon.settings.light import Light
 from rsibr.rsibr_addon.settings.reflection_tables import ReflectionTablesSettings
-from rsibr.rsibr_addon.tasks.batch.pictures import MAP_SIZE, SIZE, map_set_png
+from rsibr.rsibr_addon.tasks.batch.pictures import SIZE, map_set_png
 from rsibr.rsibr_addon.tasks.methods.bake import bake
 
 
@@ -45,14 +48,18 @@ def test_a_map_set_is_shown_as_a_sphere_in_its_light(mirror: Path, tmp_path: Pat
     np.testing.assert_array_equal(shown[..., 3][disk < SIZE / 2 - 1], 1.0)
 
 
-def test_without_a_driver_it_is_the_first_map(
-    mirror: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def refuse() -> None:
-        raise DeviceError("There is no driver.")
+def test_its_picture_needs_no_blender(mirror: Path) -> None:
+    code = "import sys; from rsibr.rsibr_addon.tasks.batch.pictures import map_set_png as png; "
+    code += f"from pathlib import Path; png(Path({str(mirror)!r})); assert 'bpy' not in sys.modules"
+    subprocess.run([sys.executable, "-c", code], check=True)
 
-    monkeypatch.setattr(preview, "ensure_context", refuse)
-    shown = pixels(map_set_png(mirror), tmp_path / "map.png")
-    assert max(shown.shape[:2]) <= MAP_SIZE
-    assert shown.shape[:2] != (SIZE, SIZE)
-    np.testing.assert_array_equal(shown[..., 3:], 1.0)
+
+def test_a_kernel_bank_is_shown_as_blender_s_default_material(tmp_path: Path) -> None:
+    write_radiance(tmp_path / "light.exr", np.ones((8, 16, 3), np.float32))
+    light, output = Light(environment=str(tmp_path / "light.exr")), tmp_path / "bank.rsibr.exr"
+    with recorded_warnings():
+        drain(bake(BakeJob(KernelBankSettings(size=16), str(output), light)))
+    shown = pixels(map_set_png(output), tmp_path / "sphere.png")
+    facing = shown[SIZE // 2, SIZE // 2, :3]
+    # Its albedo is close to the base colour of .8; a draft of one lobe is a tenth off
+    np.testing.assert_allclose(facing, srgb_from_linear(np.full(3, 0.8)), atol=0.05)

@@ -14,6 +14,9 @@ from ..rsibr_addon.tasks.reflectance.fit_lobes import fit_lobes
 from .file_properties import file_path
 from .stepwise import Stepwise
 
+OF_MODELS, OF_CAPTURES = ("brdf", *FITTING), ("captured_views",)
+"""Options that count for a fit to a model, and to captures; the dialog forgets what it does not show."""
+
 
 class RSIBR_OT_fit_lobes(Stepwise, bpy.types.Operator):
     """Fit a few round lobes to a material's reflection at each view elevation, and write them to a file"""  # noqa: D400  (a tooltip)
@@ -31,7 +34,7 @@ class RSIBR_OT_fit_lobes(Stepwise, bpy.types.Operator):
         column = self.layout.column()
         column.use_property_split = True
         names = {each.name: property_name(each) for each in declared_options(FitSettings)}
-        for name in ("captures", *(("captured_views",) if self.captures else ("brdf", *FITTING))):
+        for name in ("captures", *(OF_CAPTURES if self.captures else OF_MODELS)):
             column.prop(self, names[name])
         column.prop(self, "force")
 
@@ -42,7 +45,9 @@ class RSIBR_OT_fit_lobes(Stepwise, bpy.types.Operator):
         captures = getattr(self, "captures", "")
         if not getattr(self, "brdf", None) and not captures and not material:
             raise SceneError("There is no material to fit: select an object that has one, or name a model.")
-        settings = options_of(FitSettings, self, material.name if material and not captures else "")
+        own = material.name if material and not captures else ""
+        hidden = OF_MODELS if captures else OF_CAPTURES
+        settings = options_of(FitSettings, self, own, without=hidden if self._asks else ())
         output = Path(bpy.path.abspath(self.filepath))
         return fit_lobes(settings, output, self.force)
 

@@ -1,7 +1,7 @@
 """Properties of Blender, made of options; and the options that properties say."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import MISSING
 from enum import Enum
 from functools import cache
@@ -98,7 +98,7 @@ def model_property(options: type[Options]) -> str:
     return property_name(declared)
 
 
-def options_of(options: type[Given], group: Any, own: str = "") -> Given:
+def options_of(options: type[Given], group: Any, own: str = "", without: Collection[str] = ()) -> Given:
     """The options that properties say.
 
     Parameters
@@ -108,6 +108,8 @@ def options_of(options: type[Given], group: Any, own: str = "") -> Given:
     group : bpy.types.PropertyGroup or bpy.types.Operator
     own : str
         Name of the material to take where the properties say so.
+    without : collection of str
+        Names of options that keep their defaults, whatever the properties say.
 
     Raises
     ------
@@ -128,7 +130,7 @@ def options_of(options: type[Given], group: Any, own: str = "") -> Given:
         if materials.instead in values:
             file = values[materials.instead] or ""
             values[materials.instead] = existing(file, materials.instead, "its file")
-    for name in replaced_options(options, group):
+    for name in replaced_options(options, group).union(without):
         values.pop(name, None)
     return options(**values)
 

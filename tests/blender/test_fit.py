@@ -3,10 +3,12 @@
 import json
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import bpy
 import numpy as np
 import pytest
+from rsibr.operators import fit_lobes as operator
 from rsibr.operators.fit_lobes import RSIBR_OT_fit_lobes
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError
@@ -183,6 +185,34 @@ def test_the_dialog_shows_what_counts_for_what_is_fitted(captures: str) -> None:
     assert set(shown) <= set(bpy.ops.rsibr.fit_lobes.get_rna_type().properties.keys())
     assert shown[0] == "captures"
     assert ("captured_views" in shown, "lobes" in shown) == (bool(captures), not captures)
+
+
+@pytest.mark.usefixtures("registered")
+@pytest.mark.parametrize("asks", [True, False])
+@pytest.mark.parametrize(
+    ("captures", "changed"),
+    [
+        ("views.rsibr.exr", {"lobes": 5}),
+        ("views.rsibr.exr", {"brdf": "lambert:kd=1"}),
+        ("", {"captured_views": 3}),
+    ],
+)
+def test_the_dialog_forgets_what_it_no_longer_shows(
+    captures: str, changed: dict[str, Any], asks: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A script is told of it instead."""
+    properties = bpy.ops.rsibr.fit_lobes.get_rna_type().properties
+    model = {} if captures else {"brdf": "phong:n=40,ks=0.5"}
+    values = {name: each.default for name, each in properties.items() if name != "rna_type"}
+    asked = SimpleNamespace(**{**values, **model, "captures": captures, **changed}, _asks=asks)
+    given: list[FitSettings] = []
+    monkeypatch.setattr(operator, "fit_lobes", lambda settings, *rest: given.append(settings))
+    if asks:
+        RSIBR_OT_fit_lobes.work(asked, bpy.context)
+        assert given == [FitSettings(captures=captures) if captures else FitSettings(**model)]
+    else:
+        with pytest.raises(RangeError):
+            RSIBR_OT_fit_lobes.work(asked, bpy.context)
 
 
 def test_methods_have_no_use_for_what_is_anothers() -> None:

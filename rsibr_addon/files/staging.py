@@ -19,6 +19,9 @@ from .locks import LOCK, TRIES, held
 REPLACED = "replaced"
 """Folder in a staging folder, for the former owner of the final name."""
 
+PARTIAL = ".partial"
+"""Ending of work folders: see `work_folder`."""
+
 STRANGE_SECONDS = 24 * 60 * 60.0
 """[s] Age from which a folder without a lock is removed: another machine's, on a shared disk, or an older
 version's."""
@@ -88,6 +91,8 @@ def remove_own() -> None:
 def clear_strays(around: Path) -> None:
     """Remove staging folders, and Blender's temporary ones that we held, of processes that were killed.
 
+    Empty work folders go too, but for those whose output is there: they tell that it is whole.
+
     Parameters
     ----------
     around : Path
@@ -98,7 +103,11 @@ def clear_strays(around: Path) -> None:
     A folder that a killed process had moved away to replace it first gets its name back.
     """
     with contextlib.suppress(OSError):
-        strays = [Path(entry) for entry in os.scandir(around) if _may_be_stray(entry)]
+        entries = list(os.scandir(around))
+        for entry in filter(_is_empty_work, entries):
+            with contextlib.suppress(OSError), held(Path(entry)):
+                pass  # it goes afterwards, as it is empty
+        strays = [Path(entry) for entry in entries if _may_be_stray(entry)]
         for folder in strays:
             with contextlib.suppress(OSError), held(folder) as alone:
                 if alone:
@@ -119,6 +128,15 @@ def clear_old_strays(output: Path) -> None:
             ours = old.fullmatch(entry.name) and entry.is_file(follow_symlinks=False)
             if ours and _age(entry) > STRANGE_SECONDS:
                 os.unlink(entry)
+
+
+def _is_empty_work(entry: os.DirEntry[str]) -> bool:
+    output = Path(entry).with_name(entry.name.removesuffix(PARTIAL))
+    if not entry.name.endswith(PARTIAL) or not entry.is_dir(follow_symlinks=False) or output.exists():
+        return False
+    with contextlib.suppress(OSError):
+        return os.listdir(entry) == [LOCK]
+    return False
 
 
 def _may_be_stray(entry: os.DirEntry[str]) -> bool:

@@ -16,18 +16,18 @@ from ..core.schema import loads
 from ..core.warned import warn
 from .atomic import check_name, written_aside
 from .locks import LOCK, held
-from .staging import clear_strays
+from .staging import PARTIAL, clear_strays
 
 WORK = "job.json"
 
 
 def work_folder_beside(output: Path) -> Path:
     """The folder for parts of a file: NAME.partial, or something shorter where that is too long a name."""
-    path = output.resolve().with_name(f"{output.name}.partial")
+    path = output.resolve().with_name(f"{output.name}{PARTIAL}")
     try:
         check_name(path)
     except OutputFileError:
-        return path.with_name(f"{hashlib.sha256(os.fsencode(output.name)).hexdigest()[:16]}.partial")
+        return path.with_name(f"{hashlib.sha256(os.fsencode(output.name)).hexdigest()[:16]}{PARTIAL}")
     return path
 
 

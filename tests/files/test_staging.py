@@ -59,6 +59,43 @@ def test_a_folder_whose_process_died_before_it_could_hold_it_goes(tmp_path: Path
     assert os.listdir(tmp_path) == []
 
 
+WORKER = """
+import sys, time
+from pathlib import Path
+from rsibr.rsibr_addon.files.work_folder import held_work_folder
+with held_work_folder(Path(sys.argv[1])):
+    print("held", flush=True)
+    time.sleep(100)
+"""
+
+
+def test_the_empty_work_folder_of_a_killed_process_goes_and_a_living_one_s_stays(tmp_path: Path) -> None:
+    folders = [tmp_path / f"{name}.rsibr.exr.partial" for name in ("killed", "living")]
+    workers = [
+        subprocess.Popen([sys.executable, "-c", WORKER, folder], stdout=subprocess.PIPE, text=True)
+        for folder in folders
+    ]
+    with workers[0] as killed, workers[1] as living:
+        for worker in workers:
+            assert worker.stdout is not None
+            assert worker.stdout.readline() == "held\n"
+        killed.kill()
+        killed.wait()
+        for name, held_file in (("parts", LOCK), ("theirs", "notes.txt")):
+            (tmp_path / f"{name}.partial").mkdir()
+            (tmp_path / f"{name}.partial" / held_file).touch()
+        (tmp_path / "parts.partial" / "view_000.exr").touch()
+        with written_aside(tmp_path / "other.exr") as aside:
+            aside.touch()
+        assert set(os.listdir(tmp_path)) == {
+            "living.rsibr.exr.partial",
+            "parts.partial",
+            "theirs.partial",
+            "other.exr",
+        }
+        living.kill()
+
+
 def test_another_machines_goes_after_a_day(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with monkeypatch.context() as patch:
         patch.setattr(socket, "gethostname", lambda: "another machine")

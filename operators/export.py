@@ -21,7 +21,7 @@ from ..rsibr_addon.tasks.export.engines.export import export_for_engine
 from ..rsibr_addon.tasks.export.export import export
 from ..rsibr_addon.tasks.export.format import Format
 from ..rsibr_addon.tasks.export.formats import FORMATS
-from ..rsibr_addon.tasks.export.page.own_material import look_of, own_objects
+from ..rsibr_addon.tasks.export.page.own_material import in_own_materials
 from ..rsibr_addon.tasks.export.page.own_objects import OwnObject
 from ..rsibr_addon.tasks.export.page.page import export_page
 from ..rsibr_addon.tasks.methods.kinds import kind_of
@@ -174,9 +174,7 @@ class _ExportPage(_Export):
         look = options_of(look_types()[kind], getattr(active.rsibr, kind))
         own: list[OwnObject] = []
         if wants_own(active, kind):
-            own = own_objects(shown, depsgraph)
-            if (plain := look_of(look, own)) is not None:
-                look, own = plain, []
+            look, own = in_own_materials(shown, depsgraph, look)
         return export_page(map_set, output, options_of(PageOptions, self), mesh, look, force, own)
 
 

@@ -93,15 +93,15 @@ def _engine_endings() -> list[str]:
 
 def _page(arguments: argparse.Namespace) -> Steps[list[Path]]:
     """Export a web page."""
-    from ..host.meshes import load_mesh
+    from ..tasks.export.page.named import named_meshes
     from ..tasks.export.page.page import export_page
     from ..tasks.methods.kinds import kind_of
 
     kind = kind_of(arguments.map_set)
     settings = options.given_of(arguments, _owners(), PAGE, beside=kind)
     look = options.given_of(arguments, _owners(), kind, beside=PAGE)
-    mesh = load_mesh(settings.mesh)
-    return export_page(arguments.map_set, arguments.output, settings, mesh, look, arguments.force)
+    mesh, look, own = named_meshes(settings.mesh, kind, look)
+    return export_page(arguments.map_set, arguments.output, settings, mesh, look, arguments.force, own)
 
 
 def _owners() -> dict[str, type[Options]]:

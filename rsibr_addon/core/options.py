@@ -281,7 +281,8 @@ def value_from_text(declared: Declared, text: str) -> Any:
     ----------
     declared : Declared
     text : str
-        Members of a tuple are separated by commas; one number stands for all of a colour's.
+        Members of a tuple are separated by commas, unless they are texts, which may hold some: then it is one
+        member. One number stands for all of a colour's.
 
     Returns
     -------
@@ -297,7 +298,7 @@ def value_from_text(declared: Declared, text: str) -> Any:
         return _member_from_text(declared, declared.wanted, text)
     if text in declared.option.choices and declared.members is float:  # a rule's name instead of numbers
         return text
-    parts = text.split(",")
+    parts = [text] if declared.members is str else text.split(",")
     if declared.count and len(parts) == 1:
         parts *= declared.count
     if declared.count and len(parts) != declared.count:

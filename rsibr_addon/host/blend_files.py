@@ -1,10 +1,18 @@
-"""Opening Blender's own files."""
+"""Blender's own files: what names them, and opening them."""
 
+import re
 from pathlib import Path
 
 import bpy
 
 from ..core.errors import InputFileError
+
+
+def blend_name(spec: str) -> tuple[str, str] | None:
+    """File and name of ``FILE.blend:NAME``; no file, an empty text, of ``:NAME``; None of any other text."""
+    # Names may hold colons, and so may paths: C:\materials.blend:red:dark
+    parsed = re.fullmatch(r"(|.+?\.blend\d*):(.+)", spec, flags=re.IGNORECASE | re.DOTALL)
+    return (parsed[1], parsed[2]) if parsed else None
 
 
 def open_blend(path: Path) -> None:

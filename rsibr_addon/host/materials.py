@@ -3,7 +3,6 @@
 import hashlib
 import json
 import os
-import re
 from collections.abc import Collection, Iterator
 from pathlib import Path
 from typing import Any
@@ -15,7 +14,7 @@ from ..core.brdf.cycles_presets import PRESETS
 from ..core.errors import InputFileError, SceneError
 from ..core.near_names import did_you_mean
 from ..files.digests import digest
-from .blend_files import check_there, unreadable
+from .blend_files import blend_name, check_there, unreadable
 from .presets import build_preset
 
 ORIGINAL = "RSIBR_ORIGINAL"
@@ -185,14 +184,13 @@ def _parsed(spec: str) -> tuple[str | None, str]:
     """File and name; None as the file of a preset, an empty one for the open file."""
     if spec in PRESETS:
         return None, spec
-    # Names may hold colons, and so may paths: C:\materials.blend:red:dark
-    parsed = re.fullmatch(r"(|.+?\.blend\d*):(.+)", spec, flags=re.IGNORECASE | re.DOTALL)
+    parsed = blend_name(spec)
     if parsed is None:
         raise InputFileError(
             f"There is no material {spec}{did_you_mean(spec, PRESETS)}: name one of {', '.join(PRESETS)}, "
             f"or FILE.blend:NAME."
         )
-    return parsed[1], parsed[2]
+    return parsed
 
 
 def _is_open(path: Path) -> bool:

@@ -42,6 +42,9 @@ vertex, so neither the surface nor the silhouette sags by more than 1 - cos of t
 MONKEY_SUBDIVISIONS = 3
 """Levels of Suzanne's subdivision surface: 62,976 triangles."""
 
+ROW_STEP = 2.1
+"""From one mesh of a row to the next, in radii."""
+
 
 @dataclass(frozen=True)
 class TriangleMesh:
@@ -91,6 +94,26 @@ def load_mesh(spec: str) -> TriangleMesh:
     if spec == "monkey":
         return _fitted(_monkey())
     return _fitted(_read_obj(Path(spec)))
+
+
+def mesh_row(specs: Sequence[str]) -> TriangleMesh:
+    """Meshes of `load_mesh` beside each other along X, as one within the unit sphere.
+
+    Raises
+    ------
+    InputFileError
+        As `load_mesh`.
+    """
+    if len(specs) == 1:
+        return load_mesh(specs[0])
+    meshes = [load_mesh(spec) for spec in specs]
+    first = np.cumsum([0, *(len(mesh.positions) for mesh in meshes)])
+    along = np.array([ROW_STEP, 0.0, 0.0], np.float32)
+    moved = [mesh.positions + place * along for place, mesh in enumerate(meshes)]
+    triangles = [mesh.triangles + np.int32(start) for mesh, start in zip(meshes, first[:-1], strict=True)]
+    normals = np.concatenate([mesh.normals for mesh in meshes])
+    name = " and ".join(mesh.name for mesh in meshes)
+    return _fitted(TriangleMesh(name, np.concatenate(moved), normals, np.concatenate(triangles)))
 
 
 def mesh_from_object(item: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> TriangleMesh:
@@ -226,7 +249,7 @@ def _read_obj(path: Path) -> TriangleMesh:
         try:
             with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[0]):
                 bpy.ops.wm.obj_import(filepath=str(path.resolve()), validate_meshes=False)
-        except RuntimeError as error:
+        except (RuntimeError, UnicodeDecodeError) as error:  # Blender's report may quote bytes of the file
             raise InputFileError(f"{path} cannot be read as a Wavefront OBJ: check the file.") from error
         for item in scene.objects:
             if item.type == "MESH":

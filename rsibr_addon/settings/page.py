@@ -2,7 +2,8 @@
 
 from dataclasses import dataclass
 
-from .drawing import MeshOptions, ShownOptions
+from ..core.options import option
+from .drawing import ShownOptions
 from .light import Clamp
 
 
@@ -12,5 +13,13 @@ class PageOptions(ShownOptions, Clamp):
 
 
 @dataclass(frozen=True, kw_only=True)
-class MeshPageOptions(MeshOptions, PageOptions):
-    """The same of a mesh that is no object of Blender's."""
+class MeshPageOptions(PageOptions):
+    """The same of meshes that are named, and not selected."""
+
+    mesh: tuple[str, ...] = option(
+        ("sphere",),
+        label="Mesh",
+        help="sphere, monkey, FILE.obj or FILE.blend:OBJECT, whose name may be a pattern as in FILE.blend:*; "
+        "given several times, objects of one Blender file stand as they do there, and other meshes in a row",
+        metavar="MESH",
+    )

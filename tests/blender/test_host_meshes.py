@@ -127,6 +127,12 @@ def test_a_bad_file_is_refused_by_name(tmp_path: Path, text: str, complaint: str
     assert names_in_file() == before
 
 
+def test_a_file_of_bytes_is_refused_by_name(tmp_path: Path) -> None:
+    (tmp_path / "given.obj").write_bytes(bytes(range(1, 256)) * 20)
+    with pytest.raises(InputFileError, match=r"given\.obj (cannot be read|holds no faces)"):
+        load_mesh(str(tmp_path / "given.obj"))
+
+
 def test_a_missing_file_is_refused_by_name(tmp_path: Path) -> None:
     with pytest.raises(InputFileError, match=r"no mesh .*absent\.obj: name sphere or monkey"):
         load_mesh(str(tmp_path / "absent.obj"))

@@ -11,13 +11,15 @@ import bpy
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.command_line.main import run
-from rsibr.rsibr_addon.core.errors import RangeError
+from rsibr.rsibr_addon.core.errors import RangeError, RsibrError
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.look import PrincipledLook
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
 from rsibr.rsibr_addon.core.kinds.mip_chain.shading import Borders, MipLook
 from rsibr.rsibr_addon.device.kinds.mip_chain import GpuMipChain
-from rsibr.rsibr_addon.host.meshes import TriangleMesh
+from rsibr.rsibr_addon.host.meshes import TriangleMesh, load_mesh, mesh_row
 from rsibr.rsibr_addon.tasks.export.page import contents
 from rsibr.rsibr_addon.tasks.export.page.contents import packed_mesh, packed_texture
+from rsibr.rsibr_addon.tasks.export.page.named import named_meshes
 from rsibr.rsibr_addon.tasks.export.page.parameters import block_of, parameters
 from rsibr.tests.engine_light import sky_file
 from rsibr.tests.files.test_export import CHAIN, chain_file
@@ -177,3 +179,68 @@ def test_the_operator_takes_the_materials_of_slots(tmp_path: Path) -> None:
     assert own["objects"][0]["slots"] == [[0, 30, 0], [30, 36, 1]]
     assert (len(own["images"]), own["images"][0]["srgb"], own["parameters"]) == (1, True, [])
     assert own["programs"]["surface"] != plain["programs"]["surface"]
+
+
+def scene_file(folder: Path) -> Path:
+    """Two meshes of other materials beside each other, and a light."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    for place, name in enumerate(("Cup, red", "Cup, blue")):
+        bpy.ops.mesh.primitive_cube_add(location=(3.0 * place, 0.0, 0.0))
+        bpy.context.object.name = name
+        material = bpy.data.materials.new(name)
+        material.node_tree.nodes["Principled BSDF"].inputs["Roughness"].default_value = 0.2 + 0.5 * place
+        bpy.context.object.data.materials.append(material)
+    bpy.ops.object.light_add()
+    file = folder / "scene.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(file))
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    return file
+
+
+@pytest.mark.slow
+def test_the_command_shows_objects_of_a_blender_file(tmp_path: Path) -> None:
+    page, cups = tmp_path / "page.html", f"{scene_file(tmp_path)}:Cup*"
+    assert run(["export", str(chain_file(tmp_path)), "--mesh", cups, "-o", str(page)]) == 0
+    assert mesh_in(page)["triangles"]["shape"] == [3, 24]
+
+
+def test_objects_of_a_blender_file_are_shown_as_they_stand_there(tmp_path: Path) -> None:
+    """In their own materials where the kind has such, by name or pattern."""
+    file = scene_file(tmp_path)
+    both, _, own = named_meshes([f"{file}:Cup*"], "kernel_pyramid", PrincipledLook())
+    assert {each.mesh.name: each.matrix[0, 3] for each in own} == {"Cup, red": 0.0, "Cup, blue": 3.0}
+    named = [f"{file}:Cup, red", f"{file}:Cup, blue"]
+    alike, look, own = named_meshes(named, "kernel_pyramid", PrincipledLook(own=False))
+    assert (look, own) == (PrincipledLook(own=False), [])
+    assert len(alike.triangles) == len(both.triangles) == 24
+    _, look, own = named_meshes(named[1:], "kernel_pyramid", PrincipledLook())
+    assert own == []  # one plain material keeps its sliders
+    assert np.isclose(look.roughness, 0.7)
+    assert named_meshes(named, "mip_chain", MipLook())[1:] == (MipLook(), [])
+
+
+def test_meshes_that_are_no_objects_stand_in_a_row() -> None:
+    row, sphere = mesh_row(["sphere", "sphere", "sphere"]), load_mesh("sphere")
+    count = len(sphere.positions)
+    middle = row.positions[count : 2 * count]
+    radius = 1.0 / (1.0 + 2.1)
+    np.testing.assert_allclose(middle, radius * sphere.positions, atol=1e-6)
+    assert np.array_equal(row.triangles[-len(sphere.triangles) :], sphere.triangles + 2 * count)
+
+
+@pytest.mark.parametrize(
+    ("meshes", "said"),
+    [
+        (["{file}"], "is a file of objects: name one"),
+        (["{file}:Cup"], "shows no object Cup: name"),
+        (["{file}:Cup, rad"], "shows no object Cup, rad (did you mean Cup, red?)"),
+        (["{file}:*Light"], "shows no object *Light"),
+        (["{file}:Cup*", "sphere"], "are not of one Blender file"),
+        (["{file}:Cup*", "other.blend:Cup"], "are not of one Blender file"),
+        (["none.blend:Cup"], "There is no file none.blend"),
+    ],
+)
+def test_meshes_that_no_page_shows_are_refused(meshes: list[str], said: str, tmp_path: Path) -> None:
+    specs = [mesh.format(file=scene_file(tmp_path)) for mesh in meshes]
+    with pytest.raises(RsibrError, match=re.escape(said)):
+        named_meshes(specs, "mip_chain", MipLook())

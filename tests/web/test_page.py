@@ -21,7 +21,7 @@ from rsibr.rsibr_addon.host.display import displayed_colours
 from rsibr.rsibr_addon.host.meshes import load_mesh
 from rsibr.rsibr_addon.host.scenes import temporary_scene
 from rsibr.rsibr_addon.settings.page import PageOptions
-from rsibr.rsibr_addon.tasks.export.page.page import export_page
+from rsibr.rsibr_addon.tasks.export.page.page import FILL, export_page
 from rsibr.rsibr_addon.tasks.methods.kinds import open_map_set
 from rsibr.tests.engine_light import sky_file
 from rsibr.tests.mirror_capture import mirror_map_set
@@ -108,13 +108,15 @@ def preview(source: Path, look: Any = None, view: tuple[float, float, float] = V
     opened, mesh = open_map_set(source), load_mesh("sphere")
     renderer = PreviewRenderer(opened.drawable())
     shown = look or look_types()[opened.kind]()
-    surface = mesh.positions, mesh.normals, mesh.triangles
+    surface = FILL * mesh.positions, mesh.normals, mesh.triangles
     return renderer.draw(*surface, SETTINGS.camera(view), SIZE, shown)
 
 
 def check_alike(got: np.ndarray, wanted: np.ndarray, relative: float = 1e-3) -> None:
     """The same but for rounding: of texels by 1e-3 at most."""
-    assert np.abs(got[..., 3] - wanted[..., 3]).max() <= 1 / 16  # of sixteen samples at the edge
+    covered = np.abs(got[..., 3] - wanted[..., 3])
+    assert covered.max() <= 4 / 16  # an edge may run along four of sixteen samples
+    assert np.quantile(covered, 0.999) <= 1.01 / 16
     inside = wanted[..., 3] == 1.0
     error, size = (got - wanted)[inside], wanted[inside][:, :3]
     assert np.sqrt(np.mean(error**2)) < relative * np.sqrt(np.mean(size**2))
@@ -185,7 +187,7 @@ def test_the_split_sum_stands_beside(tmp_path: Path) -> None:
     assert (said["labels"], said["hidden"]) == (["RSIBR", "Split sum"], False)
     pixels, half, metal = radiance(said["pixels"]), SIZE // 2, PrincipledLook(metallic=1.0, roughness=0.7)
     opened, mesh = open_map_set(source), load_mesh("sphere")
-    surface = mesh.positions, mesh.normals, mesh.triangles
+    surface = FILL * mesh.positions, mesh.normals, mesh.triangles
     rows = slice(SIZE // 4, SIZE // 4 + half)  # of a square within each half
     for columns, families in (
         (slice(0, half), shipped_families()),
@@ -280,9 +282,9 @@ def test_fingers_and_keys_orbit_and_magnify(tmp_path: Path) -> None:
     """
     said = driven(page_of(light_file(tmp_path, "mip_chain")), SET_UP + script)
     seen = widths(said["widths"])
-    assert seen["first"] >= SIZE - 2
-    assert abs(seen["away"] - SIZE / 1.1**8) <= 2
-    assert abs(seen["pinched"] - min(2 * SIZE / 1.1**8, SIZE)) <= 2
+    assert 0.88 * SIZE < seen["first"] < 0.95 * SIZE  # with air around it
+    assert abs(seen["away"] - FILL * SIZE / 1.1**8) <= 2
+    assert abs(seen["pinched"] - min(2 * FILL * SIZE / 1.1**8, SIZE)) <= 2
     assert said["scale"] == 1, "the browser itself magnified the page"
     assert not np.allclose(radiance(said["right"]), radiance(said["pinched"]), atol=1e-2)
     assert np.allclose(radiance(said["left"]), radiance(said["pinched"]), atol=1e-4)

@@ -17,7 +17,7 @@ from rsibr.rsibr_addon.device.textured_mesh import GpuTexturedMesh
 from rsibr.rsibr_addon.host.meshes import load_mesh, mesh_of_objects
 from rsibr.rsibr_addon.tasks.export.page.own_material import look_of, own_objects
 from rsibr.rsibr_addon.tasks.export.page.own_objects import Ball, OwnObject
-from rsibr.rsibr_addon.tasks.export.page.page import export_page
+from rsibr.rsibr_addon.tasks.export.page.page import FILL, export_page
 from rsibr.rsibr_addon.tasks.methods.kinds import open_map_set
 from rsibr.tests.web.browser import driven
 from rsibr.tests.web.test_page import SET_UP, SETTINGS, SIZE, VIEW, check_alike, light_file, radiance
@@ -92,6 +92,7 @@ class Scene:
     def draw(self, mesh: Any, placed: Draw, look: object) -> None:
         world = [each.mesh.positions @ each.matrix[:3, :3].T + each.matrix[:3, 3] for each in self._shown]
         ball = Ball.around(np.concatenate(world))
+        ball = replace(ball, radius=ball.radius / FILL)
         placed = replace(
             placed,
             view=placed.view @ np.linalg.inv(ball.matrix),

@@ -1,11 +1,12 @@
-// The camera of core/geometry/camera.py, which fits the unit sphere, on an orbit with Z up. Matrices are arrays
-// of columns, as WebGL takes them.
+// The camera of core/geometry/camera.py, on an orbit with Z up; the sphere that it looks at has a share, `fill`, of the
+// frame. Matrices are arrays of columns, as WebGL takes them.
 
 class Camera {
-  constructor(view, angle) {
+  constructor(view, angle, fill) {
     const azimuth = view[0] || view[1] ? Math.atan2(view[1], view[0]) : Math.PI / 2;
     this.first = { azimuth, elevation: Math.asin(view[2]), zoom: 1 };
     this.angle = angle;
+    this.fill = fill;
     this.reset();
   }
 
@@ -45,9 +46,10 @@ class Camera {
     return [x[0], y[0], z[0], 0, x[1], y[1], z[1], 0, x[2], y[2], z[2], 0, 0, 0, -this.distance, 1];
   }
 
-  // Eye and view of a sphere in the world, which stands for the unit sphere.
-  of([x, y, z, radius]) {
+  // Eye and view of a sphere in the world.
+  of([x, y, z, size]) {
     const { eye, view } = this;
+    const radius = size / this.fill;
     const moved = [x, y, z].map((part, axis) => part * eye[3] + radius ** eye[3] * eye[axis]);
     const scaled = view.map((part, place) => (place < 12 ? part / radius : part));
     for (const row of [0, 1, 2]) {

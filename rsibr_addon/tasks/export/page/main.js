@@ -24,7 +24,7 @@ class Page {
   constructor(content, picture) {
     this.content = content;
     this.picture = picture;
-    this.camera = new Camera(content.view, content.angle);
+    this.camera = new Camera(content.view, content.angle, content.fill);
     this.exposure = content.exposure;
     this.display = content.display;
     this.blocks = content.materials.map((material) => new Float32Array(material.block));

@@ -75,6 +75,23 @@ def own_objects(items: Sequence[Any], depsgraph: Any) -> list[OwnObject]:
     return found
 
 
+def in_own_materials(items: Sequence[Any], depsgraph: Any, look: Any) -> tuple[Any, list[OwnObject]]:
+    """What shows objects in their own materials.
+
+    Parameters, errors and warnings are those of `own_objects` and `look_of`.
+
+    Returns
+    -------
+    look : Options
+        With the constants of the material, if `look_of` finds them.
+    own : list of OwnObject
+        Empty if it does.
+    """
+    own = own_objects(items, depsgraph)
+    plain = look_of(look, own)
+    return (look, own) if plain is None else (plain, [])
+
+
 def look_of(look: Any, objects: Sequence[OwnObject]) -> Any | None:
     """A look with the constants of the material that all objects have, which sliders then change.
 

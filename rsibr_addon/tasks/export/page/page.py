@@ -33,6 +33,9 @@ FOLDER = Path(__file__).parent
 SCRIPTS = ("unpack.js", "camera.js", "picture.js", "panel.js", "main.js")
 """What the page runs, in this order."""
 
+FILL = 0.92
+"""Share of the frame's width that the object has at first, as in `rsibr preview --fill`."""
+
 
 def export_page(
     map_set: Path,
@@ -97,6 +100,7 @@ def export_page(
         "textures": textures,
         "split": _packed_split_sum(drawable, inputs),
         **(packed_objects(own, shown.antialiased) if own else _one_object(mesh, block_of(inputs))),
+        "fill": FILL,
         "displays": {name: packed_display(name) for name in _view_transforms()},
         "display": settings.view_transform,
         "exposure": settings.exposure,

@@ -26,6 +26,7 @@ from .streams import Outlet, others_hushed
 
 def serve() -> NoReturn:
     """Do jobs until the input ends."""
+    from ..core.lobes.kept_fits import fits_kept
     from ..files.environments import environment_kept
 
     told = Outlet(os.dup(1))
@@ -38,7 +39,7 @@ def serve() -> NoReturn:
         os._exit(1)
 
     threading.Thread(target=hear, daemon=True).start()
-    with others_hushed(None, os.devnull), environment_kept():
+    with others_hushed(None, os.devnull), environment_kept(), fits_kept():
         while True:
             asked = loads(jobs.get())
             told.write(json.dumps({"result": _result(asked, told)}) + "\n")

@@ -15,12 +15,15 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import InputFileError
+from rsibr.rsibr_addon.core.lobes.kept_fits import fits_kept
 from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.core.warned import recorded_warnings
 from rsibr.rsibr_addon.files.environments import environment_kept
 from rsibr.rsibr_addon.files.map_set import read_map_set
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.tasks.batch.description import read_batch
 from rsibr.rsibr_addon.tasks.light.environments import load_environment
+from rsibr.rsibr_addon.tasks.methods import lobe_stack
 from rsibr.rsibr_addon.tasks.methods.bake import bake
 
 ENVIRONMENTS = ("dawn", "noon", "dusk")
@@ -316,6 +319,37 @@ def test_an_environment_is_read_once_for_bakes_that_follow(monkeypatch: pytest.M
         write_radiance(Path("dark.exr"), np.zeros((8, 16, 3)), force=True)
         assert load_environment("dark.exr").radiance.shape == (8, 16, 3)
     assert load_environment("light/dawn.exr") is not load_environment("light/dawn.exr")
+
+
+@pytest.mark.slow
+def test_a_material_is_fitted_once_for_all_environments(monkeypatch: pytest.MonkeyPatch) -> None:
+    makes, made = lobe_stack.fitted, []
+
+    def fitted(*asked: Any) -> Any:
+        made.append(asked)
+        return makes(*asked)
+
+    def baked() -> list[tuple[bytes, list[str]]]:
+        done = []
+        for each in bakes:
+            with recorded_warnings() as warnings:
+                drain(bake(each.job))
+            done.append((Path(each.job.output).read_bytes(), warnings))
+            Path(each.job.output).unlink()
+        return done
+
+    monkeypatch.setattr(lobe_stack, "fitted", fitted)
+    stack = {"kind": "lobe-stack", "method": "single", "slices": 2, "size": 8}
+    # The environments are too coarse for it, so that it is fitted twice
+    bakes = read_batch(write_batch(methods=[stack], materials=["ward:alpha=0.05,ks=0.5"]))
+    Path("maps").mkdir()
+    alone = baked()
+    assert len(made) == 2 * len(bakes)
+    made.clear()
+    with fits_kept():
+        assert baked() == alone
+    assert len(made) == 2
+    assert all(any("too coarse" in each for each in warnings) for _, warnings in alone)
 
 
 @pytest.mark.slow

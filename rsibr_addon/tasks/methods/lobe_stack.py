@@ -1,5 +1,7 @@
 """An environment and a reflectance model, or its fit, to a lobe stack, in a map set."""
 
+import json
+from dataclasses import dataclass
 from functools import partial
 from itertools import count
 from math import ceil, log2
@@ -13,12 +15,15 @@ from ...core.filtering.prefilter import BYTES_BESIDES, bytes_needed
 from ...core.lobes.accuracy import fit_errors
 from ...core.lobes.bake import SIZES, bake_stack, sharpest_resolved
 from ...core.lobes.fit import Fit
+from ...core.lobes.kept_fits import kept_fit
+from ...core.options import declared_options
 from ...core.progress import Progress, Steps
 from ...core.warned import warn
 from ...files.fits import read_fit
 from ...files.kinds.lobe_stack import in_turn
 from ...files.map_set_header import Origin, Recipe
 from ...job import BakeJob
+from ...settings.fit import Fitting
 from ...settings.lobe_stack import LobeStackSettings
 from ..reflectance.brdfs import is_material, load_brdf, material_of
 from ..reflectance.fit_lobes import fitted
@@ -103,7 +108,7 @@ def bake(job: BakeJob[LobeStackSettings], recipe: Recipe) -> Steps[Baked]:
     if settings.brdf is None:
         fit = read_fit(Path(settings.fit or ""))
     else:
-        fit = yield from _resolved_fit(settings.brdf, settings, light)
+        fit = yield from _resolved_fit(settings, light, recipe)
     afford = method.afforded_by(job, BYTES_BESIDES)
     baked = yield from bake_stack(light.radiance, fit, settings.layout, settings.size, afford)
     size, interpolation = baked.filtered.size, baked.interpolation
@@ -129,24 +134,51 @@ def bake(job: BakeJob[LobeStackSettings], recipe: Recipe) -> Steps[Baked]:
     )
 
 
-def _resolved_fit(spec: str, settings: LobeStackSettings, light: Environment) -> Steps[Fit]:
+def _resolved_fit(settings: LobeStackSettings, light: Environment, recipe: Recipe) -> Steps[Fit]:
     """A fit with the kernels that the environment resolves, and a warning where sharper ones would serve."""
-    brdf = yield from load_brdf(spec)
-    fit = yield from fitted(brdf, settings)
     height, width = light.radiance.shape[:2]
-    resolved, sharpest = sharpest_resolved(height), fit.bank.kappa[fit.used].max(initial=0.0)
+    resolved = sharpest_resolved(height)
+    asked = {each.name: recipe["settings"][each.name] for each in declared_options(Fitting)}
+    key = [recipe["settings"]["brdf"], asked, recipe["files"], recipe["material"], resolved]
+    made = yield from kept_fit(json.dumps(key), partial(_fit_within, settings, resolved))
+    if made.sharper is not None:
+        without, with_sharper = made.errors
+        enough = next(2**n for n in count(1) if sharpest_resolved(height * 2**n) >= made.sharper)
+        warn(
+            f"{light.name} is too coarse, at {width}x{height}, for the sharpest kernels of these lobes: "
+            f"without them E is {without:.3g}, with them {with_sharper:.3g}; one of "
+            f"{enough * width}x{enough * height} takes them."
+        )
+    return made.fit
+
+
+@dataclass(frozen=True)
+class _FitWithin:
+    """A fit without kernels above a concentration.
+
+    Attributes
+    ----------
+    fit : Fit
+    sharper : float or None
+        The sharpest kernel of a fit that may have any; None where none of them is left out.
+    errors : (float, float)
+        E of the fit, and of that with sharper kernels.
+    """
+
+    fit: Fit
+    sharper: float | None = None
+    errors: tuple[float, float] = (0.0, 0.0)
+
+
+def _fit_within(settings: LobeStackSettings, resolved: float) -> Steps[_FitWithin]:
+    brdf = yield from load_brdf(settings.brdf or "")
+    fit = yield from fitted(brdf, settings)
+    sharpest = float(fit.bank.kappa[fit.used].max(initial=0.0))
     if sharpest <= resolved:
-        return fit
+        return _FitWithin(fit)
     coarser = yield from fitted(brdf, settings, resolved)
     yield Progress(0, 1, "measuring the fits")
-    without, with_sharper = (fit_errors(each, brdf).error for each in (coarser, fit))
-    enough = next(2**n for n in count(1) if sharpest_resolved(height * 2**n) >= sharpest)
-    warn(
-        f"{light.name} is too coarse, at {width}x{height}, for the sharpest kernels of these lobes: without "
-        f"them E is {without:.3g}, with them {with_sharper:.3g}; one of {enough * width}x{enough * height} "
-        f"takes them."
-    )
-    return coarser
+    return _FitWithin(coarser, sharpest, (fit_errors(coarser, brdf).error, fit_errors(fit, brdf).error))
 
 
 METHOD = Method(bake, cost, material, sources)

@@ -37,7 +37,7 @@ def main() -> None:
     """Render all, and write the picture."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--samples", type=int, default=16)
-    parser.add_argument("--width", type=int, default=240)
+    parser.add_argument("--width", type=int, default=400)
     parser.add_argument("--image", type=Path, default=DOCS / "images" / "render-matte.jpg")
     chosen = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:

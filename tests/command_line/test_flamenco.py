@@ -68,12 +68,12 @@ def test_what_is_waited_for_is_fetched_and_what_failed_is_named(
     assert not failed["try_again"]
     assert any("There is no preset wood" in warning for warning in failed["warnings"])
     assert Path("metals.v2-batch/index.html").read_text() == "the page"
-    before = Path("dawn-chrome.rsibr.exr").stat()
+    before = Path("dawn-chrome.rsibr.exr").stat().st_ino
     read_map_set(Path("dawn-chrome.rsibr.exr"))
     # Given again, it finds what is on shared storage, and leaves what was fetched
     told(capfd, *words, code=1)
     assert len(list(farm.shared.iterdir())) == 1
-    assert Path("dawn-chrome.rsibr.exr").stat() == before
+    assert Path("dawn-chrome.rsibr.exr").stat().st_ino == before
     # What was made with other settings stays, and that is told
     Path("dawn-chrome.rsibr.exr").write_bytes(Path("dusk-chrome.rsibr.exr").read_bytes())
     warnings = told(capfd, *words, code=1)["warnings"]
@@ -118,6 +118,13 @@ def test_a_job_is_one_bake_whose_error_is_told(farm: Stub, capfd: pytest.Capture
     assert told(capfd, "submit", "job.json", "--flamenco", farm.url, "--wait", code=1)["error"].startswith(
         "There is no preset wood"
     )
+
+
+def test_a_job_of_another_command_is_refused(farm: Stub, capfd: pytest.CaptureFixture[str]) -> None:
+    Path("job.json").write_text(json.dumps({"format": 1, "arguments": ["inputs", "Suzanne", "-o", "a.exr"]}))
+    error = told(capfd, "submit", "job.json", "--flamenco", farm.url, code=1)["error"]
+    assert error.startswith("job.json is the job of rsibr inputs, which a farm does not do")
+    assert not list(farm.shared.iterdir())
 
 
 def test_a_farm_that_starts_no_task_says_why(farm: Stub, capfd: pytest.CaptureFixture[str]) -> None:

@@ -1,5 +1,8 @@
 """The joint fit: derivatives, exact recovery, the errors that it reaches, what it promises."""
 
+from dataclasses import replace
+from typing import Any
+
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.brdf.fresnel import Schlick
@@ -133,6 +136,19 @@ def test_lambert_is_a_lobe_about_the_normal() -> None:
         axis = lobe_axes(np.array([0.0, 0.0, 1.0]), mirror, fit.offsets[0, index, 0])
         assert axis[2] == pytest.approx(1.0, abs=1e-4)
     np.testing.assert_allclose(fit.albedo[0], np.tile((0.2, 0.4, 0.6), (3, 1)), rtol=1e-4)
+
+
+def test_an_exact_fit_has_no_error_though_rounding_makes_it_negative(monkeypatch: pytest.MonkeyPatch) -> None:
+    descend = joint.descend
+
+    def rounded(*asked: Any) -> Any:
+        lookups, projection = descend(*asked)
+        return lookups, replace(projection, objective=-1e-17)
+
+    monkeypatch.setattr(joint, "descend", rounded)
+    (target,) = target_slices(Lambert(kd=0.5), [0.7])
+    start = Lookups(np.array([[0.1]]), np.ones((1, 1)))
+    assert joint.settled(target, octaves(SHARP), start, non_negative=False).error == 0.0
 
 
 def test_nonnegative_least_squares_fulfil_their_conditions() -> None:

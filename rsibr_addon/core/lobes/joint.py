@@ -282,7 +282,7 @@ def settled(target: TargetSlice, bank: KernelBank, lookups: Lookups, non_negativ
         projector = Projector(target, bank, stiffness, non_negative)
         with_taps = lookups.taps.shape[1] > 1
         lookups, projection = descend(projector, lookups, with_taps, _TIE)
-        state = State(lookups, projection.weights, float(np.sqrt(projection.objective)))
+        state = State(lookups, projection.weights, float(np.sqrt(max(projection.objective, 0.0))))
         if is_quiet(bank, state, target):
             return state
         stiffness *= _STIFFER

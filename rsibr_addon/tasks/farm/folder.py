@@ -281,11 +281,14 @@ def _read_job(path: Path) -> BakeJob[Any] | None:
         plain = loads(data) if path.suffix.lower() == ".json" else None
     except SchemaError:
         return None
-    if not isinstance(plain, dict) or "settings" not in plain:
+    if not isinstance(plain, dict) or not {"settings", "arguments"} & plain.keys():
         return None
     job = read_job(data.decode("utf-8-sig"), str(path))
     if not isinstance(job, BakeJob):
-        raise InputFileError(f"{path} is no bake: send a batch, or the job of a bake.")
+        raise InputFileError(
+            f"{path} is the job of rsibr {job.arguments[0]}, which a farm does not do: send a batch, or the "
+            f"job of a map set."
+        )
     return job
 
 

@@ -97,3 +97,15 @@ def render(scene: Any, tmp_path: Path) -> Render:
         }
 
     return rendered
+
+
+@pytest.fixture
+def panel(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[None]:
+    """The registered extension, whose panel bakes into the test's folder."""
+    import rsibr
+
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.queue.bake_request.baked_folder", lambda: tmp_path)
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.light.environments.WORLD_HEIGHT", 16)
+    rsibr.register()
+    yield
+    rsibr.unregister()

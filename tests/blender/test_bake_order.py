@@ -1,7 +1,5 @@
 """What the panel's settings ask for: a job that the command line takes, a name that tells bakes apart."""
 
-import itertools
-from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
 from unittest.mock import MagicMock
@@ -9,90 +7,27 @@ from unittest.mock import MagicMock
 import bpy
 import numpy as np
 import pytest
-import rsibr
-from rsibr.rsibr_addon.command_line.commands import parsed
-from rsibr.rsibr_addon.command_line.options import given
-from rsibr.rsibr_addon.core.errors import InputFileError, MapSetError, OutputFileError, RsibrError, SceneError
-from rsibr.rsibr_addon.core.options import declared_options, quality_values
+from rsibr.rsibr_addon.core.errors import InputFileError, OutputFileError, RsibrError, SceneError
 from rsibr.rsibr_addon.files.exr import Part, write_parts
-from rsibr.rsibr_addon.files.kinds.registry import STORED
-from rsibr.rsibr_addon.files.map_set import read_map_set_header, write_map_set
 from rsibr.rsibr_addon.files.staging import is_staging_folder
 from rsibr.rsibr_addon.host.bake_settings import apply_settings, plain_settings
-from rsibr.rsibr_addon.host.option_properties import property_name, shown_value
-from rsibr.rsibr_addon.job import CommandJob, read_job
-from rsibr.rsibr_addon.session.running import session
-from rsibr.rsibr_addon.settings.kernel_pyramid import PyramidComparison
+from rsibr.rsibr_addon.job import read_job
 from rsibr.rsibr_addon.tasks.light.light_pictures import NO_RADIANCE, light_remarks
-from rsibr.rsibr_addon.tasks.methods.recipe import recipe_hash
 from rsibr.rsibr_addon.tasks.queue.bake_request import (
-    HASH_LETTERS,
-    BakeRequest,
     bake_of,
-    comparison_of,
     is_baked,
-    output_for,
     plain_name,
     request_for,
 )
 from rsibr.rsibr_addon.ui.light import draw_light
 from rsibr.tests.bake_jobs import run_job
-from rsibr.tests.faults.small_map_sets import map_sets
-from rsibr.tests.flat_capture import write_flat_capture
+from rsibr.tests.blender.bake_orders import order, output
 from rsibr.tests.open_file import linked_cube, open_file_state
 
-
-@pytest.fixture(autouse=True)
-def _registered(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[None]:
-    monkeypatch.setattr("rsibr.rsibr_addon.tasks.queue.bake_request.baked_folder", lambda: tmp_path)
-    monkeypatch.setattr("rsibr.rsibr_addon.tasks.light.environments.WORLD_HEIGHT", 16)
-    rsibr.register()
-    yield
-    rsibr.unregister()
+pytestmark = pytest.mark.usefixtures("panel")
 
 
-def order() -> BakeRequest:
-    return request_for(bpy.context.scene.rsibr_bake, bpy.context.scene, bpy.context.object)
-
-
-def output() -> Path:
-    return output_for(order(), bpy.context.scene, bpy.context.object)
-
-
-KINDS = sorted(STORED)
 RENDERED = "chosen.kind = 'radiance_views'"
-QUALITIES = ("DRAFT", "GOOD", "FINAL")
-
-
-@pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("quality", QUALITIES)
-def test_every_quality_is_what_the_command_takes(kind: str, quality: str) -> None:
-    chosen = bpy.context.scene.rsibr_bake
-    chosen.kind = kind
-    assert bpy.ops.rsibr.apply_quality(quality=quality) == {"FINISHED"}
-    settings = getattr(chosen, kind)
-    values = quality_values(STORED[kind].settings, quality.lower())
-    for declared in declared_options(STORED[kind].settings):
-        if declared.name in values:
-            assert getattr(settings, property_name(declared)) == shown_value(declared, values[declared.name])
-    job = order().job(Path("out.rsibr.exr"))
-    assert values.items() <= vars(job.settings).items()
-    assert read_job(job.to_json(), "job") == job
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_better_costs_more(kind: str) -> None:
-    chosen = bpy.context.scene.rsibr_bake
-    chosen.kind = kind
-    costs = []
-    for quality in QUALITIES:
-        bpy.ops.rsibr.apply_quality(quality=quality)
-        costs.append(order().cost)
-    for less, more in itertools.pairwise(costs):
-        assert less.processor_seconds < more.processor_seconds
-        # More maps of a lobe stack take no more: they are made one after another
-        assert less.memory < more.memory or (kind == "lobe_stack" and less.memory == more.memory)
-        assert less.disk < more.disk
 
 
 def test_the_panel_names_a_map_set_without_its_hash() -> None:
@@ -112,50 +47,6 @@ def test_what_a_map_set_will_lack_is_told_before_it_is_baked() -> None:
     (remark,) = order().remarks
     assert remark.startswith("Material is baked as it looks on one shape: ")
     assert "Texture Coordinate" in remark
-
-
-def test_a_comparison_is_queued_once_and_its_page_opens_again(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(
-        "rsibr.rsibr_addon.tasks.queue.bake_request.blender_program", lambda: "no-such-program"
-    )
-    write_flat_capture(tmp_path / "flat.rsibr.exr", (0.5, 0.0, 0.5))
-    bpy.context.object.rsibr.map_set = str(tmp_path / "flat.rsibr.exr")
-    with pytest.raises(RuntimeError, match=r"There is no comparison of flat\.rsibr\.exr: press Compare"):
-        bpy.ops.rsibr.open_comparison()
-    bakes = session().bakes
-    monkeypatch.setattr(type(bakes), "update", lambda queue: [])  # all wait
-    for _ in range(2):
-        assert bpy.ops.rsibr.compare() == {"FINISHED"}
-    assert [bake.output for bake in bakes.bakes] == [tmp_path / "flat-compared" / "index.html"]
-    bakes.close()
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_a_better_quality_is_never_coarser(kind: str) -> None:
-    qualities = [quality_values(STORED[kind].settings, each.lower()) for each in QUALITIES]
-    for declared in declared_options(STORED[kind].settings):
-        draft, good, final = (each.get(declared.name) for each in qualities)
-        if declared.wanted is int and good is None:
-            assert final is None  # as much as light and lobe need is not to be had with a number
-        elif declared.wanted is int:
-            assert draft <= good <= final
-
-
-@pytest.mark.slow
-def test_the_file_is_as_large_as_was_said(tmp_path: Path) -> None:
-    chosen = bpy.context.scene.rsibr_bake
-    chosen.kind, chosen.light, chosen.studio = "mip_chain", "STUDIO", "forest"
-    for size in ("64", "256"):
-        chosen.mip_chain.size = size
-        path = output()
-        assert run_job(order().job(path), tmp_path) == 0
-        # Said for any light; how well a picture is compressed depends on it
-        assert 0.4 < path.stat().st_size / order().cost.disk < 1.6
-        assert is_baked(path)
-        # A job given by hand is known by what the panel names its files after
-        assert f"-{recipe_hash(read_map_set_header(path)['recipe'])[:HASH_LETTERS]}.rsibr.exr" in path.name
 
 
 @pytest.mark.parametrize(
@@ -375,18 +266,6 @@ def test_the_material_is_recorded_as_the_original_has_it(monkeypatch: pytest.Mon
     assert lasting_spec(":Paint") == ":Paint"
 
 
-def test_sharper_and_layered_models_cost_more() -> None:
-    chosen = bpy.context.scene.rsibr_bake
-    chosen.kind = "lobe_stack"
-    costs = []
-    for spec in ("ggx:alpha=0.3,metal=copper", "ggx:alpha=0.1,metal=copper", "car_paint:name=bmw_339"):
-        chosen.lobe_stack.brdf = spec
-        costs.append(order().cost)
-    for less, more in itertools.pairwise(costs):
-        assert less.processor_seconds < more.processor_seconds
-        assert less.disk < more.disk
-
-
 def test_folders_that_cannot_be_made_are_named(tmp_path: Path) -> None:
     from rsibr.rsibr_addon.host import bake_settings
 
@@ -396,46 +275,6 @@ def test_folders_that_cannot_be_made_are_named(tmp_path: Path) -> None:
     (tmp_path / "rsibr").touch()
     with pytest.raises(OutputFileError, match=r"rsibr cannot be made \(File exists\): choose another folder"):
         bake_settings.baked_folder()
-
-
-def test_a_comparison_is_a_job_with_a_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("rsibr.rsibr_addon.tasks.queue.bake_request.blender_program", lambda: "blender")
-    path = tmp_path / "flat.rsibr.exr"
-    write_flat_capture(path, (0.5, 0.0, 0.5))
-    comparison = comparison_of(bpy.context.scene, bpy.context.object, path)
-    job = read_job(Path(comparison.command[11]).read_text(), "job")
-    comparison.tidy()
-    assert comparison.output == tmp_path / "flat-compared" / "index.html"
-    assert isinstance(job, CommandJob)
-    assert parsed(job.arguments).output == comparison.output.parent
-    chosen = bpy.context.scene.rsibr_bake
-    chosen.kind, chosen.kernel_bank.size = "kernel_bank", "64"
-    bank = output()
-    assert run_job(order().job(bank), tmp_path) == 0
-    with pytest.raises(MapSetError, match="is of a kind without a truth to compare with"):
-        comparison_of(bpy.context.scene, bpy.context.object, bank)
-
-
-def test_one_material_is_compared_as_it_is_shown_and_own_ones_are_not(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("rsibr.rsibr_addon.tasks.queue.bake_request.blender_program", lambda: "blender")
-    (pyramid,) = (each for each in map_sets() if each.kind == "kernel_pyramid")
-    path, item = tmp_path / "light.rsibr.exr", bpy.context.object
-    write_map_set(path, pyramid)
-    item.rsibr.map_set = str(path)
-    assert not bpy.ops.rsibr.compare.poll()
-    with pytest.raises(SceneError, match="Object Cube is shaded with its own materials"):
-        comparison_of(bpy.context.scene, item, path)
-    look = item.rsibr.kernel_pyramid
-    look.own, look.metallic, look.base_color = False, 1.0, (0.9, 0.6, 0.3)
-    assert bpy.ops.rsibr.compare.poll()
-    comparison = comparison_of(bpy.context.scene, item, path)
-    job = read_job(Path(comparison.command[11]).read_text(), "job")
-    comparison.tidy()
-    assert isinstance(job, CommandJob)
-    settings = given(parsed(job.arguments), PyramidComparison)
-    assert settings.text == "principled:base_color=0.9/0.6/0.3,metallic=1.0"
 
 
 def test_the_original_counts_as_open(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -20,7 +20,7 @@ from rsibr.rsibr_addon.device.drawing import Draw, GpuMesh
 from rsibr.rsibr_addon.device.kinds.kernel_pyramid import GpuPyramid
 from rsibr.rsibr_addon.device.own_materials import DrawnMaterial, OwnMaterials
 from rsibr.rsibr_addon.device.textured_mesh import GpuTexturedMesh
-from rsibr.tests.glsl.test_library_principled import families
+from rsibr.tests.glsl.principled_inputs import families
 from rsibr.tests.glsl.test_preview_renderer import fine_sphere
 from rsibr.tests.glsl.test_textured_materials import constants
 

@@ -8,7 +8,7 @@ from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import principled_radia
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.kinds.kernel_pyramid import GpuPyramid
 from rsibr.rsibr_addon.device.preview import PreviewRenderer
-from rsibr.tests.glsl.test_library_principled import families, pyramid
+from rsibr.tests.glsl.principled_inputs import families, pyramid
 from rsibr.tests.glsl.test_preview_renderer import BY_CAMERA, SIZE, SPHERE, reference_pixels
 
 SURFACES = {

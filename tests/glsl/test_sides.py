@@ -23,7 +23,7 @@ from rsibr.rsibr_addon.device.kinds.mip_chain import GpuMipChain
 from rsibr.rsibr_addon.device.kinds.radiance_views import GpuRadianceViews
 from rsibr.rsibr_addon.device.kinds.reflection_tables import GpuReflectionTables
 from rsibr.rsibr_addon.device.lit_sphere import GpuLitSphere
-from rsibr.tests.glsl.test_library_principled import families, pyramid
+from rsibr.tests.glsl.principled_inputs import families, pyramid
 from rsibr.tests.glsl.test_live_environment import show, smooth_faces
 from rsibr.tests.glsl.test_mip_chain_preview import smooth_chain
 from rsibr.tests.glsl.test_reflection_tables import smooth_tables

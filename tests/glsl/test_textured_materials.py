@@ -34,7 +34,7 @@ from rsibr.rsibr_addon.device.drawing import Draw, GpuMesh
 from rsibr.rsibr_addon.device.kinds.kernel_pyramid import GpuPyramid
 from rsibr.rsibr_addon.device.own_materials import MOST_TEXTURES, DrawnMaterial, OwnMaterials
 from rsibr.rsibr_addon.device.textured_mesh import GpuTexturedMesh
-from rsibr.tests.glsl.test_library_principled import families, pyramid
+from rsibr.tests.glsl.principled_inputs import families, pyramid
 
 SIZE = 64
 SQUARE = np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])

@@ -25,7 +25,7 @@ from rsibr.rsibr_addon.device.preview_stage import (
     current_sight,
     draw_occluder,
 )
-from rsibr.tests.glsl.test_library_principled import families, pyramid
+from rsibr.tests.glsl.principled_inputs import families, pyramid
 from rsibr.tests.synthetic_views import smooth_views, visible_points
 
 SIZE = 64

@@ -111,12 +111,30 @@ def test_texels_are_rounded_as_promised(monkeypatch: pytest.MonkeyPatch) -> None
     assert np.array_equal(bits.view(np.float16), wanted[:, 5:].astype(np.float16))
 
 
+def normals_of(packed: dict[str, Any]) -> np.ndarray:
+    """Of a point on the unfolded octahedron, the way back."""
+    x, y = unpacked(packed["normals"], signed=True) / 32767.0
+    z = 1.0 - np.abs(x) - np.abs(y)
+    under = np.maximum(-z, 0.0)
+    normals = np.stack([x - np.copysign(under, x), y - np.copysign(under, y), z], axis=-1)
+    return normals / np.linalg.norm(normals, axis=1, keepdims=True)
+
+
+def test_normals_are_rounded_less_than_a_texel_of_a_map_shows() -> None:
+    normals = np.random.default_rng(1).standard_normal((2000, 3))
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    normals[:4] = [(0, 0, 1), (0, 0, -1), (1, 0, 0), (0, -1, 0)]
+    mesh = TriangleMesh("Rock", 0.5 * normals, normals, np.array([[0, 1, 2]], np.int32))
+    # Half a step along each axis, of a circle whose half is at least one long
+    assert np.linalg.norm(normals_of(packed_mesh(mesh)) - normals, axis=1).max() < 2.0 / 32767
+
+
 def test_a_mesh_that_is_too_large_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     corners = np.eye(3, dtype=np.float32)
     mesh = TriangleMesh("Rock", corners, -corners, np.array([[0, 1, 2]], np.int32))
     packed = packed_mesh(mesh)
     assert np.array_equal(unpacked(packed["positions"], signed=True), 32767 * corners.T)
-    assert np.array_equal(unpacked(packed["normals"], signed=True), -32767 * corners.T)
+    assert np.allclose(normals_of(packed), -corners)
     assert unpacked(packed["triangles"], signed=False).tolist() == [[0], [1], [2]]
     monkeypatch.setattr(contents, "MOST_TRIANGLES", 0)
     with pytest.raises(RangeError, match=r"Rock has 1 triangles, and a page takes 0 at most: decimate it\."):
@@ -145,13 +163,16 @@ def test_the_operator_shows_the_selected_objects(tmp_path: Path) -> None:
         bpy.ops.rsibr.export_page(filepath=str(page))
     both = tmp_path / "both.html"
     assert bpy.ops.rsibr.export_page(filepath=str(both)) == {"FINISHED"}
+    packed = mesh_in(both)
     mesh = SimpleNamespace(
-        **{name: unpacked(packed, signed=True).T / 32767 for name, packed in mesh_in(both).items()}
+        positions=unpacked(packed["positions"], signed=True).T / 32767,
+        normals=normals_of(packed),
+        triangles=unpacked(packed["triangles"], signed=False).T,
     )
-    corners = mesh.positions[np.rint(32767 * mesh.triangles).astype(int)]
+    corners = mesh.positions[mesh.triangles]
     facets = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     facets /= np.linalg.norm(facets, axis=1, keepdims=True)
-    normals = mesh.normals[np.rint(32767 * mesh.triangles).astype(int)[:, 0]]
+    normals = mesh.normals[mesh.triangles[:, 0]]
     assert len(facets) == 24
     assert np.all(np.sum(facets * normals, axis=1) > 0.99)  # also of the mirrored one
     assert np.isclose(np.linalg.norm(mesh.positions, axis=1).max(), 1.0, atol=1e-4)

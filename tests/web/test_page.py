@@ -1,6 +1,7 @@
 """A map set's web page, opened from disk in a browser: what it draws is what `rsibr preview` draws."""
 
 import base64
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.kinds.kernel_bank.shading import BankLook
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.look import PrincipledLook
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.split_sum import split_families
+from rsibr.rsibr_addon.core.kinds.mip_chain.shading import MipLook
 from rsibr.rsibr_addon.core.pictures.display import displayed, table_radiance
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.device.kinds.kernel_pyramid import GpuPyramid
@@ -18,7 +20,7 @@ from rsibr.rsibr_addon.files.kinds.kernel_pyramid import shipped_families
 from rsibr.rsibr_addon.files.kinds.registry import look_types
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.host.display import displayed_colours
-from rsibr.rsibr_addon.host.meshes import load_mesh
+from rsibr.rsibr_addon.host.meshes import TriangleMesh, load_mesh
 from rsibr.rsibr_addon.host.scenes import temporary_scene
 from rsibr.rsibr_addon.settings.page import PageOptions
 from rsibr.rsibr_addon.tasks.export.page.page import FILL, export_page
@@ -94,8 +96,8 @@ def light_file(folder: Path, kind: str) -> Path:
     return path
 
 
-def page_of(source: Path, look: Any = None) -> Path:
-    made = export_page(source, source.with_name("page.html"), SETTINGS, load_mesh("sphere"), look)
+def page_of(source: Path, look: Any = None, mesh: TriangleMesh | None = None) -> Path:
+    made = export_page(source, source.with_name("page.html"), SETTINGS, mesh or load_mesh("sphere"), look)
     (page,) = drain(made)
     return page
 
@@ -104,8 +106,13 @@ def radiance(said: str) -> np.ndarray:
     return np.frombuffer(base64.b64decode(said), "<f4").reshape(SIZE, SIZE, 4)
 
 
-def preview(source: Path, look: Any = None, view: tuple[float, float, float] = VIEW) -> np.ndarray:
-    opened, mesh = open_map_set(source), load_mesh("sphere")
+def preview(
+    source: Path,
+    look: Any = None,
+    view: tuple[float, float, float] = VIEW,
+    mesh: TriangleMesh | None = None,
+) -> np.ndarray:
+    opened, mesh = open_map_set(source), mesh or load_mesh("sphere")
     renderer = PreviewRenderer(opened.drawable())
     shown = look or look_types()[opened.kind]()
     surface = FILL * mesh.positions, mesh.normals, mesh.triangles
@@ -131,6 +138,16 @@ def test_a_page_of_every_kind_is_the_preview(kind: str, tmp_path: Path) -> None:
     look = LOOKS.get(kind)
     said = driven(page_of(source, look), SET_UP + "answer({pixels: encoded(first.pixels)});")
     check_alike(radiance(said["pixels"]), preview(source, look))
+
+
+@pytest.mark.slow
+def test_normals_of_a_mesh_are_those_of_the_preview(tmp_path: Path) -> None:
+    """Of a sphere that is shaded as an ellipsoid: none is its position."""
+    source, sphere, look = light_file(tmp_path, "mip_chain"), load_mesh("sphere"), MipLook(roughness=0.3)
+    normals = sphere.normals * np.array([1.0, 3.0, 0.5], np.float32)
+    mesh = replace(sphere, normals=normals / np.linalg.norm(normals, axis=1, keepdims=True))
+    said = driven(page_of(source, look, mesh), SET_UP + "answer({pixels: encoded(first.pixels)});")
+    check_alike(radiance(said["pixels"]), preview(source, look, mesh=mesh))
 
 
 @pytest.mark.slow

@@ -8,6 +8,7 @@ from ....core.companded import companded
 from ....core.conventions import Array, Indices
 from ....core.errors import RangeError
 from ....core.half_floats import half_holds
+from ....core.maps.octahedral import uv_from_direction
 from ....core.pictures.display import table_radiance
 from ....device.textures import GpuTexture
 from ....files.packed_arrays import packed_floats, packed_integers
@@ -82,8 +83,8 @@ def packed_mesh(mesh: TriangleMesh) -> dict[str, Any]:
     Returns
     -------
     dict
-        "positions" and "normals", in steps of 1 / `DIGITS`, and "triangles", each a row for each of three
-        coordinates or corners. Where normals are the positions, as of a sphere, they are None.
+        "positions", and "normals" on an octahedral map, in steps of 1 / `DIGITS`, and "triangles", each a row
+        for each coordinate or corner. Where normals are the positions, as of a sphere, they are None.
 
     Raises
     ------
@@ -95,14 +96,17 @@ def packed_mesh(mesh: TriangleMesh) -> dict[str, Any]:
             f"{mesh.name} has {len(mesh.triangles):,} triangles, and a page takes {MOST_TRIANGLES:,} at "
             f"most: decimate it."
         )
-    positions, normals = (
-        np.rint(DIGITS * values.T).astype(np.int32) for values in (mesh.positions, mesh.normals)
-    )
+    is_ball = np.array_equal(mesh.positions, mesh.normals)
     return {
-        "positions": packed_integers(positions, 16, along=(1,)),
-        "normals": None if np.array_equal(positions, normals) else packed_integers(normals, 16, along=(1,)),
+        "positions": _packed_rows(mesh.positions),
+        "normals": None if is_ball else _packed_rows(2.0 * uv_from_direction(mesh.normals) - 1.0),
         "triangles": packed_integers(mesh.triangles.T, 32, along=(1,)),
     }
+
+
+def _packed_rows(values: Array) -> dict[str, Any]:
+    """Numbers up to 1, a row for each column. Vertices often lie in lines: differences are alike, too."""
+    return packed_integers(np.rint(DIGITS * values.T).astype(np.int32), 16, along=(1, 1))
 
 
 def packed_display(view_transform: str) -> dict[str, Any]:

@@ -80,7 +80,11 @@ class Picture {
     const made = gl.createVertexArray();
     gl.bindVertexArray(made);
     this.attribute(0, 3, gl.SHORT, transposed(await integers(mesh.positions, true)));
-    this.attribute(1, 3, gl.SHORT, transposed(await integers(mesh.normals || mesh.positions, true)));
+    if (mesh.normals) {
+      this.attribute(1, 3, gl.FLOAT, directions(await integers(mesh.normals, true)));
+    } else {
+      this.attribute(1, 3, gl.SHORT, transposed(await integers(mesh.positions, true)));
+    }
     for (const [place, name] of [[2, "tangent"], [3, "uv_a"], [4, "uv_b"]]) {
       gl.vertexAttrib4f(place, 0, 0, 0, 0);
       if (mesh[name]) {
@@ -337,6 +341,22 @@ class Picture {
     gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, pixels);
     return { width, height, pixels };
   }
+}
+
+// Unit vectors, one after the other, of a row for each coordinate on the octahedron.
+function directions(rows) {
+  const count = rows.length / 2;
+  const found = new Float32Array(3 * count);
+  for (let number = 0; number < count; number++) {
+    let [x, y] = [rows[number] / 32767, rows[count + number] / 32767];
+    const z = 1 - Math.abs(x) - Math.abs(y);
+    if (z < 0) {
+      [x, y] = [(x < 0 ? -1 : 1) * (1 - Math.abs(y)), (y < 0 ? -1 : 1) * (1 - Math.abs(x))];
+    }
+    const size = Math.hypot(x, y, z);
+    found.set([x / size, y / size, z / size], 3 * number);
+  }
+  return found;
 }
 
 // Corners or vertices one after the other, of a row for each of three coordinates.

@@ -3,6 +3,7 @@
 import base64
 import json
 import re
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -167,6 +168,16 @@ def test_another_material_is_refused(tmp_path: Path) -> None:
     with pytest.raises(InputFileError, match="material mirror has changed since it was captured"):
         drain(compare(tmp_path / "old.rsibr.exr", QUICK, tmp_path / "out"))
     assert not (tmp_path / "out").exists()
+
+
+def test_views_of_a_model_are_compared_with_a_material_of_cycles(tmp_path: Path) -> None:
+    """They state no fingerprint that it could differ from."""
+    map_set = mirror_map_set()
+    map_set.header["material"] = {"spec": "ggx:alpha=0.001,fresnel=1", "name": "a model"}
+    write_map_set(tmp_path / "model.rsibr.exr", map_set)
+    found = drain(compare(tmp_path / "model.rsibr.exr", replace(QUICK, material="mirror"), tmp_path / "out"))
+    # As of a flawless capture
+    assert found.errors[0].pooled < 0.03
 
 
 def test_a_map_set_without_its_environment_is_refused(tmp_path: Path) -> None:

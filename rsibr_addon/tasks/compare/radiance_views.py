@@ -76,7 +76,8 @@ def draw(
         pictures = yield from exact.exact_pictures(model, environment, cameras, mesh, settings.size, rings)
         truth = either.ByModel(pictures)
     else:
-        references.check_material(settings.material or "", material.get("fingerprint", ""))
+        if "fingerprint" in material:  # views of a reflectance model have none
+            references.check_material(settings.material or "", material["fingerprint"])
         truth = yield from either.by_cycles(environment, mesh, cameras, settings)
     easel = _Easel(views, settings)
     drawn = {way: [easel.draw(way, camera) for camera in cameras] for way in easel.ways}

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.command_line.main import run
+from rsibr.rsibr_addon.core.brdf.gallery import GALLERY
 from rsibr.rsibr_addon.core.errors import InputFileError
 from rsibr.rsibr_addon.core.lobes.kept_fits import fits_kept
 from rsibr.rsibr_addon.core.progress import drain
@@ -396,3 +397,10 @@ def test_a_worker_that_dies_costs_its_bake_alone(
     assert failed["error"].startswith("1 of 9 bakes failed (maps/noon-matte.rsibr.exr)")
     assert failed["try_again"]
     assert len(maps()) == 8
+
+
+def test_the_page_lists_the_names_of_models() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "batches.md").read_text()
+    rows = [line.strip("| ").split(" | ") for line in page.splitlines() if line.startswith("| ")]
+    told = {row[0]: row[1].split(", ") for row in rows if row[0] in GALLERY}
+    assert told == {group: list(names) for group, names in GALLERY.items()}

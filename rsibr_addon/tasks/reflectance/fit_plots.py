@@ -91,7 +91,7 @@ def lobe_picture(fit: Fit, mu: float) -> Array:
 
 
 def _lobe_curves(fit: Fit, mu: float) -> list[Curve]:
-    """Green, which is most of luminance, in the plane of incidence; the view comes from the left."""
+    """The green channel, most of luminance, in the plane of incidence; the view comes from the left."""
     lobes = fit.evaluate_lobes(_DIRECTIONS, mu)[..., 1]
     return [
         Curve("fit", _ANGLES, lobes.sum(axis=0), dashed=True),

@@ -39,8 +39,8 @@ MAP_SIZE = 160
 """Largest width and height of a map's picture, in pixels."""
 
 LOBES = (
-    '<h2>Lobes</h2><p class="faint">BRDF times cosine in the plane of incidence, green; the eye is to the '
-    "left. The dashed line is the sum of the lobes.</p>"
+    '<h2>Lobes</h2><p class="faint">BRDF times cosine in the plane of incidence, in the green channel; the '
+    "eye is to the left. The dashed line is the sum of the lobes.</p>"
 )
 
 MESHES = {"sphere": Camera((0.3, -1.0, 0.3)), "monkey": Camera((0.3, -1.0, 0.3))}

@@ -16,7 +16,7 @@ class KernelBankSettings(MethodSettings):
     KIND: ClassVar = "kernel_bank"
     LABEL: ClassVar = "Kernel Bank"
     SUMMARY: ClassVar = "Light alone, for any reflectance model: chosen while you look"
-    REMARK: ClassVar = "A kernel bank is for any material: choose a model in Preview."
+    REMARK: ClassVar = "A kernel bank is for any material: choose a model in Look."
 
     size: int = option(
         128,

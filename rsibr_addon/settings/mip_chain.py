@@ -21,7 +21,7 @@ class MipChainSettings(MethodSettings):
     KIND: ClassVar = "mip_chain"
     LABEL: ClassVar = "Mip Chain"
     SUMMARY: ClassVar = "Light alone, for any roughness: as game engines use it"
-    REMARK: ClassVar = "A mip chain holds light alone: choose colours in Preview."
+    REMARK: ClassVar = "A mip chain holds light alone: choose colours in Look."
 
     filter: str = option(
         "ggx",

@@ -22,6 +22,11 @@ NOT_FOLLOWED = (
     "the world itself instead of following it."
 )
 
+STUDIO_LIGHT = (
+    "Blender lights its own shading by a studio light here: turn on Scene World in the menu of Viewport "
+    "Shading to compare in the scene's world."
+)
+
 NOT_READABLE = (
     "What Cycles renders in a viewport cannot be read, so it is shown itself. Choose Material Preview or "
     "EEVEE for a difference; Compare, below Advanced, measures against Cycles."
@@ -75,8 +80,8 @@ class RSIBR_PT_look(InSidebar, bpy.types.Panel):
             return
         layout.prop(view, "beyond")
         beside_blender = view.beyond == "blender" or (view.beyond, view.compared) == ("difference", "blender")
-        if beside_blender and context.space_data.shading.type == "SOLID":
-            tell(layout, SOLID, context.region.width, icon="INFO")
+        if beside_blender and (hint := _other_light(context.space_data.shading)):
+            tell(layout, hint, context.region.width, icon="INFO")
         if view.beyond == "difference":
             layout.prop(view, "compared")
             layout.prop(view, "difference")
@@ -88,6 +93,14 @@ class RSIBR_PT_look(InSidebar, bpy.types.Panel):
             if _looks_are_equal(item, kind):
                 tell(layout, EQUAL_LOOKS, context.region.width, icon="INFO")
             _show_look(layout, item, kind, other=True)
+
+
+def _other_light(shading: bpy.types.View3DShading) -> str:
+    """What light Blender's own shading has instead of the scene's world, in words; empty if it has that."""
+    if shading.type == "SOLID":
+        return SOLID
+    in_world = {"MATERIAL": shading.use_scene_world, "RENDERED": shading.use_scene_world_render}
+    return "" if in_world.get(shading.type, True) else STUDIO_LIGHT
 
 
 def _looks_are_equal(item: bpy.types.Object, kind: str) -> bool:

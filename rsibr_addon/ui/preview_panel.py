@@ -46,10 +46,10 @@ class RSIBR_PT_preview(InSidebar, bpy.types.Panel):
         row.operator("rsibr.preview_scene", text="Preview Scene", icon="SCENE_DATA")
         if farm_address():
             layout.operator("rsibr.send_to_farm", icon="NETWORK_DRIVE")
-        _draw_request(layout, context)
+        served = _draw_request(layout, context)
         if context.object is not None:
             if context.object.rsibr.map_set:
-                _draw_state(layout, context.object, width)
+                _draw_state(layout, context.object, width, served)
             _draw_messages(layout, context)
         draw_bakes(layout, session().bakes.bakes, width)
 
@@ -63,24 +63,25 @@ def _shaded_as(context: bpy.types.Context) -> str:
     return label
 
 
-def _draw_request(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
-    """Show what a bake would cost and lack, or why there can be none."""
+def _draw_request(layout: bpy.types.UILayout, context: bpy.types.Context) -> bool:
+    """Show what a bake would cost and lack, or why there can be none; whether the active object has it."""
     width = context.region.width
     try:
         request = request_for(context.scene.rsibr_bake, context.scene, context.object)
     except RsibrError as error:
         tell(layout, str(error), width)
-        return
+        return False
     for remark in request.remarks:
         tell(layout, remark, width, icon="INFO")
     if session().freshness.serves(request, context.scene, context.object):
-        return
+        return True
     cost = request.cost
     takes = f"{amount(cost.memory)} of memory, {amount(cost.disk)} on disk"
     tell(layout, capital(f"{duration(cost.seconds)}, {takes}"), width, icon="TIME")
+    return False
 
 
-def _draw_state(layout: bpy.types.UILayout, item: bpy.types.Object, width: int) -> None:
+def _draw_state(layout: bpy.types.UILayout, item: bpy.types.Object, width: int, served: bool) -> None:
     """Show whether the active object's map set is there, and up to date."""
     try:
         path = written_path(item.rsibr)
@@ -91,17 +92,21 @@ def _draw_state(layout: bpy.types.UILayout, item: bpy.types.Object, width: int) 
         tell(layout, str(error), width)
         draw_remedies(layout)
     else:
-        _draw_freshness(layout, item, width)
+        _draw_freshness(layout, item, width, served)
 
 
-def _draw_freshness(layout: bpy.types.UILayout, item: bpy.types.Object, width: int) -> None:
-    """Show whether the active object is up to date, and how many others are not."""
+def _draw_freshness(layout: bpy.types.UILayout, item: bpy.types.Object, width: int, served: bool) -> None:
+    """Show whether the active object is up to date, and how many others are not.
+
+    Where Preview would bake another map set, that is said of the one shown alone.
+    """
     freshness = session().freshness
     stale = freshness.of(item)
     if stale is not None:
         _draw_stale(layout, stale, width)
     elif item.session_uid in freshness.stale and not session().previews.inputs.lacks(item):
-        layout.label(text="Up to date", icon="CHECKMARK")
+        text = "Up to date" if served else "The map set shown is up to date"
+        layout.label(text=text, icon="CHECKMARK")
     others = sum(each is not None for each in freshness.stale.values()) - (stale is not None)
     if others:
         row = layout.row()

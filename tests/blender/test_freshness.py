@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from pathlib import Path
+from unittest.mock import Mock
 
 import bpy
 import pytest
@@ -17,6 +18,7 @@ from rsibr.rsibr_addon.tasks.methods.kinds import own_materials_kind
 from rsibr.rsibr_addon.tasks.queue.background import State
 from rsibr.rsibr_addon.tasks.queue.bake_request import ObjectBake, output_for, request_for
 from rsibr.rsibr_addon.tasks.queue.freshness import Freshness, Stale
+from rsibr.rsibr_addon.ui import preview_panel
 from rsibr.tests.flat_capture import write_flat_capture
 
 
@@ -277,3 +279,30 @@ def test_a_map_set_is_read_once_for_all_objects_of_a_scene(monkeypatch: pytest.M
     assert len(shaded) == 6
     assert all(each.rsibr.content and each.rsibr_baked.kind == kind for each in shaded)
     assert len(read) == 1
+
+
+@pytest.mark.parametrize(
+    ("served", "told"), [(True, "Up to date"), (False, "The map set shown is up to date")]
+)
+def test_the_panel_says_what_is_up_to_date_where_another_map_set_would_be_baked(
+    served: bool, told: str
+) -> None:
+    baked("mip_chain", "STUDIO", cube())
+    session().freshness.look([bpy.context.scene])
+    if not served:
+        bpy.context.scene.rsibr_bake.kind = "reflection_tables"
+    said = drawn_request_and_state()
+    estimates = [text for icon, text in said if icon == "TIME"]
+    assert bool(estimates) == (not served)
+    assert [text for icon, text in said if icon == "CHECKMARK"] == [told]
+
+
+def drawn_request_and_state() -> list[tuple[str, str]]:
+    """Icons and texts that the panel *Preview* shows below its buttons."""
+    layout = Mock()
+    layout.column.return_value = layout
+    context = Mock(scene=bpy.context.scene, object=cube())
+    context.region.width = 10_000  # each sentence in one line
+    served = preview_panel._draw_request(layout, context)
+    preview_panel._draw_freshness(layout, cube(), context.region.width, served)
+    return [(each.kwargs.get("icon", ""), each.kwargs["text"]) for each in layout.label.call_args_list]

@@ -59,7 +59,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     dict
         "page", the path of the page that shows all; "made" and "found", numbers of bakes that were done, and
         that were there already. Of a dry run "bakes", the paths of the map sets; "processor_seconds" and
-        "disk", what they cost together; "parts", the names of the parts.
+        "disk", what they cost together; "parts", the names of the parts; "faults", why bakes will
+        fail, by their paths.
 
     Raises
     ------
@@ -137,9 +138,11 @@ def _failed(failures: Mapping[str, "Failure"], sentence: str) -> RsibrError:
 def listed(bakes: Sequence["BatchBake"], console: Console) -> dict[str, Any]:
     """List a batch's parts and bakes, with what they cost."""
     from ..tasks.batch.bakes import parts_of
+    from ..tasks.batch.faults import fault_of
     from ..tasks.batch.run import cost_of
 
     parts = parts_of(bakes)
+    faults: dict[str, str] = {}
     total, disk = 0.0, 0.0
     for name, part in parts.items():
         costs = [cost for cost in map(cost_of, part) if cost]
@@ -148,11 +151,20 @@ def listed(bakes: Sequence["BatchBake"], console: Console) -> dict[str, Any]:
         console.say(f"{name}: {counted(len(part), 'bake')}, about {seconds:.0f} s of processors")
         for bake in part:
             there = ", exists" if Path(bake.job.output).exists() else ""
-            console.say(f"  {bake.job.output}: {bake.job.settings.LABEL}, {bake.title}{there}")
+            broken = ""
+            if fault := fault_of(bake):
+                faults[bake.job.output], broken = fault, f", will fail: {fault}"
+            console.say(f"  {bake.job.output}: {bake.job.settings.LABEL}, {bake.title}{there}{broken}")
     summary = f"{counted(len(bakes), 'bake')} in {counted(len(parts), 'part')}"
     console.say(f"{summary}: about {total:.0f} s of processors and {disk / 1e6:.0f} MB on disk")
     outputs = [bake.job.output for bake in bakes]
-    return {"bakes": outputs, "parts": list(parts), "processor_seconds": total, "disk": disk}
+    return {
+        "bakes": outputs,
+        "parts": list(parts),
+        "faults": faults,
+        "processor_seconds": total,
+        "disk": disk,
+    }
 
 
 def counted(number: int, thing: str) -> str:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..core.errors import RangeError
+from ..core.warned import warn
 from .batch import add_batch, check_failures, counted, listed
 from .console import Console
 
@@ -63,12 +64,16 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     RsibrError
         See `tasks.farm`; or bakes failed that were waited for, which the message names.
     """
+    from ..tasks.batch.faults import fault_of
     from ..tasks.farm.folder import bakes_to_send
     from ..tasks.farm.openjd import write_bundle
 
     title, folder, bakes = bakes_to_send(arguments.batch)
     if arguments.dry_run:
         return listed(bakes, console)
+    for bake in bakes:
+        if fault := fault_of(bake):
+            warn(f"{bake.job.output}: {fault}")
     if arguments.flamenco is not None:
         return _sent(arguments, title, bakes, folder, console)
     if arguments.shared or arguments.wait:

@@ -227,6 +227,41 @@ def test_a_dry_run_lists_and_bakes_nothing(capfd: pytest.CaptureFixture[str]) ->
     assert not Path("maps").exists()
 
 
+@pytest.mark.parametrize("method", ["lobe-stack", "radiance-views"])
+def test_misspelt_materials_are_told_of_before_any_bake(
+    method: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    names = ["Brushed coper", "Nope", "gold-leaf:kd=1", "ward:alpha=0.3,ks=0.5", "Brushed copper", "copper"]
+    write_batch(environments=["light/dawn.exr"], methods=[method], materials=[*names, "some.blend:Cup"])
+    assert run(["batch", "metals.json", "--dry-run", "--json"]) == 0
+    faults = json.loads(capfd.readouterr().out.splitlines()[-1])["faults"]
+    assert [Path(output).name for output in faults] == [
+        f"dawn-{name}.rsibr.exr" for name in ("Brushed-coper", "Nope", "gold-leaf-kd-1")
+    ]
+    near = faults["maps/dawn-Brushed-coper.rsibr.exr"]
+    assert near.startswith(
+        'There is no material "Brushed coper" (did you mean Brushed copper?): name a preset'
+    )
+    run(["batch", "metals.json", "--dry-run"])
+    assert capfd.readouterr().out.count("will fail: There is no material") == 3
+
+
+def test_submit_warns_of_misspelt_materials(capfd: pytest.CaptureFixture[str]) -> None:
+    write_batch(
+        environments=["light/dawn.exr"], methods=["lobe-stack"], materials=["Brushed coper", "chrome"]
+    )
+    assert run(["submit", "metals.json", "--openjd", "bundle"]) == 0
+    assert "did you mean Brushed copper?" in capfd.readouterr().err
+
+
+def test_a_bake_of_a_misspelt_material_fails_with_the_name_that_is_meant(
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    write_batch(environments=["light/dawn.exr"], methods=["lobe-stack"], materials=["Brushed coper"])
+    assert run(["batch", "metals.json"]) == 1
+    assert "did you mean Brushed copper?" in capfd.readouterr().err
+
+
 class Page(HTMLParser):
     """What of a page is checked."""
 

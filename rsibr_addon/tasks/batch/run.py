@@ -13,6 +13,7 @@ from ...files.memory import memory_left
 from ..methods.bake import METHODS
 from ..methods.method import Cost
 from .bakes import BatchBake
+from .faults import fault_of
 from .index import write_index
 from .notes import Failure, Note, read_failure, read_note, stamp_of, write_note
 from .workers import Worker, started_workers
@@ -183,7 +184,8 @@ def _give_next(worker: Worker, team: list[Worker], waiting: list[BatchBake], fol
 def _take(bake: BatchBake, said: dict[str, Any], folder: Path, result: BatchResult) -> None:
     """Note what has become of a bake."""
     if not said["ok"]:
-        _fail(bake, Failure(error=said["error"], try_again=said["try_again"]), folder, result)
+        error = fault_of(bake) or said["error"]  # a fault's words know the names that a batch takes
+        _fail(bake, Failure(error=error, try_again=said["try_again"]), folder, result)
         return
     result.found += said["found"]
     result.made += not said["found"]

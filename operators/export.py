@@ -2,6 +2,7 @@
 
 import os
 from collections import ChainMap
+from contextlib import suppress
 from pathlib import Path
 from textwrap import wrap
 from typing import Any
@@ -160,6 +161,19 @@ class _ExportPage(_Export):
         """Of the file's name."""
         return ".html"
 
+    def invoke(self: Any, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Ask for the file; the dialog shows the scene's view."""
+        self.show_as_scene(context.scene)
+        return super().invoke(context, event)
+
+    def show_as_scene(self: Any, scene: bpy.types.Scene) -> None:
+        """Have what nobody chose be the scene's; a view transform that pages do not know stays ours."""
+        if not self.properties.is_property_set("exposure", ghost=False):
+            self.exposure = scene.view_settings.exposure
+        if not self.properties.is_property_set("view_transform", ghost=False):
+            with suppress(TypeError):
+                self.view_transform = scene.view_settings.view_transform
+
     def exporting(self: Any, map_set: Path, output: Path, force: bool) -> Steps[list[Path]]:
         """See `export_page`."""
         active = bpy.context.object
@@ -172,6 +186,7 @@ class _ExportPage(_Export):
         shown, depsgraph = alike or [active], bpy.context.evaluated_depsgraph_get()
         mesh, kind = mesh_of_objects(shown, depsgraph), kind_of(map_set)
         look = options_of(look_types()[kind], getattr(active.rsibr, kind))
+        self.show_as_scene(bpy.context.scene)
         own: list[OwnObject] = []
         if wants_own(active, kind):
             look, own = in_own_materials(shown, depsgraph, look)

@@ -178,6 +178,28 @@ def test_the_operator_shows_the_selected_objects(tmp_path: Path) -> None:
     assert np.isclose(np.linalg.norm(mesh.positions, axis=1).max(), 1.0, atol=1e-4)
 
 
+@pytest.mark.slow
+@pytest.mark.usefixtures("view")
+def test_the_operator_shows_the_scene_s_view_and_says_where(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    bpy.ops.rsibr.assign(filepath=str(chain_file(tmp_path)))
+    view = bpy.context.scene.view_settings
+    monkeypatch.setattr(view, "exposure", 1.5)
+    for transform, shown in (("AgX", "AgX"), ("Raw", "Standard")):
+        monkeypatch.setattr(view, "view_transform", transform)
+        page = tmp_path / f"{transform}.html"
+        bpy.ops.rsibr.export_page(filepath=str(page))
+        assert f"Wrote {page}" in capfd.readouterr().out
+        content = content_of(page)
+        assert (content["display"], content["exposure"]) == (shown, 1.5)
+    bpy.ops.rsibr.export_page(
+        filepath=str(tmp_path / "own.html"), view_transform="Khronos PBR Neutral", exposure=0.0
+    )
+    content = content_of(tmp_path / "own.html")
+    assert (content["display"], content["exposure"]) == ("Khronos PBR Neutral", 0.0)
+
+
 @pytest.mark.usefixtures("view")
 def test_the_operator_takes_the_materials_of_slots(tmp_path: Path) -> None:
     cube, light = bpy.context.object, tmp_path / "light.rsibr.exr"

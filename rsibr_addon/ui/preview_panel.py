@@ -4,7 +4,7 @@ import bpy
 
 from ..core.errors import RsibrError
 from ..files.kinds.registry import STORED
-from ..host.bake_settings import bakes_inputs_by_itself, farm_address
+from ..host.bake_settings import bakes_inputs_by_itself, check_online, farm_address
 from ..host.map_sets import written_path
 from ..session.running import session
 from ..tasks.methods.kinds import KINDS
@@ -46,6 +46,7 @@ class RSIBR_PT_preview(InSidebar, bpy.types.Panel):
         row.operator("rsibr.preview_scene", text="Preview Scene", icon="SCENE_DATA")
         if farm_address():
             layout.operator("rsibr.send_to_farm", icon="NETWORK_DRIVE")
+            _draw_offline(layout, width)
         served = _draw_request(layout, context)
         if context.object is not None:
             if context.object.rsibr.map_set:
@@ -61,6 +62,14 @@ def _shaded_as(context: bpy.types.Context) -> str:
     if getattr(settings, "source", None) == "OWN":
         return f"{label} of {item.active_material.name}" if item.active_material else label
     return label
+
+
+def _draw_offline(layout: bpy.types.UILayout, width: int) -> None:
+    """Say why nothing can be sent where Blender may not use the network."""
+    try:
+        check_online()
+    except RsibrError as error:
+        tell(layout, str(error), width)
 
 
 def _draw_request(layout: bpy.types.UILayout, context: bpy.types.Context) -> bool:

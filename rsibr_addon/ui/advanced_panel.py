@@ -96,4 +96,10 @@ def _draw_options(
         if each.option.models:
             draw_model(column, chosen, each)
         else:
-            column.prop(chosen, property_name(each))
+            column.prop(chosen, property_name(each), text=_label(each))
+
+
+def _label(declared: Declared) -> str:
+    """An option's label; of a whole number, such as a size, also that 0 leaves it to the bake."""
+    told = declared.option
+    return f"{told.label} (0: auto)" if isinstance(told.none_as, int) and told.none_as == 0 else told.label

@@ -1,10 +1,16 @@
-"""What panels tell of Blender's own shading, and which panels they name."""
+"""What panels tell of Blender's own shading and of numbers, and which panels they name."""
+
+from unittest.mock import Mock
 
 import bpy
 import pytest
+from rsibr.rsibr_addon.core.options import declared_options
 from rsibr.rsibr_addon.settings.kernel_bank import KernelBankSettings
+from rsibr.rsibr_addon.settings.lobe_stack import LobeStackSettings
+from rsibr.rsibr_addon.settings.method import MethodSettings
 from rsibr.rsibr_addon.settings.mip_chain import MipChainSettings
-from rsibr.rsibr_addon.ui import look_panel
+from rsibr.rsibr_addon.settings.reflection_tables import ReflectionTablesSettings
+from rsibr.rsibr_addon.ui import advanced_panel, look_panel
 from rsibr.rsibr_addon.ui.sentences import SOLID
 
 
@@ -38,3 +44,20 @@ def test_hints_name_panels_by_their_labels() -> None:
     look = f"in {look_panel.RSIBR_PT_look.bl_label}."
     assert MipChainSettings.REMARK.endswith(look)
     assert KernelBankSettings.REMARK.endswith(look)
+
+
+@pytest.mark.parametrize(
+    ("settings", "name", "label"),
+    [
+        (LobeStackSettings, "size", "Size (0: auto)"),
+        (ReflectionTablesSettings, "rows", "Rows (0: auto)"),
+        (MipChainSettings, "size", "Size"),
+    ],
+)
+def test_the_panel_says_that_a_size_of_0_is_chosen_by_itself(
+    settings: type[MethodSettings], name: str, label: str
+) -> None:
+    layout, (option,) = Mock(), [each for each in declared_options(settings) if each.name == name]
+    advanced_panel._draw_options(layout, Mock(), [option])
+    layout.column().prop.assert_called_once()
+    assert layout.column().prop.call_args.kwargs["text"] == label

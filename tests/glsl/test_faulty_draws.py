@@ -113,7 +113,7 @@ def is_blenders(function: Any) -> bool:
 @pytest.fixture
 def frame(view: View) -> Callable[..., tuple[np.ndarray, dict[Place, str], Any]]:
     """Draw as Blender does: a frame, then what the display and the light lack, then another frame."""
-    target = gpu.types.GPUOffScreen(SIZE, SIZE)
+    target, states = gpu.types.GPUOffScreen(SIZE, SIZE), list[Any]()
     (window,) = bpy.context.window_manager.windows
     (area,) = (area for area in window.screen.areas if area.type == "VIEW_3D")
     (region,) = (region for region in area.regions if region.type == "WINDOW")
@@ -123,15 +123,22 @@ def frame(view: View) -> Callable[..., tuple[np.ndarray, dict[Place, str], Any]]
             gpu.state.active_framebuffer_get().clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
             gpu.matrix.load_matrix(Matrix.Identity(4))
             gpu.matrix.load_projection_matrix(PROJECTION)
+            # Renders of surroundings are Blender's own drawing, which leaves some of it changed
             gpu.state.depth_test_set("NONE")
-            guarded = previews.faults.guarded
-            with guarded():
-                if previews.draw(view):
-                    return
-            with guarded():
-                previews.add_display(view.scene)
-            with guarded():
-                previews.draw(view)
+            gpu.state.depth_mask_set(True)
+            gpu.state.blend_set("NONE")
+            draw_twice(previews)
+            states.append((gpu.state.depth_test_get(), gpu.state.depth_mask_get(), gpu.state.blend_get()))
+
+    def draw_twice(previews: Previews) -> None:
+        guarded = previews.faults.guarded
+        with guarded():
+            if previews.draw(view):
+                return
+        with guarded():
+            previews.add_display(view.scene)
+        with guarded():
+            previews.draw(view)
 
     def lit(previews: Previews) -> bool:
         with previews.faults.guarded():
@@ -146,11 +153,10 @@ def frame(view: View) -> Callable[..., tuple[np.ndarray, dict[Place, str], Any]]
             shown(previews)
             while lit(previews):
                 shown(previews)
-        state = gpu.state.depth_test_get(), gpu.state.depth_mask_get(), gpu.state.blend_get()
         with target.bind():
             framebuffer = gpu.state.active_framebuffer_get()
             picture = np.array(framebuffer.read_color(0, 0, SIZE, SIZE, 4, 0, "FLOAT").to_list())
-        return picture, found, state
+        return picture, found, states[-1]
 
     return draw
 

@@ -32,7 +32,7 @@ class Surface:
         The surface's object: the artist's own, not its evaluated copy, but in a render. It may be deleted
         before the scene is looked at anew, and then it has no properties any more.
     number : int
-        The object's `session_uid`.
+        The `session_uid` of the artist's own object; a render's copy has 0.
     shown_by : bpy.types.Object
         The object whose visibility counts: `item`, or one that makes instances of it.
     mesh : int
@@ -253,8 +253,9 @@ def surfaces(depsgraph: bpy.types.Depsgraph) -> Iterator[tuple[Surface, bpy.type
         if evaluated.type != "MESH" or not instance.show_self or bare:
             continue
         item = evaluated.original
+        number = item.session_uid
         shown_by = instance.parent.original if instance.is_instance else item
         if rendered:  # A render sets no key's value but in its own copies
             item = item.evaluated_get(depsgraph)
         mesh, matrix = evaluated.data.session_uid, np.array(instance.matrix_world)
-        yield Surface(item, item.session_uid, shown_by, mesh, matrix, map_set_of(item)), evaluated
+        yield Surface(item, number, shown_by, mesh, matrix, map_set_of(item)), evaluated

@@ -247,8 +247,13 @@ def test_a_world_that_cannot_be_baked_is_told(scene: bpy.types.Scene, render: Re
 
 
 @pytest.mark.slow
-def test_what_no_image_says_is_baked_before(scene: bpy.types.Scene, render: Render) -> None:
-    scene.world = None
+@pytest.mark.parametrize("has_map_set", [False, True])
+def test_what_no_image_says_is_baked_before(
+    scene: bpy.types.Scene, render: Render, has_map_set: bool, capfd: pytest.CaptureFixture[str]
+) -> None:
+    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
+    if has_map_set:
+        bpy.data.objects["Cube"].rsibr.map_set = str(write_world(scene, render))
     tree = bpy.data.materials["Material"].node_tree
     checker, inputs = tree.nodes.new("ShaderNodeTexChecker"), tree.nodes["Principled BSDF"].inputs
     checker.inputs["Color1"].default_value, checker.inputs["Color2"].default_value = (
@@ -262,3 +267,23 @@ def test_what_no_image_says_is_baked_before(scene: bpy.types.Scene, render: Rend
     seen = passes["Emission"][passes["Depth"][..., 0] < NOTHING]
     for colour in ((0.5, 0.0, 0.0), (0.0, 0.5, 0.0)):
         assert np.isclose(seen, colour, atol=0.02).all(axis=-1).sum() > 50
+    told = capfd.readouterr()
+    assert "Until its bake is done" not in told.out + told.err
+
+
+def test_each_object_s_messages_are_told(
+    scene: bpy.types.Scene, render: Render, capfd: pytest.CaptureFixture[str]
+) -> None:
+    for number, x in enumerate((-1.5, 1.5)):
+        item = bpy.data.objects["Cube"].copy()
+        item.name, item.location.x = f"Copy {number}", x
+        scene.collection.objects.link(item)
+        material = item.data.materials[0].copy()
+        material.name = f"Veined {number}"
+        item.material_slots[0].link, item.material_slots[0].material = "OBJECT", material
+        material.node_tree.nodes["Principled BSDF"].inputs["Subsurface Weight"].default_value = 0.5
+    capfd.readouterr()
+    render()
+    told = capfd.readouterr()
+    for number in range(2):
+        assert f"Material Veined {number} is shown without" in told.out + told.err

@@ -43,24 +43,24 @@ class Faults:
 
     def note(self, item: Any, error: Exception) -> None:
         """Keep what went wrong with an object."""
-        self._of_items[item.session_uid] = _Fault(settings_of(item), _told(error))
+        self._of_items[item.original.session_uid] = _Fault(settings_of(item), _told(error))
 
     def message(self, item: Any) -> str | None:
         """What went wrong with an object, in a sentence."""
-        fault = self._of_items.get(item.session_uid)
+        fault = self._of_items.get(item.original.session_uid)
         return fault.message if fault else None
 
     def stands(self, item: Any) -> bool:
         """Whether an object has a fault and its settings since; a fault of other settings is forgotten."""
-        fault = self._of_items.get(item.session_uid)
+        fault = self._of_items.get(item.original.session_uid)
         if fault and fault.settings != settings_of(item):
-            del self._of_items[item.session_uid]
+            del self._of_items[item.original.session_uid]
             return False
         return fault is not None
 
     def forget(self, item: Any) -> None:
         """Forget the fault of an object that is to have no preview."""
-        self._of_items.pop(item.session_uid, None)
+        self._of_items.pop(item.original.session_uid, None)
 
     def clear(self) -> None:
         """Forget the faults of all objects."""

@@ -81,8 +81,8 @@ class Looks:
         """
         look = self._said(surface.item, map_set.kind, other)
         if not KINDS[map_set.kind].live:
-            return self._served(map_set.gpu_map_set, (surface.item.session_uid, other), look)
-        asked = self.asked.setdefault((surface.item.session_uid, surface.path, other), [])
+            return self._served(map_set.gpu_map_set, (surface.item.original.session_uid, other), look)
+        asked = self.asked.setdefault((surface.item.original.session_uid, surface.path, other), [])
         if look in asked:
             asked.remove(look)
         asked.append(look)
@@ -94,7 +94,7 @@ class Looks:
     def warnings(self, item: Any, map_set: ViewportMapSet) -> list[str]:
         """What the makers of an object's looks have to say of them, or why the last ones are still shown."""
         if not KINDS[map_set.kind].live:
-            both = (self._drawn.get((item.session_uid, other)) for other in (False, True))
+            both = (self._drawn.get((item.original.session_uid, other)) for other in (False, True))
             of_map_set = (each for each in both if each and each.map_set() is map_set.gpu_map_set)
             return list(dict.fromkeys(each.refusal for each in of_map_set if each.refusal))
         looks = [self._said(item, map_set.kind, other) for other in (False, True)]
@@ -114,7 +114,7 @@ class Looks:
     def _said(self, item: Any, kind: str, other: bool) -> Any:
         """The look that an object's properties say; it is checked once, as every frame asks for it."""
         group = _settings(item, kind, other)
-        said, shown = (kind, said_by(self._types[kind], group)), (item.session_uid, other)
+        said, shown = (kind, said_by(self._types[kind], group)), (item.original.session_uid, other)
         before, look = self._made.get(shown, (None, None))
         if before != said:
             look = options_of(self._types[kind], group)

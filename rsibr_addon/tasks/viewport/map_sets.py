@@ -231,7 +231,7 @@ class MapSets:
 
     def shown(self, item: Any) -> ViewportMapSet | None:
         """What an object was shaded from when `shading` was asked last."""
-        return self._shown.get(item.session_uid)
+        return self._shown.get(item.original.session_uid)
 
     def keep(self, surfaces: Iterable[Surface], worlds: Iterable[str] = ()) -> None:
         """Let go of what none of these surfaces and worlds uses any more, of files in a while."""

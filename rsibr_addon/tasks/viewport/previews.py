@@ -128,12 +128,12 @@ class Previews:
         map_set = self._map_sets.used.get(map_set_of(item))
         fault = self.faults.message(item)
         warnings = [*map_set.warnings, *self._looks.warnings(item, map_set)] if map_set and not fault else []
-        shown = next(
-            (each for each in self._layers.previewed() if each.surface.number == item.session_uid), None
-        )
+        number = item.original.session_uid
+        shown = next((each for each in self._layers.previewed() if each.surface.number == number), None)
         told = [*filter(None, (fault, self.faults.trouble)), *warnings]
         if shown and shown.materials:
-            told += self.inputs.messages(item, bakes_inputs_by_itself()) if shown.materials.has_baked else []
+            if shown.materials.has_baked:
+                told += self.inputs.messages(item.original, bakes_inputs_by_itself())
             told += shown.materials.messages
         return told
 

@@ -181,7 +181,7 @@ def many_images(material: bpy.types.Material) -> None:
 
 def many_uv_maps(material: bpy.types.Material) -> None:
     mesh, tree = bpy.data.objects["Cube"].data, material.node_tree
-    for number, name in enumerate(("Base Color", "Roughness", "Metallic", "IOR", "Coat Weight")):
+    for number, name in enumerate(("Base Color", "Roughness", "Metallic", "Coat Weight", "Alpha")):
         node, uv_map = image_node(material, name, picture()), tree.nodes.new("ShaderNodeUVMap")
         uv_map.uv_map = (mesh.uv_layers.new(name=f"map {number}")).name
         tree.links.new(uv_map.outputs[0], node.inputs["Vector"])
@@ -234,11 +234,12 @@ def test_what_cannot_be_shown_is_said(
     cube: bpy.types.Object, change: Callable[[bpy.types.Material], None], said: str | None
 ) -> None:
     change(cube.active_material)
-    found = shown(cube)
-    assert len(found.messages) <= 1
+    # An image gives an IOR below 1
+    told = [each for each in shown(cube).messages if "IOR below 1" not in each]
+    assert len(told) <= 1
     if said is not None:
-        assert bool(found.messages) == bool(said)
-        assert not said or re.search(said, found.messages[0])
+        assert bool(told) == bool(said)
+        assert not said or re.search(said, told[0])
 
 
 def test_an_image_is_found_through_groups(cube: bpy.types.Object) -> None:

@@ -9,25 +9,36 @@ class MaterialNotes:
     """Sentences about materials, for panels, which are drawn too often to read nodes each time."""
 
     def __init__(self) -> None:
-        self._read: dict[int, tuple[str, ...]] = {}
+        self._read: dict[int, tuple[str, tuple[str, ...]]] = {}  # of the bake that it needs, and all others
 
-    def of_object(self, item: Any) -> list[str]:
-        """What an object in its own materials will not show of them; nothing if it shows all.
+    def of_object(self, item: Any, is_shown: bool) -> list[str]:
+        """What an object in its own materials will not show of them, or not at once.
 
         Parameters
         ----------
         item : bpy.types.Object
+        is_shown : bool
+            Whether a preview shows these materials: then it tells of their bakes itself.
+
+        Returns
+        -------
+        list of str
+            Empty if it shows all.
         """
         materials = dict.fromkeys(slot.material for slot in item.material_slots if slot.material)
-        return [note for material in materials for note in self._of(material)]
+        notes = []
+        for bake, others in map(self._of, materials):
+            notes += [bake] if bake and not is_shown else []
+            notes += others
+        return notes
 
     def forget(self) -> None:
         """Read all again: materials have changed."""
         self._read.clear()
 
-    def _of(self, material: Any) -> tuple[str, ...]:
+    def _of(self, material: Any) -> tuple[str, tuple[str, ...]]:
         if material.session_uid not in self._read:
             shown = shown_material(material)
-            baked = f"Material {material.name} has a bake in the background for {shown.unbaked}."
-            self._read[material.session_uid] = (*([baked] if shown.unbaked else []), *shown.messages)
+            bake = f"Material {material.name} has a bake in the background for {shown.unbaked}."
+            self._read[material.session_uid] = bake if shown.unbaked else "", shown.messages
         return self._read[material.session_uid]

@@ -126,7 +126,8 @@ def _draw_freshness(layout: bpy.types.UILayout, item: bpy.types.Object, width: i
 def _draw_messages(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     """Show what a preview of the active object leaves out or will leave out, and what went wrong."""
     item, running, chosen = context.object, session(), context.scene.rsibr_bake.kind
-    notes = running.material_notes.of_object(item) if KINDS[chosen].own else []
+    is_shown = running.previews.materials_of(item) is not None
+    notes = running.material_notes.of_object(item, is_shown) if KINDS[chosen].own else []
     for note in notes:
         tell(layout, note, context.region.width, icon="INFO")
     for message in running.previews.messages(item):

@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.session.material_notes import MaterialNotes
 from rsibr.rsibr_addon.settings.baked_inputs import BakedInputsSettings
 from rsibr.rsibr_addon.tasks.baked_inputs import bake_inputs
 from rsibr.rsibr_addon.tasks.viewport.previews import Previews
@@ -47,6 +48,15 @@ def lit_rows(picture: np.ndarray) -> list[bool]:
     return shining[:, 0].tolist()
 
 
+def test_the_bake_that_a_material_needs_is_noted_until_a_preview_tells_of_it(
+    sheet: bpy.types.Object, half: bpy.types.Node
+) -> None:
+    notes = MaterialNotes()
+    (note,) = notes.of_object(sheet, is_shown=False)
+    assert note.startswith("Material first has a bake in the background for Emission Color")
+    assert notes.of_object(sheet, is_shown=True) == []
+
+
 LOWER = [False] * (SIZE // 2 - 1)
 UPPER = [True] * (SIZE // 2 - 1)
 
@@ -63,7 +73,9 @@ def test_a_bake_is_shown_and_stays_until_another_is_there(
 ) -> None:
     if not has_uv_map:
         sheet.data.uv_layers.remove(sheet.data.uv_layers[0])
+    assert previews.materials_of(sheet) is None
     draw()
+    assert previews.materials_of(sheet) is not None
     assert previews.inputs.is_unasked
     assert previews.with_baked_inputs() == [sheet]
     (told,) = previews.messages(sheet)

@@ -31,6 +31,7 @@ from .floors import Floors
 from .frame import Frame, Shown, placed
 from .looks import Looks, own_look, wants_own
 from .map_sets import MapSets, ViewportMapSet
+from .own_materials import ShownMaterials
 from .worlds import Worlds
 
 
@@ -128,14 +129,18 @@ class Previews:
         map_set = self._map_sets.used.get(map_set_of(item))
         fault = self.faults.message(item)
         warnings = [*map_set.warnings, *self._looks.warnings(item, map_set)] if map_set and not fault else []
-        number = item.original.session_uid
-        shown = next((each for each in self._layers.previewed() if each.surface.number == number), None)
         told = [*filter(None, (fault, self.faults.trouble)), *warnings]
-        if shown and shown.materials:
-            if shown.materials.has_baked:
+        if materials := self.materials_of(item):
+            if materials.has_baked:
                 told += self.inputs.messages(item.original, bakes_inputs_by_itself())
-            told += shown.materials.messages
+            told += materials.messages
         return told
+
+    def materials_of(self, item: Any) -> ShownMaterials | None:
+        """An object's own materials as its preview shows them; None where it does not."""
+        number = item.original.session_uid
+        shown = (each.materials for each in self._layers.previewed() if each.surface.number == number)
+        return next(shown, None)
 
     def with_baked_inputs(self, layers: Collection[Layer] | None = None) -> list[Any]:
         """The objects whose materials have inputs that have to be baked.

@@ -81,15 +81,7 @@ def draw(
         truth = yield from either.by_cycles(environment, mesh, cameras, settings)
     easel = _Easel(views, settings)
     drawn = {way: [easel.draw(way, camera) for camera in cameras] for way in easel.ways}
-    return Drawn(
-        material=settings.material or "",
-        map_size=views.size,
-        settings=settings,
-        references=truth.pictures,
-        drawn=drawn,
-        errors=tuple(truth.error(way, ours) for way, ours in drawn.items()),
-        noise=truth.noise,
-    )
+    return either.beside(truth, drawn, settings.material or "", views.size, settings)
 
 
 class _Easel:

@@ -160,14 +160,7 @@ def destination_by_texel(
 ) -> Destination:
     """The destination map of one view, warped per texel: the future work of [Cabral1999] section 6.
 
-    Parameters
-    ----------
-    views : RadianceViews
-    view_dir : array_like, shape (3,)
-        Unit vector from the object to the eye.
-    size : int
-        Width and height of the destination map in texels.
-    warping : Warping
+    Parameters are those of `source_shares`.
 
     Notes
     -----
@@ -186,7 +179,7 @@ def destination_by_mesh(
 ) -> Destination:
     """The destination map of one view, warped at the vertices of a tessellated disk: the paper's way.
 
-    Parameters and result are those of `destination_by_texel`.
+    Parameters are those of `source_shares`.
 
     Notes
     -----

@@ -100,6 +100,25 @@ def test_a_picture_that_is_no_map_set_is_not_replaced(farm: Stub, capfd: pytest.
     assert Path("picture.exr").read_bytes() == b"mine"
 
 
+def test_map_sets_and_the_page_are_fetched_and_nothing_else(
+    farm: Stub, capfd: pytest.CaptureFixture[str]
+) -> None:
+    Path(".hidden").mkdir()
+    words = ("submit", batch(), "--flamenco", farm.url, "--shared", ".hidden")
+    there = Path(told(capfd, *words)["maps"])
+    # What a capture leaves that has ended early
+    (there / "other.rsibr.exr.partial").mkdir()
+    (there / "other.rsibr.exr.partial" / "view1.exr").touch()
+    before = set(Path().rglob("*"))
+    told(capfd, *words, "--wait")
+    fetched = {path for path in set(Path().rglob("*")) - before if path.parts[0] != ".hidden"}
+    assert {path.as_posix() for path in fetched if path.is_file()} == {
+        "dawn-chrome.rsibr.exr",
+        "dusk-chrome.rsibr.exr",
+        "metals-batch/index.html",
+    }
+
+
 def test_a_job_is_one_bake_whose_error_is_told(farm: Stub, capfd: pytest.CaptureFixture[str]) -> None:
     (Path.cwd() / "baked").mkdir()
     job = {

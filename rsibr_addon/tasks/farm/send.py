@@ -59,6 +59,11 @@ class Sent:
     maps: Path
     bakes: list[BatchBake]
 
+    @property
+    def folder(self) -> Path:
+        """Where its page will be, and what becomes of each bake."""
+        return batch_folder(Path(f"{self.name}.json"), self.maps)
+
 
 def send(
     manager: Manager, title: str, bakes: Sequence[BatchBake], shared: Path | None, program: str
@@ -185,7 +190,7 @@ def outcome(manager: Manager, sent: Sent, status: str) -> dict[str, Failure]:
     status : str
         See `watch`.
     """
-    failures = kept_result(batch_folder(Path(f"{sent.name}.json"), sent.maps), sent.bakes).failures
+    failures = kept_result(sent.folder, sent.bakes).failures
     if status == "completed" or not failures:
         return failures
     if status == "canceled":
@@ -208,20 +213,19 @@ def fetch(sent: Sent, folder: Path) -> Steps[None]:
     Raises
     ------
     OutputFileError
+        A folder cannot be made here, or a file not be written.
 
     Warns
     -----
     RsibrWarning
         A map set that is there already was made with other settings.
     """
-    outputs = {Path(bake.job.output) for bake in sent.bakes}
-    # What begins with a dot is being written
-    made = [path for path in sent.maps.rglob("*") if path.is_file() and "/." not in path.as_posix()]
-    files = [path for path in made if path in outputs or len(outputs) > 1]
+    outputs, page = [Path(bake.job.output) for bake in sent.bakes], sent.folder / "index.html"
+    files = [path for path in (*outputs, *([page] if len(outputs) > 1 else ())) if path.is_file()]
     for done, path in enumerate(files):
         yield Progress(done, len(files), f"fetching {path.name}")
         target = folder / path.relative_to(sent.maps)
-        replaced = path not in outputs or _is_damaged(target)
+        replaced = path == page or _is_damaged(target)
         if target.exists() and not replaced:
             _warn_unless_same(path, target)
             continue

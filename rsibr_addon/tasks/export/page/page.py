@@ -58,7 +58,6 @@ def export_page(
         In world coordinates, within the unit sphere.
     look : Options, optional
         What the page shows at first: see `files.kinds.registry.look_types`; by default the kind's best.
-
     own : sequence of OwnObject, optional
         Objects in their own materials, shown instead of `mesh`. Of a kind whose look has `own`.
 

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Mapping
+from pathlib import Path
 
 from ....device.own_materials import MOST_TEXTURES
 from ....device.shader_source import shader_source
@@ -16,57 +17,8 @@ precision highp sampler2DArray;
 precision highp sampler3D;
 """
 
-_BILINEAR = """
-vec4 bilinear({sampler} map, vec2 place, int layer)
-{{
-  ivec2 most = textureSize(map, 0).xy - 1;
-  vec2 texel = place * vec2(most + 1) - 0.5;
-  ivec2 low = clamp(ivec2(floor(texel)), ivec2(0), most);
-  ivec2 high = clamp(ivec2(floor(texel)) + 1, ivec2(0), most);
-  vec2 share = fract(texel);
-  vec4 below = mix(texelFetch(map, {low_low}, 0), texelFetch(map, {high_low}, 0), share.x);
-  vec4 above = mix(texelFetch(map, {low_high}, 0), texelFetch(map, {high_high}, 0), share.x);
-  return mix(below, above, share.y);
-}}
-"""
-
-_LOOKUPS = """
-vec4 looked_up(sampler2D map, vec2 place)
-{
-  return bilinear(map, place, 0);
-}
-
-vec4 looked_up(sampler2DArray map, vec3 place)
-{
-  return bilinear(map, place.xy, int(place.z + 0.5));
-}
-
-vec4 looked_up(sampler3D map, vec3 place)
-{
-  int count = textureSize(map, 0).z;
-  float level = place.z * float(count) - 0.5;
-  ivec2 levels = clamp(int(floor(level)) + ivec2(0, 1), 0, count - 1);
-  return mix(bilinear(map, place.xy, levels.x), bilinear(map, place.xy, levels.y), fract(level));
-}
-"""
-
-
-def _bilinear(sampler: str, texel: str) -> str:
-    corners = {f"{x}_{y}": texel.format(f"{x}.x, {y}.y") for x in ("low", "high") for y in ("low", "high")}
-    return _BILINEAR.format(sampler=sampler, **corners)
-
-
-LOOKUPS = (
-    _bilinear("sampler2D", "ivec2({})")
-    + _bilinear("sampler2DArray", "ivec3({}, layer)")
-    + _bilinear("sampler3D", "ivec3({}, layer)")
-    + _LOOKUPS
-)
-"""Bilinear lookups with exact weights.
-
-Graphics cards round them to 8 bits, which shows where light is sharp or kernels cancel each other, and not
-all phones interpolate floats.
-"""
+LOOKUPS = Path(__file__).with_name("lookups.glsl")
+"""What takes the place of `textureLod` at level 0."""
 
 SAMPLER_TYPES = {"FLOAT_2D": "sampler2D", "FLOAT_2D_ARRAY": "sampler2DArray", "FLOAT_3D": "sampler3D"}
 
@@ -143,8 +95,13 @@ def _samplers(samplers: Mapping[str, str]) -> str:
 
 
 def _source(interface: str, name: str) -> str:
-    """A shader without comments, which a page has no room for."""
-    lines = (re.sub(r"//.*|^#line.*", "", line).rstrip() for line in shader_source(name).splitlines())
-    text = "\n".join(filter(None, lines)) + "\n"
+    text = _stripped(shader_source(name))
     exact = re.sub(r"\btextureLod\((\w+), (.*), 0\.0\)", r"looked_up(\1, \2)", text)
-    return HEAD + interface + (LOOKUPS if exact != text else "") + exact
+    lookups = _stripped(LOOKUPS.read_text(encoding="utf-8")) if exact != text else ""
+    return HEAD + interface + lookups + exact
+
+
+def _stripped(shader: str) -> str:
+    """A shader without comments, which a page has no room for."""
+    lines = (re.sub(r"//.*|^#line.*", "", line).rstrip() for line in shader.splitlines())
+    return "\n".join(filter(None, lines)) + "\n"

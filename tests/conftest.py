@@ -1,12 +1,13 @@
 """What tests need: a test's folder says it, and here it is looked for and prepared.
 
 A dependency that is missing skips its tests, and the run's summary says which and why. Named in the
-environment variable RSIBR_REQUIRE (comma-separated: gl, bpy, cycles, farm, gui, web), it fails them instead.
-Named in RSIBR_WITHOUT, it is not looked for, and its tests are not collected.
+environment variable RSIBR_REQUIRE (comma-separated: gl, bpy, cycles, farm, gui, web, and `PROGRAMS`), it
+fails them instead. Named in RSIBR_WITHOUT, it is not looked for, and its tests are not collected.
 """
 
 import functools
 import os
+import shutil
 import subprocess
 import tempfile
 from collections.abc import Callable, Iterator
@@ -30,6 +31,9 @@ NEEDS = {
     "web": ("web",),
 }
 """Folder of tests -> what its tests need; the other folders need numpy and OpenEXR only."""
+
+PROGRAMS = ("node", "cmgen", "naga", "glslangValidator")
+"""What tests marked `needs` run: JavaScript, Filament's filter, compilers of shaders."""
 
 
 def _start_bpy() -> None:
@@ -76,6 +80,11 @@ def _start_web() -> None:
         raise OSError(process.stderr.strip())
 
 
+def _find(program: str) -> None:
+    if shutil.which(program) is None:
+        raise LookupError("no such program is installed")
+
+
 START: dict[str, Callable[[], None]] = {
     "bpy": _start_bpy,
     "gl": _start_gl,
@@ -83,6 +92,7 @@ START: dict[str, Callable[[], None]] = {
     "farm": _start_farm,
     "gui": _start_gui,
     "web": _start_web,
+    **{program: functools.partial(_find, program) for program in PROGRAMS},
 }
 
 

@@ -1,7 +1,6 @@
 """Batches through a manager of Flamenco, as a strict stub of it sees them."""
 
 import json
-import shutil
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -217,7 +216,7 @@ def test_addresses_that_answer_otherwise_are_told(farm: Stub, monkeypatch: pytes
         Manager(farm.url).submit("t", {}, "old")
 
 
-@pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
+@pytest.mark.needs("node")
 def test_the_job_type_makes_a_task_of_each_part_and_one_of_the_page() -> None:
     script = f"""
     const author = {{

@@ -59,6 +59,9 @@ def test_a_model_is_the_sum_of_its_diffuse_and_its_glossy_part(spec: str, has: t
         ("layered:coat=(ggx:alpha=0.02,f0=0.04),base=(ward:alpha=0.3,ks=0.5,kd=0.1)", 0.02),
         ("principled:roughness=0.5,coat_weight=0.5,coat_roughness=0.2", 0.04),
         ("principled:roughness=0.5", 0.25),
+        # 0.05 of directions is half as much of normals
+        ("phong:n=798,ks=0.3,kd=0.2", 0.025),
+        ("retroreflective:n=798,ks=0.3", 0.025),
     ],
 )
 def test_a_narrow_lobe_takes_many_rings_and_fine_light(spec: str, alpha: float) -> None:

@@ -1,13 +1,15 @@
 """Radiance views of a reflectance model, integrated exactly: the second method of [Cabral1999] section 2."""
 
 from collections.abc import Sequence
-from math import ceil, pi
+from math import ceil, pi, sqrt
 
 import numpy as np
 
 from ...brdf.layered import Sum, is_diffuse, uncoated
 from ...brdf.model import Brdf
+from ...brdf.phong import Phong
 from ...brdf.principled import Principled
+from ...brdf.retroreflective import Retroreflective
 from ...conventions import Array, texel_centres
 from ...geometry.lit_sphere import LitSphere, lit_spheres
 from ...maps import sphere_map
@@ -60,7 +62,7 @@ def exact_maps(brdf: Brdf, radiance: Array, view_dirs: Sequence[Array], size: in
 
 
 def bytes_needed(height: int, views: int, size: int, alpha: float) -> float:
-    """Memory that `exact_maps` takes in light of so many rows."""
+    """Memory [bytes] that `exact_maps` takes; size, height and alpha as in `ring_count`."""
     spectra, spheres = 16.0 * 3 * height * (height + 1), 24.0 * 2 * height * ring_count(size, height, alpha)
     return 3.0 * views * (spectra + spheres)
 
@@ -81,12 +83,17 @@ def ring_count(size: int, height: int, alpha: float) -> int:
 
 
 def narrowest_alpha(brdf: Brdf) -> float:
-    """Width of the narrowest lobe of a model that states one; 1 where none does."""
+    """Width of the narrowest lobe of a model that states one, in normals; 1 where none does.
+
+    A cosine's power, which is of directions, is twice as wide in these.
+    """
     widths = [1.0]
     for layer in map(uncoated, brdf.layers):
         widths.append(getattr(layer, "alpha", 1.0))
         if isinstance(layer, Principled):
             widths += [layer.roughness**2, layer.coat_roughness**2 if np.any(layer.coat_weight) else 1.0]
+        elif isinstance(layer, Phong | Retroreflective):
+            widths.append(0.5 * sqrt(2.0 / (layer.n + 2.0)))
     return max(min(widths), 1e-4)
 
 

@@ -19,6 +19,7 @@ def write_packed(path: Path) -> None:
     Raises
     ------
     OutputFileError
+        The file cannot be written.
 
     Warns
     -----

@@ -20,6 +20,7 @@ from ..rsibr_addon.tasks.queue.bake_request import (
 from ..rsibr_addon.tasks.report.facts import map_set_content
 from . import background
 from .at_once import Undoable
+from .reporting import can_start
 
 
 class RSIBR_OT_bake(Undoable, bpy.types.Operator):
@@ -31,12 +32,7 @@ class RSIBR_OT_bake(Undoable, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Whether the bake can start; if not, the button's tooltip says why."""
-        try:
-            request_for(context.scene.rsibr_bake, context.scene, context.object)
-        except RsibrError as error:
-            cls.poll_message_set(str(error))
-            return False
-        return True
+        return can_start(cls, lambda: request_for(context.scene.rsibr_bake, context.scene, context.object))
 
     def work(self, context: bpy.types.Context) -> None:
         """Queue the bakes; where the same was baked before, its file is taken at once."""

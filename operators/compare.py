@@ -2,13 +2,13 @@
 
 import bpy
 
-from ..rsibr_addon.core.errors import RsibrError
 from ..rsibr_addon.files.output_paths import comparison_page
 from ..rsibr_addon.host.map_sets import written_path
 from ..rsibr_addon.session.running import session
 from ..rsibr_addon.tasks.queue.bake_request import comparison_of, shown_material
 from . import background
 from .at_once import AtOnce
+from .reporting import can_start
 
 
 class RSIBR_OT_compare(AtOnce, bpy.types.Operator):
@@ -22,12 +22,7 @@ class RSIBR_OT_compare(AtOnce, bpy.types.Operator):
         """Whether the map set has a reference to compare with; if not, the button's tooltip says why."""
         if context.object is None or not context.object.rsibr.map_set:
             return False
-        try:
-            shown_material(context.object, written_path(context.object.rsibr))
-        except RsibrError as error:
-            cls.poll_message_set(str(error))
-            return False
-        return True
+        return can_start(cls, lambda: shown_material(context.object, written_path(context.object.rsibr)))
 
     def work(self, context: bpy.types.Context) -> None:
         """Queue the comparison, unless it is there already."""

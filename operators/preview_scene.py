@@ -4,12 +4,13 @@ from collections.abc import Iterator
 
 import bpy
 
-from ..rsibr_addon.core.errors import RsibrError, SceneError
+from ..rsibr_addon.core.errors import SceneError
 from ..rsibr_addon.host.bake_settings import SHAPED
 from ..rsibr_addon.tasks.methods.kinds import own_materials_kind
 from ..rsibr_addon.tasks.queue.bake_request import request_for
 from .at_once import Undoable
 from .bake_in_background import queue_bakes
+from .reporting import can_start
 
 
 class RSIBR_OT_preview_scene(Undoable, bpy.types.Operator):
@@ -21,12 +22,7 @@ class RSIBR_OT_preview_scene(Undoable, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Whether the bake can start; if not, the button's tooltip says why."""
-        try:
-            _check(context.scene)
-        except RsibrError as error:
-            cls.poll_message_set(str(error))
-            return False
-        return True
+        return can_start(cls, lambda: _check(context.scene))
 
     def work(self, context: bpy.types.Context) -> None:
         """Queue the bake; where the light was baked before, its file is taken at once."""

@@ -1,8 +1,10 @@
 """How operators tell of errors and warnings."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Protocol
+
+import bpy
 
 from ..rsibr_addon.core.errors import RsibrError
 from ..rsibr_addon.core.warned import recorded_warnings
@@ -25,3 +27,13 @@ def reporting(operator: Reporter) -> Iterator[None]:
             operator.report({"ERROR"}, str(error))
     for warning in warnings:
         operator.report({"WARNING"}, warning)
+
+
+def can_start(operator: type[bpy.types.Operator], check: Callable[[], object]) -> bool:
+    """Whether a check raises none of our errors; if it does, the button's tooltip says why."""
+    try:
+        check()
+    except RsibrError as error:
+        operator.poll_message_set(str(error))
+        return False
+    return True

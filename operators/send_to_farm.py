@@ -2,12 +2,13 @@
 
 import bpy
 
-from ..rsibr_addon.core.errors import RsibrError, SceneError
+from ..rsibr_addon.core.errors import SceneError
 from ..rsibr_addon.host.bake_settings import check_online, farm_address, farm_folder
 from ..rsibr_addon.tasks.queue.background import Farm
 from ..rsibr_addon.tasks.queue.bake_request import request_for
 from .at_once import Undoable
 from .bake_in_background import chosen_objects, queue_bakes
+from .reporting import can_start
 
 
 class RSIBR_OT_send_to_farm(Undoable, bpy.types.Operator):
@@ -19,17 +20,16 @@ class RSIBR_OT_send_to_farm(Undoable, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Whether it can be sent; if not, the button's tooltip says why."""
-        try:
-            _farm()
-            request_for(context.scene.rsibr_bake, context.scene, context.object)
-        except RsibrError as error:
-            cls.poll_message_set(str(error))
-            return False
-        return True
+        return can_start(cls, lambda: _check(context))
 
     def work(self, context: bpy.types.Context) -> None:
         """Send the bakes; where the same was baked before, its file is taken at once."""
         self.report({"INFO"}, queue_bakes(context.scene, chosen_objects(context), farm=_farm()))
+
+
+def _check(context: bpy.types.Context) -> None:
+    _farm()
+    request_for(context.scene.rsibr_bake, context.scene, context.object)
 
 
 def _farm() -> Farm:

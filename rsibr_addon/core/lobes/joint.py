@@ -118,7 +118,7 @@ class JointFitter:
         ]
         lookups = smoothed_lookups(self._slices, tracked, price)
         stiffness = np.ones(len(self._slices))
-        while True:
+        while True:  # See `settled`
             projectors = [
                 Projector(target, self._bank, each)
                 for target, each in zip(self._slices, stiffness, strict=True)
@@ -278,7 +278,7 @@ def settled(target: TargetSlice, bank: KernelBank, lookups: Lookups, non_negativ
         Whether no kernel may have a negative weight.
     """
     stiffness = 1.0
-    while True:
+    while True:  # Ridges that grow bring every weight, and so the amplification, to 0
         projector = Projector(target, bank, stiffness, non_negative)
         with_taps = lookups.taps.shape[1] > 1
         lookups, projection = descend(projector, lookups, with_taps, _TIE)

@@ -3,17 +3,15 @@
 Writes docs/images/render-matte.jpg.
 """
 
-import argparse
 import tempfile
 from pathlib import Path
 
 import bpy
 import numpy as np
-from docs_table import DOCS
 from mathutils import Vector
 from rsibr.rsibr_addon.files.pictures import write_exr
 from show_materials import save_jpeg
-from show_render import build, rendered
+from show_render import arguments, build, by_both, rendered
 
 
 def add_floor(scene: bpy.types.Scene) -> None:
@@ -35,20 +33,12 @@ def write_photograph(path: Path) -> None:
 
 def main() -> None:
     """Render all, and write the picture."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--samples", type=int, default=16)
-    parser.add_argument("--width", type=int, default=400)
-    parser.add_argument("--image", type=Path, default=DOCS / "images" / "render-matte.jpg")
-    chosen = parser.parse_args()
+    chosen = arguments(__doc__, samples=16, width=400, image="render-matte.jpg")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         scene = build(folder)
         add_floor(scene)
-        scene.render.resolution_x, scene.render.resolution_y = chosen.width, chosen.width // 2
-        plain, truth = (
-            rendered(scene, engine, chosen.samples, folder / f"{engine}.exr")
-            for engine in ("RSIBR", "CYCLES")
-        )
+        plain, truth = by_both(scene, chosen, folder)
         options = scene.rsibr_render
         options.background_blur, options.background_exposure = 6.0, -0.5
         blurred = rendered(scene, "RSIBR", chosen.samples, folder / "blurred.exr")

@@ -84,21 +84,30 @@ def rendered(scene: bpy.types.Scene, engine: str, samples: int, path: Path) -> A
     return picture
 
 
+def by_both(scene: bpy.types.Scene, chosen: argparse.Namespace, folder: Path) -> tuple[Array, Array]:
+    """Pictures of the scene by RSIBR and by Cycles."""
+    scene.render.resolution_x, scene.render.resolution_y = chosen.width, chosen.width // 2
+    return (
+        rendered(scene, "RSIBR", chosen.samples, folder / "RSIBR.exr"),
+        rendered(scene, "CYCLES", chosen.samples, folder / "CYCLES.exr"),
+    )
+
+
+def arguments(description: str | None, samples: int, width: int, image: str) -> argparse.Namespace:
+    """What the command line says, or else these values; the image is one of the documentation's."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--samples", type=int, default=samples)
+    parser.add_argument("--width", type=int, default=width)
+    parser.add_argument("--image", type=Path, default=DOCS / "images" / image)
+    return parser.parse_args()
+
+
 def main() -> None:
     """Render both, and write the picture."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--samples", type=int, default=64)
-    parser.add_argument("--width", type=int, default=560)
-    parser.add_argument("--image", type=Path, default=DOCS / "images" / "render.jpg")
-    chosen = parser.parse_args()
+    chosen = arguments(__doc__, samples=64, width=560, image="render.jpg")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        scene = build(folder)
-        scene.render.resolution_x, scene.render.resolution_y = chosen.width, chosen.width // 2
-        ours, truth = (
-            rendered(scene, engine, chosen.samples, folder / f"{engine}.exr")
-            for engine in ("RSIBR", "CYCLES")
-        )
+        ours, truth = by_both(build(folder), chosen, folder)
     save_jpeg(chosen.image, 0.9 / np.percentile(truth, 95.0) * np.concatenate([truth, ours]))
 
 

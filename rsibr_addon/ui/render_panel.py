@@ -72,7 +72,7 @@ class RSIBR_PT_film(_OfEngine, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Show what is seen there."""
         self.layout.use_property_split = True
-        scene, messages = context.scene, session().previews
+        scene, previews = context.scene, session().previews
         self.layout.prop(scene.render, "film_transparent", text="Transparent")
         column = self.layout.column()
         column.active = not scene.render.film_transparent
@@ -81,7 +81,7 @@ class RSIBR_PT_film(_OfEngine, bpy.types.Panel):
         blur.active = not scene.rsibr_render.background
         blur.prop(scene.rsibr_render, "background_blur")
         column.prop(scene.rsibr_render, "background_exposure")
-        for message in filter(None, (messages.backgrounds.message, *messages.floors.messages)):
+        for message in filter(None, (previews.backgrounds.message, *previews.floors.messages)):
             tell(self.layout, message, context.region.width)
 
 

@@ -90,6 +90,12 @@ def drawn() -> Iterator[None]:
         settled = 0 if previews_wait() else settled + 1
 
 
+def drawn_with_news() -> Iterator[None]:
+    """The same, with what timers bring meanwhile."""
+    for _ in range(4):
+        yield from drawn()
+
+
 def session() -> Any:
     """What the extension keeps in memory."""
     return importlib.import_module(ROOT + ".rsibr_addon.session.running").session()
@@ -108,6 +114,14 @@ def pixels(number: int = 0) -> np.ndarray:
     """What a viewport shows, shape (height, width, 3), 0 to 255, row 0 at the bottom."""
     shown, part = xshot.grab()[::-1], region(view(number))
     return shown[part.y : part.y + part.height, part.x : part.x + part.width].astype(int)
+
+
+def middle() -> list[float]:
+    """Mean colour of the middle of the first viewport."""
+    shown = pixels()
+    height, width = shown.shape[:2]
+    part = shown[height // 2 - 20 : height // 2 + 20, width // 2 - 20 : width // 2 + 20]
+    return list(map(float, part.mean(axis=(0, 1))))
 
 
 def like(picture: np.ndarray, colour: tuple[int, int, int]) -> np.ndarray:

@@ -6,18 +6,6 @@ import pytest
 from rsibr.tests.gui.test_panel import PRELUDE
 
 PAINTING = """
-def look():
-    # With what timers bring meanwhile
-    for _ in range(4):
-        yield from drawn()
-
-def seen():
-    # Mean colour of the object's middle
-    part = pixels()
-    height, width = part.shape[:2]
-    part = part[height // 2 - 20 : height // 2 + 20, width // 2 - 20 : width // 2 + 20]
-    return list(map(float, part.mean(axis=(0, 1))))
-
 def stroke(editor):
     # Over all of the image, with a brush that covers it
     mode = bpy.context.tool_settings.image_paint
@@ -49,29 +37,29 @@ def scenario(told):
     bpy.ops.rsibr.assign(filepath=tables["filepath"])
     editor = next(each for each in window().screen.areas if each.type == "DOPESHEET_EDITOR")
     editor.type = "IMAGE_EDITOR"
-    yield from look()
+    yield from drawn_with_news()
     yield from done()
-    yield from look()
-    told["before"] = seen()
+    yield from drawn_with_news()
+    told["before"] = middle()
     with bpy.context.temp_override(window=window(), area=view(), region=region(view())):
         bpy.ops.rsibr.edit_as_images()
-    yield from look()
+    yield from drawn_with_news()
     told["editor"] = [editor.spaces.active.image.name, editor.spaces.active.mode]
-    told["untouched"] = seen()
+    told["untouched"] = middle()
     bpy.ops.ed.undo_push(message="made images")
     with bpy.context.temp_override(window=window(), area=editor, region=region(editor)):
         bpy.ops.image.view_all(fit_view=True)
-    yield from look()
+    yield from drawn_with_news()
     yield from stroke(editor)
-    yield from look()
-    yield from look()
+    yield from drawn_with_news()
+    yield from drawn_with_news()
     xshot.save(xshot.grab(), "/job/painted.png")
-    told["painted"] = seen()
+    told["painted"] = middle()
     with bpy.context.temp_override(window=window(), area=editor, region=region(editor)):
         bpy.ops.ed.undo()
-    yield from look()
-    yield from look()
-    told["undone"] = seen()
+    yield from drawn_with_news()
+    yield from drawn_with_news()
+    told["undone"] = middle()
     sidebar()
     yield from drawn()
     sidebar()[1].active_panel_category = "RSIBR"
@@ -82,10 +70,10 @@ def scenario(told):
             bpy.utils.unregister_class(panel)
     del result.bl_parent_id
     bpy.utils.register_class(result)
-    yield from look()
+    yield from drawn_with_news()
     xshot.save(xshot.grab(), "/job/panel.png")
     told["pressed"] = yield from press("bpy.ops.rsibr.save_back(")
-    yield from look()
+    yield from drawn_with_news()
     told["after"] = [os.path.basename(ball.rsibr.map_set)[:15], len(ball.rsibr.painted)]
 """
 

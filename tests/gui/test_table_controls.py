@@ -7,17 +7,6 @@ from rsibr.tests.gui.test_panel import PRELUDE
 Told = Callable[[str], dict]
 
 CONTROLS = """
-def look():
-    # With what timers bring meanwhile
-    for _ in range(4):
-        yield from drawn()
-
-def seen():
-    # Mean colour of the object's middle
-    part = pixels()
-    height, width = part.shape[:2]
-    return part[height // 2 - 20 : height // 2 + 20, width // 2 - 20 : width // 2 + 20].mean(axis=(0, 1))
-
 def scenario(told):
     bare(view())
     bpy.context.scene.view_settings.view_transform = "Standard"
@@ -41,32 +30,32 @@ def scenario(told):
             bpy.utils.unregister_class(panel)
     bpy.utils.register_class(shown)
     parts = ball.rsibr.reflection_tables
-    yield from look()
+    yield from drawn_with_news()
     told["baked"] = [parts.diffuse_model, parts.specular_n, parts.coat_model]
-    told["red"] = list(map(float, seen()))
+    told["red"] = middle()
     parts.diffuse_kd = (0.02, 0.5, 0.02)
-    yield from look()
-    told["green"] = list(map(float, seen()))
+    yield from drawn_with_news()
+    told["green"] = middle()
     parts.weights_model = "curve"
-    yield from look()
+    yield from drawn_with_news()
     xshot.save(xshot.grab(), "/job/curves.png")
     mapping = parts.weights_curves.nodes["wd"].mapping
     mapping.curves[0].points[1].location = (1.0, 0.0)
     mapping.update()
     sidebar()[1].tag_redraw()  # as the widget does where one drags a point
-    yield from look()
+    yield from drawn_with_news()
     yield from done(lambda: parts.weights == "curve:wd=0:1/1:0,ws=0:1/1:1")
-    yield from look()
-    told["dark"] = list(map(float, seen()))
+    yield from drawn_with_news()
+    told["dark"] = middle()
     parts.weights = ""
     parts.specular_n = 80.0
-    yield from look()
+    yield from drawn_with_news()
     told["messages"] = session().previews.messages(ball)
     xshot.save(xshot.grab(), "/job/other-table.png")
     before = ball.rsibr.map_set
     told["pressed"] = yield from press("bpy.ops.rsibr.bake_look(")
     yield from done()
-    yield from look()
+    yield from drawn_with_news()
     told["after"] = [ball.rsibr.map_set != before, session().previews.messages(ball)]
     told["settings"] = [ball.rsibr_baked.reflection_tables.specular, ball.rsibr_baked.reflection_tables.coat]
     xshot.save(xshot.grab(), "/job/baked.png")

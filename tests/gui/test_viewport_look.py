@@ -147,8 +147,7 @@ def scenario(told):
 
     whole, solid = coverage(), pixels()
     space.shading.type, space.overlay.show_overlays = "RENDERED", False
-    for _ in range(4):
-        yield from drawn()
+    yield from drawn_with_news()
     cut, shown = coverage(), pixels()
     told["whole"], told["cut"] = int(whole.sum()), int(cut.sum())
     told["same inside"] = float(np.abs(shown - solid)[cut].max())

@@ -124,6 +124,23 @@ def not_written(path: Path, error: OSError) -> OutputFileError:
     return kind(f"{path} was not written ({error.strerror}): check its folder, or write elsewhere.")
 
 
+def make_folder(folder: Path) -> None:
+    """Make a folder for outputs, and those around it, unless it is there.
+
+    Raises
+    ------
+    OutputFileError
+        The system refuses; a NotNowError, where another try may help.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        kind = NotNowError if error.errno in MAY_PASS else OutputFileError
+        raise kind(
+            f"{folder} cannot be made ({error.strerror}): check what is there, or write elsewhere."
+        ) from error
+
+
 def _appear(outputs: list[Output]) -> None:
     for output in outputs:
         output.check()

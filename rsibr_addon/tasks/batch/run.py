@@ -6,10 +6,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ...core.errors import OutputFileError, RsibrError
+from ...core.errors import RsibrError
 from ...core.progress import Progress, Steps
 from ...core.threads import thread_count
 from ...files.memory import memory_left
+from ...files.outputs import make_folder
 from ..methods.bake import METHODS
 from ..methods.method import Cost
 from .bakes import BatchBake
@@ -77,7 +78,8 @@ def run_bakes(folder: Path, bakes: Sequence[BatchBake], command: Sequence[str]) 
     A bake that fails stops no other. Each worker goes on with the environment that it has read, and takes
     another one that nobody works on, while there are such.
     """
-    _make_folders([folder, *(Path(bake.job.output).parent for bake in bakes)])
+    for each in {folder, *(Path(bake.job.output).parent for bake in bakes)}:
+        make_folder(each)
     result, waiting = BatchResult(folder / "index.html"), list(bakes)
     count = _worker_count(bakes)
     with started_workers(command, max(1, thread_count() // count)) as workers:
@@ -124,7 +126,7 @@ def write_page(folder: Path, title: str, bakes: Sequence[BatchBake]) -> BatchRes
     ------
     OutputFileError
     """
-    _make_folders([folder])
+    make_folder(folder)
     result = kept_result(folder, bakes)
     write_index(result.page, title, bakes, [read_note(folder, bake) for bake in bakes], result.failures)
     return result
@@ -146,16 +148,6 @@ def kept_result(folder: Path, bakes: Sequence[BatchBake]) -> BatchResult:
             result.failures[bake.job.output] = failure
     result.found = len(bakes) - len(result.failures)
     return result
-
-
-def _make_folders(folders: list[Path]) -> None:
-    for folder in dict.fromkeys(folders):
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise OutputFileError(
-                f"{folder} cannot be made ({error.strerror}): give other outputs, or check what is there."
-            ) from error
 
 
 def _worker_count(bakes: Sequence[BatchBake]) -> int:

@@ -11,12 +11,13 @@ from pathlib import Path
 from typing import Any
 
 from ...core.brdf.cycles_presets import PRESETS
-from ...core.errors import InputFileError, OutputFileError, RangeError, SceneError, SchemaError
+from ...core.errors import InputFileError, RangeError, SceneError, SchemaError
 from ...core.progress import Progress, Steps
 from ...core.schema import loads
 from ...core.warned import warn
 from ...files.atomic import written_aside
 from ...files.digests import digest
+from ...files.outputs import make_folder
 from ...files.pictures import split_layer
 from ...files.reading import opened
 from ...job import BakeJob, read_job
@@ -139,19 +140,6 @@ def write_inputs(folder: Path, name: str, bakes: Sequence[BatchBake]) -> Steps[l
     with written_aside(folder / f"{name}.json", force=True) as aside:
         aside.write_text(bake_list_text(placed), encoding="utf-8")
     return placed
-
-
-def make_folder(folder: Path) -> None:
-    """Make a folder, unless it is there.
-
-    Raises
-    ------
-    OutputFileError
-    """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputFileError(f"{folder} cannot be made ({error.strerror}): give another folder.") from error
 
 
 class _Copies:

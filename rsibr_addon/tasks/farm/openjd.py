@@ -8,8 +8,9 @@ from string import Template
 from ...core.errors import RangeError
 from ...core.progress import Steps
 from ...files.atomic import written_aside
+from ...files.outputs import make_folder
 from ..batch.bakes import BatchBake, parts_of
-from .folder import INPUTS, MAPS, make_folder, plain_name, write_inputs
+from .folder import INPUTS, MAPS, plain_name, write_inputs
 
 TEMPLATE = Path(__file__).with_suffix(".yaml")
 

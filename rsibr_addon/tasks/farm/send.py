@@ -12,12 +12,13 @@ from ...core.progress import Progress, Steps
 from ...core.warned import warn
 from ...files.atomic import written_aside
 from ...files.map_set import read_map_set, read_map_set_header
+from ...files.outputs import make_folder
 from ..batch.bakes import BatchBake, parts_of
 from ..batch.notes import Failure, batch_folder
 from ..batch.run import UNKNOWN, kept_result
 from ..methods.recipe import check_made_by
 from .flamenco import FarmTask, Manager
-from .folder import INPUTS, MAPS, folder_name, make_folder, plain_name, write_inputs
+from .folder import INPUTS, MAPS, folder_name, plain_name, write_inputs
 
 PROGRAM = "{blender} --background --disable-autoexec --command rsibr"
 """What starts rsibr on a worker, by Flamenco's variable of the program."""

@@ -200,6 +200,7 @@ def test_the_operator_shows_the_scene_s_view_and_says_where(
     assert (content["display"], content["exposure"]) == ("Khronos PBR Neutral", 0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("view")
 def test_the_operator_takes_the_materials_of_slots(tmp_path: Path) -> None:
     cube, light = bpy.context.object, tmp_path / "light.rsibr.exr"
@@ -216,10 +217,13 @@ def test_the_operator_takes_the_materials_of_slots(tmp_path: Path) -> None:
     tree.links.new(node.outputs["Color"], tree.nodes["Principled BSDF"].inputs["Base Color"])
     cube.data.materials.append(bpy.data.materials.new("second"))
     cube.data.polygons[0].material_index = 1
+    other = cube.copy()
+    bpy.context.collection.objects.link(other)
+    other.select_set(True)
     bpy.ops.rsibr.export_page(filepath=str(tmp_path / "own.html"))
     own = content_of(tmp_path / "own.html")
     assert [len(each["images"]) for each in own["materials"]] == [1, 0]
-    assert own["objects"][0]["slots"] == [[0, 30, 0], [30, 36, 1]]
+    assert [each["slots"] for each in own["objects"]] == 2 * [[[0, 30, 0], [30, 36, 1]]]
     assert (len(own["images"]), own["images"][0]["srgb"], own["parameters"]) == (1, True, [])
     assert own["programs"]["surface"] != plain["programs"]["surface"]
 

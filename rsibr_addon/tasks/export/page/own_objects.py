@@ -85,13 +85,19 @@ def packed_objects(objects: Sequence[OwnObject], antialiased: bool) -> dict[str,
     drawn = []
     materials: list[dict[str, Any]] = []
     images: list[dict[str, Any]] = []
+    places: dict[tuple[DrawnMaterial, tuple[str, ...]], int] = {}  # where materials are, for meshes' UV maps
     for each in objects:
+        uv_maps = each.mesh.uv_maps
+        for slot in each.slots:
+            if (slot, uv_maps) not in places:
+                places[slot, uv_maps] = len(materials)
+                materials.append(_packed_material(slot, uv_maps, antialiased, images))
         ball = Ball.around(each.mesh.positions.astype(np.float64))
         ends, order = slot_ends(each.mesh.slots)
         begins = [0, *ends[:-1]]
         last = len(each.slots) - 1
         slots = [
-            [3 * begin, 3 * end, len(materials) + min(slot, last)]
+            [3 * begin, 3 * end, places[each.slots[min(slot, last)], uv_maps]]
             for slot, (begin, end) in enumerate(zip(begins, ends, strict=True))
             if end > begin
         ]
@@ -99,8 +105,6 @@ def packed_objects(objects: Sequence[OwnObject], antialiased: bool) -> dict[str,
         drawn.append(
             {"mesh": _packed_mesh(each.mesh, ball, order), "model": matrix.T.ravel().tolist(), "slots": slots}
         )
-        for slot in each.slots:
-            materials.append(_packed_material(slot, each.mesh.uv_maps, antialiased, images))
     world = [each.mesh.positions @ each.matrix[:3, :3].T + each.matrix[:3, 3] for each in objects]
     whole = Ball.around(np.concatenate(world))
     fit = [*whole.centre.tolist(), whole.radius]

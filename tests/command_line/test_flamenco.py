@@ -99,6 +99,12 @@ def test_a_picture_that_is_no_map_set_is_not_replaced(farm: Stub, capfd: pytest.
     assert Path("picture.exr").read_bytes() == b"mine"
 
 
+def test_what_will_fail_is_told_once(farm: Stub, capfd: pytest.CaptureFixture[str]) -> None:
+    plain = batch(environments=["dawn.exr"], methods=["lobe-stack"], materials=["Brushed coper"])
+    [warning] = told(capfd, "submit", plain, "--flamenco", farm.url)["warnings"]
+    assert "did you mean Brushed copper?" in warning
+
+
 def test_map_sets_and_the_page_are_fetched_and_nothing_else(
     farm: Stub, capfd: pytest.CaptureFixture[str]
 ) -> None:

@@ -24,6 +24,7 @@ from ...job import BakeJob, read_job
 from ..batch.bake_list import HERE, bake_list_text
 from ..batch.bakes import BatchBake, Opened
 from ..batch.description import read_batch
+from ..batch.faults import fault_of
 from ..light.environments import environment_file
 from ..methods.bake import METHODS
 from ..methods.method import Sources
@@ -86,7 +87,7 @@ def folder_name(title: str, bakes: Sequence[BatchBake]) -> str:
     Warns
     -----
     RsibrWarning
-        A bake will fail, and why.
+        A bake will fail, and why, unless `fault_of` says it.
     """
     identities = [(bake.job.output, _identity(bake)) for bake in bakes]
     letters = hashlib.sha256(json.dumps(identities).encode()).hexdigest()[:HASH_LETTERS]
@@ -235,7 +236,8 @@ def _identity(bake: BatchBake) -> str:
     try:
         return recipe_hash(recipe_of(bake.job, METHODS[bake.job.settings.KIND].sources(bake.job.settings)))
     except (InputFileError, RangeError, SceneError) as error:
-        warn(f"{bake.title} will fail: {error}")
+        if not fault_of(bake):
+            warn(f"{bake.title} will fail: {error}")
         return bake.job.to_json()
 
 

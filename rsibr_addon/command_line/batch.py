@@ -97,13 +97,14 @@ def check_failures(failures: Mapping[str, "Failure"], total: int, page: str) -> 
     RsibrError
         There are such; a NotNowError, where another try may help with all.
     """
+    if not failures:
+        return
     if total == 1:
-        for failure in failures.values():
-            raise _failed(failures, failure["error"])
+        [failure] = failures.values()
+        raise _failed(failures, failure["error"])
     _warn_of(failures)
-    if failures:
-        names = ", ".join(sorted(failures))
-        raise _failed(failures, f"{len(failures)} of {total} bakes failed ({names}): see {page}.")
+    names = ", ".join(sorted(failures))
+    raise _failed(failures, f"{len(failures)} of {total} bakes failed ({names}): see {page}.")
 
 
 def _run_part(name: str, bakes: Sequence["BatchBake"], folder: Path, console: Console) -> dict[str, Any]:
@@ -125,8 +126,22 @@ def _run_part(name: str, bakes: Sequence["BatchBake"], folder: Path, console: Co
 
 
 def _warn_of(failures: Mapping[str, "Failure"]) -> None:
-    for output, failure in sorted(failures.items()):
-        warn(f"{output}: {failure['error']}")
+    for sentence in together({output: failure["error"] for output, failure in sorted(failures.items())}):
+        warn(sentence)
+
+
+def together(reasons: Mapping[str, str]) -> list[str]:
+    """Sentences that say why bakes fail, each reason once.
+
+    Parameters
+    ----------
+    reasons : mapping of str to str
+        By output.
+    """
+    outputs: dict[str, list[str]] = {}
+    for output, reason in reasons.items():
+        outputs.setdefault(reason, []).append(output)
+    return [f"{', '.join(names)}: {reason}" for reason, names in outputs.items()]
 
 
 def _failed(failures: Mapping[str, "Failure"], sentence: str) -> RsibrError:
@@ -151,10 +166,12 @@ def listed(bakes: Sequence["BatchBake"], console: Console) -> dict[str, Any]:
         console.say(f"{name}: {counted(len(part), 'bake')}, about {seconds:.0f} s of processors")
         for bake in part:
             there = ", exists" if Path(bake.job.output).exists() else ""
-            broken = ""
             if fault := fault_of(bake):
-                faults[bake.job.output], broken = fault, f", will fail: {fault}"
+                faults[bake.job.output] = fault
+            broken = ", will fail" if fault else ""
             console.say(f"  {bake.job.output}: {bake.job.settings.LABEL}, {bake.title}{there}{broken}")
+    for sentence in together(faults):
+        console.say(sentence)
     summary = f"{counted(len(bakes), 'bake')} in {counted(len(parts), 'part')}"
     console.say(f"{summary}: about {total:.0f} s of processors and {disk / 1e6:.0f} MB on disk")
     outputs = [bake.job.output for bake in bakes]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..core.errors import RangeError
 from ..core.warned import warn
-from .batch import add_batch, check_failures, counted, listed
+from .batch import add_batch, check_failures, counted, listed, together
 from .console import Console
 
 if TYPE_CHECKING:
@@ -71,9 +71,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     title, folder, bakes = bakes_to_send(arguments.batch)
     if arguments.dry_run:
         return listed(bakes, console)
-    for bake in bakes:
-        if fault := fault_of(bake):
-            warn(f"{bake.job.output}: {fault}")
+    for sentence in together({bake.job.output: fault for bake in bakes if (fault := fault_of(bake))}):
+        warn(sentence)
     if arguments.flamenco is not None:
         return _sent(arguments, title, bakes, folder, console)
     if arguments.shared or arguments.wait:

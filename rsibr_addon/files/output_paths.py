@@ -1,6 +1,15 @@
-"""Paths of results that go beside a map set, under its name."""
+"""Names of outputs, and paths of results that go beside a map set under its name."""
 
+import re
 from pathlib import Path
+
+HASH_LETTERS = 10
+"""Length of a hash in the name of a file or folder; it tells a million apart."""
+
+
+def portable_name(text: str) -> str:
+    """A text, of the signs that every system and every farm takes in names; empty where it has none."""
+    return re.sub(r"[^\w.]+", "-", text).strip("-.")
 
 
 def report_beside(map_set: Path) -> Path:

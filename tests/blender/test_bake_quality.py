@@ -8,13 +8,11 @@ import pytest
 from rsibr.rsibr_addon.core.options import declared_options, quality_values
 from rsibr.rsibr_addon.files.kinds.registry import STORED
 from rsibr.rsibr_addon.files.map_set import read_map_set_header
+from rsibr.rsibr_addon.files.output_paths import HASH_LETTERS
 from rsibr.rsibr_addon.host.option_properties import property_name, shown_value
 from rsibr.rsibr_addon.job import read_job
 from rsibr.rsibr_addon.tasks.methods.recipe import recipe_hash
-from rsibr.rsibr_addon.tasks.queue.bake_request import (
-    HASH_LETTERS,
-    is_baked,
-)
+from rsibr.rsibr_addon.tasks.queue.bake_request import is_baked
 from rsibr.tests.bake_jobs import run_job
 from rsibr.tests.blender.bake_orders import order, output
 

@@ -64,27 +64,42 @@ def test_a_dry_run_lists_and_bakes_nothing(capfd: pytest.CaptureFixture[str]) ->
 def test_misspelt_materials_are_told_of_before_any_bake(
     method: str, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    names = ["Brushed coper", "Nope", "gold-leaf:kd=1", "ward:alpha=0.3,ks=0.5", "Brushed copper", "copper"]
+    names = ["Brushed coper", "Zzz", "gold-leaf:kd=1", "ward:alpha=0.3,ks=0.5", "Brushed copper", "copper"]
     write_batch(environments=["light/dawn.exr"], methods=[method], materials=[*names, "some.blend:Cup"])
     assert run(["batch", "metals.json", "--dry-run", "--json"]) == 0
     faults = json.loads(capfd.readouterr().out.splitlines()[-1])["faults"]
     assert [Path(output).name for output in faults] == [
-        f"dawn-{name}.rsibr.exr" for name in ("Brushed-coper", "Nope", "gold-leaf-kd-1")
+        f"dawn-{name}.rsibr.exr" for name in ("Brushed-coper", "Zzz", "gold-leaf-kd-1")
     ]
     near = faults["maps/dawn-Brushed-coper.rsibr.exr"]
-    assert near.startswith(
-        'There is no material "Brushed coper" (did you mean Brushed copper?): name a preset'
+    assert near == (
+        'There is no material "Brushed coper" (did you mean Brushed copper?): name a preset, a reflectance '
+        "model, or one of the gallery."
     )
+    assert "Yellow acrylic" in faults["maps/dawn-Zzz.rsibr.exr"]
     run(["batch", "metals.json", "--dry-run"])
-    assert capfd.readouterr().out.count("will fail: There is no material") == 3
+    lines = capfd.readouterr().out.splitlines()
+    assert sum(line.endswith(", will fail") for line in lines) == 3
+    assert sum("There is no material" in line for line in lines) == 3
 
 
-def test_submit_warns_of_misspelt_materials(capfd: pytest.CaptureFixture[str]) -> None:
+def test_submit_tells_each_reason_once(capfd: pytest.CaptureFixture[str]) -> None:
     write_batch(
-        environments=["light/dawn.exr"], methods=["lobe-stack"], materials=["Brushed coper", "chrome"]
+        environments=["light/dawn.exr", "light/gone.exr", "light/lost.exr"],
+        methods=["lobe-stack"],
+        materials=["Brushed coper", "Brushed copper", "none.binary"],
     )
-    assert run(["submit", "metals.json", "--openjd", "bundle"]) == 0
-    assert "did you mean Brushed copper?" in capfd.readouterr().err
+    assert run(["submit", "metals.json", "--openjd", "bundle", "--json"]) == 0
+    warnings = json.loads(capfd.readouterr().out)["warnings"]
+    assert [warning.rpartition("exr: ")[2] for warning in warnings] == [
+        'There is no material "Brushed coper" (did you mean Brushed copper?): name a preset, a reflectance '
+        "model, or one of the gallery.",
+        "none.binary does not exist: check the name and the folder.",
+        "light/gone.exr does not exist: check the name and the folder.",
+        "light/lost.exr does not exist: check the name and the folder.",
+    ]
+    outputs = ", ".join(f"maps/{light}-Brushed-coper.rsibr.exr" for light in ("dawn", "gone", "lost"))
+    assert warnings[0].startswith(f"{outputs}: There is")
 
 
 def test_a_bake_of_a_misspelt_material_fails_with_the_name_that_is_meant(
@@ -119,7 +134,8 @@ def test_broken_bakes_are_named_and_stop_no_other(capfd: pytest.CaptureFixture[s
     assert all(name in failed["error"] for name in names)
     assert failed["error"].startswith("3 of 12 bakes failed (")
     assert (failed["ok"], failed["try_again"]) == (False, False)
-    assert [warning.partition(": There is no preset wood")[0] for warning in failed["warnings"]] == names
+    [warning] = failed["warnings"]
+    assert warning.startswith(f"{', '.join(names)}: There is no preset wood")
     assert len(maps()) == 9
     text = Path("metals-batch/index.html").read_text()
     page = Page(text)

@@ -29,6 +29,7 @@ from rsibr.rsibr_addon.settings.reflection_tables import ReflectionTablesSetting
 from rsibr.rsibr_addon.tasks.methods import bake as bakes
 from rsibr.rsibr_addon.tasks.methods.bake import bake
 from rsibr.rsibr_addon.tasks.methods.method import Baked
+from rsibr.rsibr_addon.tasks.methods.recipe import with_files_named
 from rsibr.tests.bake_jobs import run_job
 from rsibr.tests.lobe_stacks import random_fit
 
@@ -155,6 +156,26 @@ def test_files_of_measured_models_within_models_count_too() -> None:
     stack = LobeStackSettings(brdf="sum:parts=(lambert:kd=0.2)+(merl:path=a.binary)")
     named = [bakes.METHODS[each.KIND].sources(each).files for each in (tables, stack)]
     assert named == [("/far/gold.binary",), ("a.binary",)]
+
+
+@pytest.mark.parametrize(
+    ("text", "named"),
+    [
+        ("merl", "new"),
+        ("merl:path=merl", "merl:path=new"),
+        ("merl: path = merl ", "merl: path = new "),
+        ("merl:path=far/merl", "merl:path=far/merl"),
+        ("merl:path=merl.binary", "merl:path=merl.binary"),
+        ("sum:parts=(lambert:kd=0.2)+(merl:path=merl)", "sum:parts=(lambert:kd=0.2)+(merl:path=new)"),
+        ("sum:parts=(merl:path=merl)+(merl:path=m.blend)", "sum:parts=(merl:path=new)+(merl:path=b)"),
+        ("blend:m.blend:m.blend", "blend:b:m.blend"),
+        ("m.blend:Cup", "b:Cup"),
+        ("am.blend:Cup", "am.blend:Cup"),
+    ],
+)
+def test_files_have_other_names_where_they_are_values(text: str, named: str) -> None:
+    settings = {"brdf": text, "size": 16}
+    assert with_files_named(settings, {"merl": "new", "m.blend": "b"}) == {"brdf": named, "size": 16}
 
 
 def test_one_waits_until_the_other_is_done() -> None:

@@ -1,10 +1,10 @@
 """One bake of a batch, and the parts that a batch falls into."""
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ...files.output_paths import portable_name
 from ...job import BakeJob
 
 
@@ -54,7 +54,7 @@ def parts_of(bakes: Sequence[BatchBake]) -> dict[str, list[BatchBake]]:
         parts.setdefault((bake.job.light.environment, bake.opened, bake.job.settings.KIND), []).append(bake)
     named: dict[str, list[BatchBake]] = {}
     for (_, _, kind), part in parts.items():
-        name = plain = re.sub(r"[^\w.]+", "-", f"{part[0].environment}-{kind}".replace("_", "-")).strip("-")
+        name = plain = portable_name(f"{part[0].environment}-{kind}".replace("_", "-"))
         number = 1
         while name in named:
             name = f"{plain}-{(number := number + 1)}"

@@ -15,6 +15,7 @@ from ...core.options import Declared, declared_options
 from ...core.schema import decode, loads
 from ...files.kinds.registry import STORED
 from ...files.measured_files import MEASURED_FORMATS, measured_spec
+from ...files.output_paths import portable_name
 from ...files.pictures import split_layer
 from ...files.reading import opened
 from ...job import BakeJob
@@ -220,7 +221,7 @@ def _name(text: str) -> str:
     name = blend[2] if blend else _PATH.sub(lambda found: f"path={Path(found[1]).name}", text)
     if not blend and ("=" not in text) and Path(text).suffix:
         name = Path(text).stem
-    return re.sub(r"[^\w.]+", "-", name).strip("-")
+    return portable_name(name)
 
 
 def _filled(pattern: str, names: dict[str, str]) -> str:

@@ -8,6 +8,9 @@ from ...core.brdf.spec import MATERIAL, MODELS, is_model
 from ...core.errors import RsibrError
 from ...core.near_names import did_you_mean
 from ...core.options import declared_options
+from ...files.pictures import split_layer
+from ...files.reading import opened
+from ..light.environments import environment_file
 from ..methods.bake import METHODS
 from .bakes import BatchBake
 
@@ -25,17 +28,28 @@ def fault_of(bake: BatchBake) -> str:
     for each in declared_options(type(settings)):
         taken, text = each.option.materials, getattr(settings, each.name)
         if taken and taken.model and text and not _is_known(text):
-            gallery = [name for models in GALLERY.values() for name in models]
-            near = did_you_mean(text, [*gallery, *PRESETS, *MODELS])
-            return (
-                f'There is no material "{text}"{near}: name a preset, a reflectance model, or one of the '
-                f"gallery, {', '.join(gallery)}."
-            )
+            return _unknown(text)
     try:
         METHODS[settings.KIND].cost(settings)
+        files = list(METHODS[settings.KIND].sources(settings).files)
+        if bake.job.light.environment is not None:
+            files.append(str(split_layer(environment_file(bake.job.light.environment))[0]))
+        for file in files:
+            with opened(file):
+                pass
     except RsibrError as error:
         return str(error)
     return ""
+
+
+def _unknown(text: str) -> str:
+    gallery = [name for models in GALLERY.values() for name in models]
+    near = did_you_mean(text, [*gallery, *PRESETS, *MODELS])
+    names = "" if near else f", {', '.join(gallery)}"
+    return (
+        f'There is no material "{text}"{near}: name a preset, a reflectance model, or one of the '
+        f"gallery{names}."
+    )
 
 
 def _is_known(text: str) -> bool:

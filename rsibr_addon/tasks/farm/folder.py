@@ -3,7 +3,6 @@
 import hashlib
 import json
 import os
-import re
 import shutil
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -17,6 +16,7 @@ from ...core.schema import loads
 from ...core.warned import warn
 from ...files.atomic import written_aside
 from ...files.digests import digest
+from ...files.output_paths import HASH_LETTERS, portable_name
 from ...files.outputs import make_folder
 from ...files.pictures import split_layer
 from ...files.reading import opened
@@ -28,13 +28,10 @@ from ..batch.faults import fault_of
 from ..light.environments import environment_file
 from ..methods.bake import METHODS
 from ..methods.method import Sources
-from ..methods.recipe import recipe_hash, recipe_of
+from ..methods.recipe import recipe_hash, recipe_of, with_files_named
 
 INPUTS, MAPS = "inputs", "maps"
 """Folders within the farm's folder."""
-
-HASH_LETTERS = 10
-"""Length of a hash in a folder's name."""
 
 
 def bakes_to_send(path: Path) -> tuple[str, Path, list[BatchBake]]:
@@ -91,12 +88,12 @@ def folder_name(title: str, bakes: Sequence[BatchBake]) -> str:
     """
     identities = [(bake.job.output, _identity(bake)) for bake in bakes]
     letters = hashlib.sha256(json.dumps(identities).encode()).hexdigest()[:HASH_LETTERS]
-    return f"{plain_name(title)}-{letters}"
+    return f"{batch_name(title)}-{letters}"
 
 
-def plain_name(title: str) -> str:
-    """A title, of the signs that every system and every farm takes."""
-    return re.sub(r"[^\w.]+", "-", title).strip("-.") or "batch"
+def batch_name(title: str) -> str:
+    """What a batch of a title is called on a farm."""
+    return portable_name(title) or "batch"
 
 
 def write_inputs(folder: Path, name: str, bakes: Sequence[BatchBake]) -> Steps[list[BatchBake]]:
@@ -223,10 +220,7 @@ def _write_packed(target: Path) -> None:
 def _with_texts(job: BakeJob[Any], replaced: dict[str, str]) -> BakeJob[Any]:
     """A job whose settings name other files."""
     plain = json.loads(job.to_json())
-    for old, new in replaced.items():
-        for name, value in plain["settings"].items():
-            if isinstance(value, str):
-                plain["settings"][name] = value.replace(old, new)
+    plain["settings"] = with_files_named(plain["settings"], replaced)
     made = read_job(json.dumps(plain), "The job")
     assert isinstance(made, BakeJob)
     return made

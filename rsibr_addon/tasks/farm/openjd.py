@@ -10,7 +10,7 @@ from ...core.progress import Steps
 from ...files.atomic import written_aside
 from ...files.outputs import make_folder
 from ..batch.bakes import BatchBake, parts_of
-from .folder import INPUTS, MAPS, plain_name, write_inputs
+from .folder import INPUTS, MAPS, batch_name, write_inputs
 
 TEMPLATE = Path(__file__).with_suffix(".yaml")
 
@@ -53,7 +53,7 @@ def write_bundle(folder: Path, title: str, bakes: Sequence[BatchBake], program: 
     """
     make_folder(folder / INPUTS)
     make_folder(folder / MAPS)
-    name = plain_name(title)[:LONGEST_NAME]
+    name = batch_name(title)[:LONGEST_NAME]
     placed = yield from write_inputs(folder / INPUTS, name, bakes)
     parts = list(parts_of(placed))
     if len(parts) > MOST_PARTS:

@@ -18,7 +18,7 @@ from ..batch.notes import Failure, batch_folder
 from ..batch.run import UNKNOWN, kept_result
 from ..methods.recipe import check_made_by
 from .flamenco import FarmTask, Manager
-from .folder import INPUTS, MAPS, folder_name, plain_name, write_inputs
+from .folder import INPUTS, MAPS, batch_name, folder_name, write_inputs
 
 PROGRAM = "{blender} --background --disable-autoexec --command rsibr"
 """What starts rsibr on a worker, by Flamenco's variable of the program."""
@@ -98,7 +98,7 @@ def send(
         raise OutputFileError(
             f"The farm's shared storage {root} is no folder here: mount it, or give its path by --shared."
         )
-    folder, name = root.absolute() / folder_name(title, bakes), plain_name(title)
+    folder, name = root.absolute() / folder_name(title, bakes), batch_name(title)
     make_folder(folder / INPUTS)
     make_folder(folder / MAPS)
     placed = yield from write_inputs(folder / INPUTS, name, bakes)

@@ -2,11 +2,13 @@
 
 import hashlib
 import json
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from ...core.brdf.cycles_presets import PRESETS
+from ...core.brdf.spec import MATERIAL
 from ...core.errors import MapSetError, OutputFileError
 from ...core.options import declared_options, to_plain
 from ...files.digests import digest
@@ -113,6 +115,28 @@ def recipe_hash(recipe: Recipe) -> str:
     return hashlib.sha256(json.dumps(recipe, sort_keys=True).encode()).hexdigest()
 
 
+def with_files_named(settings: dict[str, Any], names: Mapping[str, str]) -> dict[str, Any]:
+    """Settings that give other names to files.
+
+    Parameters
+    ----------
+    settings : dict
+        JSON values. A file is a whole text, or stands in one as ``path=FILE`` or ``FILE.blend:NAME``.
+    names : mapping of str to str
+        A file as the settings name it -> its other name.
+    """
+
+    def named(value: Any) -> Any:
+        for file, name in names.items() if isinstance(value, str) else ():
+            begin = rf"(^|\bpath\s*=\s*|^{MATERIAL}:\s*)"
+            end = r"(?=\s*(?:$|\))|(?:(?<=(?i:\.blend))|(?<=(?i:\.blend\d))):)"
+            place = re.compile(f"{begin}{re.escape(file)}{end}")
+            value = place.sub(r"\g<1>" + name.replace("\\", r"\\"), value)
+        return value
+
+    return {option: named(value) for option, value in settings.items()}
+
+
 def check_made_by(path: Path, recipe: Recipe) -> None:
     """Refuse a file that is no map set of a recipe.
 
@@ -167,14 +191,7 @@ def _without_folders(settings: dict[str, Any], sources: Sources) -> dict[str, An
         from ...host.materials import material_file
 
         files += (material_file(sources.material),)
-    names = {file: Path(file).name for file in files if file}
-
-    def named(value: Any) -> Any:
-        for file, name in names.items():
-            value = value.replace(file, name) if isinstance(value, str) else value
-        return value
-
-    return {option: named(value) for option, value in settings.items()}
+    return with_files_named(settings, {file: Path(file).name for file in files if file})
 
 
 def _software(light: Light, sources: Sources) -> str:

@@ -11,7 +11,7 @@ from ...core.errors import MapSetError, SceneError
 from ...core.options import declared_options, value_text
 from ...files.kinds.registry import STORED
 from ...files.map_set import read_map_set
-from ...files.output_paths import comparison_beside, comparison_page
+from ...files.output_paths import HASH_LETTERS, comparison_beside, comparison_page, portable_name
 from ...files.pictures import split_layer
 from ...files.temporary import temporary_folder
 from ...host.bake_settings import (
@@ -41,9 +41,6 @@ from ..methods.method import Cost
 from ..methods.recipe import light_hash, make_recipe, recipe_hash
 from ..report.facts import map_set_header
 from .background import Bake, Farm, blender_command
-
-HASH_LETTERS = 10
-"""Length of the hash in a file's name; it tells a million bakes apart."""
 
 NAME_LETTERS = 50
 """Greatest length of the words in a file's name: a letter may take 4 of its 255 bytes."""
@@ -198,7 +195,7 @@ def output_for(request: BakeRequest, scene: Any, item: Any) -> Path:
     light = light_hash(request.light, scene)
     recipe = make_recipe(request.settings, request.light, light, sources, material)
     letters = recipe_hash(recipe)[:HASH_LETTERS]
-    words = re.sub(r"[^\w.-]+", "-", request.title.lower())[:NAME_LETTERS]
+    words = portable_name(request.title.lower())[:NAME_LETTERS]
     return baked_folder() / f"{words}-{letters}.rsibr.exr"
 
 

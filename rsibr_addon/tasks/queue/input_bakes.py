@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ...core.options import to_plain
+from ...files.output_paths import HASH_LETTERS
 from ...host.bake_dependence import content_for_bakes
 from ...host.bake_settings import baked_folder, chosen_inputs_settings
 from ...host.materials import check_saved
@@ -15,7 +16,7 @@ from ...host.version import software
 from ...job import CommandJob
 from ...settings.baked_inputs import BakedInputsSettings
 from ..baked_inputs import wanted_pictures
-from .bake_request import HASH_LETTERS, ObjectBake, in_background
+from .bake_request import ObjectBake, in_background
 
 
 @dataclass

@@ -15,7 +15,7 @@ from ..conventions import Array, Indices, texel_centres
 from ..geometry.directions import dot, reflect
 from ..kinds.radiance_views.views import RadianceViews
 from ..maps import sphere_map
-from .captured_light import CapturedLight
+from .captured_light import CapturedLight, in_caches
 from .fit import lobe_axes
 
 ACROSS, ACROSS_AT_RIM, ACROSS_AT_SUN = 2, 4, 8
@@ -190,8 +190,10 @@ def seen_functions(
     weights = weights.astype(np.float32)
     seen: Array = np.zeros((len(position), weights.shape[-1], 3), dtype=np.float32)
     for lobe, filtered in enumerate(_filtered_along(texels, light, mu, tilts)):
-        own = (1.0 - above) * weights[below, lobe] + above * weights[below + 1, lobe]
-        seen += np.swapaxes(own, 1, 2) @ filtered.reshape(len(own), -1, 3)
+        for some in in_caches(len(seen)):
+            own = weights[below[some], lobe]
+            own += above[some] * (weights[below[some] + 1, lobe] - own)
+            seen[some] += np.swapaxes(own, 1, 2) @ filtered[some].reshape(len(own), -1, 3)
     return texels.means(seen).astype(np.float64)
 
 

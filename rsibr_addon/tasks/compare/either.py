@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ...core.brdf.spec import is_model
 from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.geometry.camera import Camera
@@ -93,22 +94,26 @@ def beside(
     )
 
 
+def by_model(settings: Any) -> bool:
+    """Whether settings name a reflectance model, or leave it to the map set; else a material of Blender."""
+    return settings.material is None or is_model(settings.material)
+
+
 def name(settings: Any) -> str:
     """See `Truth`."""
-    return exact.name(settings) if settings.material is None else f"{settings.material} by Cycles"
+    return exact.name(settings) if by_model(settings) else f"{settings.material} by Cycles"
 
 
 def made(settings: Any) -> str:
     """See `Truth`."""
-    return exact.made(settings) if settings.material is None else "rendered by Cycles"
+    return exact.made(settings) if by_model(settings) else "rendered by Cycles"
 
 
 def notes(comparison: Comparison) -> str:
     """See `Truth`."""
-    by_model = comparison.settings.material is None
-    return exact.notes(comparison) if by_model else references.notes(comparison)
+    return exact.notes(comparison) if by_model(comparison.settings) else references.notes(comparison)
 
 
 def quality(settings: Any) -> str:
     """See `Truth`."""
-    return exact.quality(settings) if settings.material is None else references.quality(settings)
+    return exact.quality(settings) if by_model(settings) else references.quality(settings)

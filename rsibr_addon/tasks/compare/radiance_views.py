@@ -70,7 +70,7 @@ def draw(
     settings = replace(settings, material=_material(map_set, material, settings))
     mesh, cameras = load_mesh(settings.mesh), cameras_of(settings)
     truth: either.Pictures
-    if _by_model(settings):
+    if either.by_model(settings):
         model = yield from load_brdf(settings.material or "")
         rings = ring_count(views.size, len(environment.radiance), narrowest_alpha(model))
         pictures = yield from exact.exact_pictures(model, environment, cameras, mesh, settings.size, rings)
@@ -122,10 +122,6 @@ def _material(map_set: Path, told: dict[str, Any], settings: ViewsComparison) ->
     return spec
 
 
-def _by_model(settings: ViewsComparison) -> bool:
-    return is_model(settings.material or "")
-
-
 def views_table(comparisons: Sequence[Comparison]) -> str:
     """Pooled errors of several comparisons as a table in Markdown.
 
@@ -160,10 +156,10 @@ def _is_look(way: ViewsWay, look: ViewsLook) -> bool:
 TRUTH = Truth(
     way=ViewsWay,
     draw=draw,
-    name=lambda settings: exact.name(settings) if _by_model(settings) else "Cycles",
-    made=lambda settings: exact.made(settings) if _by_model(settings) else "rendered by Cycles",
-    notes=lambda each: exact.notes(each) if _by_model(each.settings) else references.notes(each),
-    quality=lambda each: "sums over rings of points" if _by_model(each) else references.quality(each),
+    name=either.name,
+    made=either.made,
+    notes=either.notes,
+    quality=lambda each: "sums over rings of points" if either.by_model(each) else references.quality(each),
     table=views_table,
     is_look=_is_look,
 )

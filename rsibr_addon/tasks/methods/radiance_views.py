@@ -19,7 +19,7 @@ from ...core.kinds.radiance_views.left_out import LeftOut
 from ...core.options import to_plain
 from ...core.progress import Progress, Steps, drain
 from ...files.atomic import written_aside
-from ...files.exr import Part, read_attributes, read_parts, write_parts
+from ...files.exr import Part, read_parts, write_parts
 from ...files.kinds.radiance_views import LEFT_OUT
 from ...files.map_set_data import ENVIRONMENT, MapsInTurn
 from ...files.map_set_header import Origin, Recipe, make_header
@@ -157,20 +157,20 @@ def _map_set(
     left_out = LeftOut(len(paths), settings.size, albedo)
     for view, path in enumerate(paths):
         view_dir = geodesic_sphere(settings.views).vertices[view].tolist()
-        for attributes in read_attributes(path):
-            role = attributes["name"]
-            name = f"view{view:03d}.{role}"
+        finished = read_parts(path)
+        for part in finished:
+            name = f"view{view:03d}.{part.name}"
             shapes[name] = (settings.size,) * 2
-            parts.append({"name": name, "role": role, "view": view, "view_dir": view_dir})
-        variance += float(attributes[NOISE]) ** 2 / len(paths)
-        left_out.add(view, *_maps(path))
+            parts.append({"name": name, "role": part.name, "view": view, "view_dir": view_dir})
+        variance += float(finished[0].attributes[NOISE]) ** 2 / len(paths)
+        left_out.add(view, *map(_rgb, finished))
     errors = {"relative_noise": variance**0.5}
     errors |= {f"{LEFT_OUT}{warping}": error for warping, error in left_out.errors().items()}
 
     def maps() -> Iterator[Array]:
         yield from (light.radiance, albedo)
         for path in paths:
-            yield from _maps(path)
+            yield from map(_rgb, read_parts(path))
 
     untold = ("material", *(RENDERING if is_model(settings.material) else ()))
     stated = {name: value for name, value in to_plain(settings).items() if name not in untold}
@@ -179,9 +179,8 @@ def _map_set(
     return MapsInTurn("radiance_views", shapes, maps(), header)
 
 
-def _maps(path: Path) -> list[Array]:
-    """The parts of a finished view."""
-    return [np.stack([part.channels[channel] for channel in "RGB"], axis=-1) for part in read_parts(path)]
+def _rgb(part: Part) -> Array:
+    return np.stack([part.channels[channel] for channel in "RGB"], axis=-1)
 
 
 METHOD = Method(bake, cost, material, sources)

@@ -81,8 +81,9 @@ class LeftOut:
         cosine = source_cosine(warp, normal, self._dirs[other], self._dirs[view])
         share = confidence(cosine)
         self._shares[warp][other] += share
+        # Interpolation is linear, so that sums of maps need no lookups of their own
+        seen = bilinear(np.concatenate([diffuse, glossy], axis=-1), uv, sphere_map.wrap)
         for warping, table in self._tables.items():
-            maps = carried(diffuse, glossy, warping).get(warp)
-            if maps is not None:
-                radiance = bilinear(maps, uv, sphere_map.wrap) / albedo_at(table, warp, cosine)
-                self._sums[warping, warp][other] += share[:, None] * radiance
+            radiance = carried(seen[..., :3], seen[..., 3:], warping).get(warp)
+            if radiance is not None:
+                self._sums[warping, warp][other] += share[:, None] * radiance / albedo_at(table, warp, cosine)

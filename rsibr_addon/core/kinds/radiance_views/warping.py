@@ -61,12 +61,12 @@ def chosen_warping(choice: WarpChoice, left_out: Mapping[Warping, float]) -> War
 
 
 def carried(diffuse: Array, glossy: Array, warping: Warping) -> dict[Warp, Array]:
-    """The maps that each warp carries; a single warp carries nothing by the normal.
+    """What each warp carries; a single warp carries nothing by the normal.
 
     Parameters
     ----------
     diffuse, glossy : ndarray
-        Radiance of views, of equal shapes.
+        Radiance of views, of equal shapes: their maps, or what was looked up in them.
     warping : Warping
     """
     if warping is Warping.SINGLE:

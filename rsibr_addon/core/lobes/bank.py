@@ -20,9 +20,9 @@ from ..ties import TIE
 BROADEST = 0.5
 """Concentration of the broadest kernel: nearly uniform over the sphere."""
 
-SHARPEST, SHARP = 2.0**17, 2.0**15
+SHARPEST, SHARP = 2.0**19, 2.0**15
 """Concentration of the sharpest kernel of fits to lobes with a core so thin, and of the sharpest one of other
-fits and of kernel banks; environments of 2048x1024 and 1024x512 texels resolve them.
+fits and of kernel banks; environments of 4096x2048 and 1024x512 texels resolve them.
 """
 
 

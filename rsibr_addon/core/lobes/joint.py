@@ -25,7 +25,7 @@ from .target import TargetSlice
 MOST_AMPLIFICATION, MOST_OF_ONE = 8.0, 2.0
 """Greatest `amplification` of several lobes, and of the taps of one; ridges grow until it is kept."""
 
-_SHARPNESS, _THINNEST, _CORE = 20.0, 3.0, 1.66
+_SHARPNESS, _THINNEST, _CORE, _ACROSS = 20.0, 3.0, 1.66, 2.0
 _START = 0.25
 _ANGLES = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 33)
 _TIE = 1.0
@@ -56,11 +56,15 @@ def bank_for(slices: Sequence[TargetSlice], sharpest: float = SHARPEST) -> Kerne
     """Kernels for targets in ascending order of elevation, none sharper than asked for.
 
     Down to a 20th of the last lobe's width, for its peak, or a third of the thinnest one's, but not beyond
-    `SHARP`; and down to half the width of the thinnest core, for a peak on a broad base.
+    `SHARP`; and down to half the width of the thinnest core, for a peak on a broad base. A core that takes
+    kernels beyond `SHARP` gets kernels half as wide: towards grazing it is thinner across than along.
     """
     thinnest, core = (min(getattr(target, width) for target in slices) for width in ("radius", "core"))
     whole = max(_SHARPNESS / slices[-1].radius, _THINNEST / thinnest) ** 2
-    return octaves(min(max(min(whole, SHARP), (_CORE / core) ** 2), sharpest))
+    within = (_CORE / core) ** 2
+    if within > SHARP:
+        within *= _ACROSS**2
+    return octaves(min(max(min(whole, SHARP), within), sharpest))
 
 
 class JointFitter:
@@ -277,15 +281,24 @@ def settled(target: TargetSlice, bank: KernelBank, lookups: Lookups, non_negativ
     non_negative : bool
         Whether no kernel may have a negative weight.
     """
-    stiffness = 1.0
-    while True:  # Ridges that grow bring every weight, and so the amplification, to 0
+    stiffness, with_taps = 1.0, lookups.taps.shape[1] > 1
+    while True:
         projector = Projector(target, bank, stiffness, non_negative)
-        with_taps = lookups.taps.shape[1] > 1
         lookups, projection = descend(projector, lookups, with_taps, _TIE)
         state = State(lookups, projection.weights, float(np.sqrt(max(projection.objective, 0.0))))
         if is_quiet(bank, state, target):
             return state
+        stiffness = _quiet_stiffness(projector, lookups, stiffness)
+
+
+def _quiet_stiffness(projector: Projector, lookups: Lookups, stiffness: float) -> float:
+    """How stiff ridges must be for quiet profiles about the same axes: a solution each, no descent."""
+    while True:  # Ridges that grow bring every weight, and so the amplification, to 0
         stiffness *= _STIFFER
+        stiffer = Projector(projector.target, projector.bank, stiffness, projector.non_negative)
+        state = State(lookups, stiffer.profiles(lookups), np.nan)
+        if is_quiet(projector.bank, state, projector.target):
+            return stiffness
 
 
 def tilts_of(target: TargetSlice, angles: Array) -> Array:

@@ -108,6 +108,12 @@ class Projector:
         products, _, _ = self._products(lookups.angles.ravel())
         return self._solve(lookups, moments, products)[2]
 
+    def profiles(self, lookups: Lookups) -> Array:
+        """`Projection.weights` alone, for less."""
+        moments, _ = self._moments(lookups.angles.ravel())
+        products, _, _ = self._products(lookups.angles.ravel())
+        return self.weights(self._solve(lookups, moments, products)[0])
+
     def equations(self, lookups: Lookups) -> tuple[Array, Array]:
         """Equations of the coefficients for given lookups; see `weights`.
 

@@ -6,12 +6,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from ...core.brdf.lobe_width import narrowest_alpha
 from ...core.brdf.spec import is_model
 from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.errors import InputFileError
 from ...core.geometry.camera import Camera
-from ...core.kinds.radiance_views.exact import narrowest_alpha, ring_count
+from ...core.kinds.radiance_views.exact import ring_count
 from ...core.kinds.radiance_views.shading import Mode, ViewsLook
 from ...core.kinds.radiance_views.views import RadianceViews
 from ...core.kinds.radiance_views.warping import WarpChoice, Warping

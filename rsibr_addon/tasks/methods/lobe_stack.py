@@ -2,13 +2,14 @@
 
 import json
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from itertools import count
 from math import ceil, log2
 from pathlib import Path
 
 from ...core.brdf.gallery import gallery_name
 from ...core.brdf.lambert import Lambert
+from ...core.brdf.lobe_width import narrowest_alpha
 from ...core.brdf.spec import MATERIAL, MEASURED, brdf_from_spec
 from ...core.environment import Environment
 from ...core.filtering.prefilter import BYTES_BESIDES, bytes_needed
@@ -78,13 +79,13 @@ def sources(settings: LobeStackSettings) -> Sources:
     return Sources(method.measured_files(partial(brdf_from_spec, settings.brdf)))
 
 
+@cache
 def _layers_and_size(spec: str) -> tuple[int, int]:
     """How many layers a model has, and how large its maps will be: roughly, by its sharpest lobe."""
     if spec.startswith((MATERIAL, *MEASURED)):
         return 1, LOBE_SIZE
-    layers = brdf_from_spec(spec, lambda name, path: Lambert(kd=0.5)).layers
-    alpha = min(getattr(layer, "alpha", 1.0) for layer in layers)
-    return len(layers), min(2 ** ceil(log2(TEXELS_BY_ALPHA / alpha)), SIZES[-1])
+    model = brdf_from_spec(spec, lambda name, path: Lambert(kd=0.5))
+    return len(model.layers), min(2 ** ceil(log2(TEXELS_BY_ALPHA / narrowest_alpha(model))), SIZES[-1])
 
 
 def bake(job: BakeJob[LobeStackSettings], recipe: Recipe) -> Steps[Baked]:

@@ -9,12 +9,13 @@ import numpy as np
 
 from ...core.brdf.gallery import gallery_name
 from ...core.brdf.lambert import Lambert
+from ...core.brdf.lobe_width import narrowest_alpha
 from ...core.brdf.spec import brdf_from_spec, is_model
 from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.errors import InputFileError
 from ...core.geometry.geodesic import geodesic_sphere
-from ...core.kinds.radiance_views.exact import bytes_needed, narrowest_alpha, ring_count
+from ...core.kinds.radiance_views.exact import bytes_needed, ring_count
 from ...core.kinds.radiance_views.left_out import LeftOut
 from ...core.options import to_plain
 from ...core.progress import Progress, Steps, drain

@@ -6,6 +6,7 @@ import numpy as np
 
 from ...core.brdf.albedo import directional_albedo
 from ...core.brdf.gallery import gallery_name
+from ...core.brdf.lobe_width import narrowest_alpha
 from ...core.brdf.model import Brdf
 from ...core.conventions import Array
 from ...core.environment import Environment
@@ -14,7 +15,6 @@ from ...core.kinds.radiance_views.exact import (
     bytes_needed,
     exact_maps,
     is_resolved,
-    narrowest_alpha,
     parts_of,
 )
 from ...core.progress import Steps

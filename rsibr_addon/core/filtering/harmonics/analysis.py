@@ -9,8 +9,8 @@ from ...maps import equirect
 from ...threads import starting, thread_count
 from .coefficients import EnvironmentHarmonics
 
-MAX_DEGREE = 3000
-"""Largest degree: its coefficients take 72 MB a channel, and a lobe half a degree wide needs no more."""
+MAX_DEGREE = 3840
+"""Largest degree: its coefficients take 118 MB a channel, and a lobe 0.32 degrees wide needs no more."""
 
 
 def analyse_environment(radiance: Array, degree: int) -> EnvironmentHarmonics:

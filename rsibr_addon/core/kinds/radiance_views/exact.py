@@ -1,15 +1,13 @@
 """Radiance views of a reflectance model, integrated exactly: the second method of [Cabral1999] section 2."""
 
 from collections.abc import Sequence
-from math import ceil, pi, sqrt
+from math import ceil, pi
 
 import numpy as np
 
-from ...brdf.layered import Sum, is_diffuse, uncoated
+from ...brdf.layered import Sum, is_diffuse
+from ...brdf.lobe_width import narrowest_alpha
 from ...brdf.model import Brdf
-from ...brdf.phong import Phong
-from ...brdf.principled import Principled
-from ...brdf.retroreflective import Retroreflective
 from ...conventions import Array, texel_centres
 from ...geometry.lit_sphere import LitSphere, lit_spheres
 from ...maps import sphere_map
@@ -80,21 +78,6 @@ def ring_count(size: int, height: int, alpha: float) -> int:
         Width of the narrowest lobe, in normals.
     """
     return max(LEAST_RINGS, min(max(2 * size, ceil(pi / alpha)), height))
-
-
-def narrowest_alpha(brdf: Brdf) -> float:
-    """Width of the narrowest lobe of a model that states one, in normals; 1 where none does.
-
-    A cosine's power, which is of directions, is twice as wide in these.
-    """
-    widths = [1.0]
-    for layer in map(uncoated, brdf.layers):
-        widths.append(getattr(layer, "alpha", 1.0))
-        if isinstance(layer, Principled):
-            widths += [layer.roughness**2, layer.coat_roughness**2 if np.any(layer.coat_weight) else 1.0]
-        elif isinstance(layer, Phong | Retroreflective):
-            widths.append(0.5 * sqrt(2.0 / (layer.n + 2.0)))
-    return max(min(widths), 1e-4)
 
 
 def is_resolved(alpha: float, height: int) -> bool:

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 from enum import StrEnum
 
+from ..core.errors import RangeError
 from ..core.geometry.camera import Camera
 from ..core.options import Choice, Options, option
 from .light import Clamp, exposure_option
@@ -122,3 +123,19 @@ class PreviewOptions(SceneOptions, ShownOptions, MatteOptions, Clamp):
         },
         flag="--turn",
     )
+    exact: str | None = option(
+        None,
+        label="Exact",
+        help="Show this reflectance model itself, integrated over the map set's light for each pixel, "
+        "instead of what its maps hold: ggx:alpha=0.3,metal=copper, merl:path=FILE or blend:FILE.blend:NAME",
+        none="the maps",
+        metavar="SPEC",
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.exact is not None and (self.perspective is not None or self.turntable is not None):
+            raise RangeError(
+                "A model itself is shown in one orthographic picture: leave the perspective and the "
+                "turntable out."
+            )

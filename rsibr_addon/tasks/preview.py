@@ -7,11 +7,17 @@ from typing import Any
 
 import numpy as np
 
+from ..core.brdf.lobe_width import narrowest_alpha
 from ..core.conventions import Array
-from ..core.errors import RangeError
+from ..core.errors import MapSetError, RangeError
 from ..core.geometry.camera import Camera
 from ..core.geometry.directions import turn_about_z
+from ..core.geometry.lit_sphere import lit_spheres
+from ..core.kinds.radiance_views.exact import is_resolved
 from ..core.progress import Progress, Steps
+from ..core.warned import warn
+from ..device.drawing import GpuMapSet
+from ..device.lit_sphere import GpuLitSphere
 from ..device.preview import STILL, PreviewRenderer
 from ..files.atomic import check_target, written_aside
 from ..files.kinds.registry import look_types
@@ -23,8 +29,10 @@ from ..host.movies import save_movie
 from ..host.pictures import save_png
 from ..settings.drawing import PreviewOptions, Turned
 from .compare.contact_sheet import contact_sheet
+from .compare.exact import rings_of
 from .matte import Matte
-from .methods.kinds import open_map_set
+from .methods.kinds import OpenedMapSet, open_map_set
+from .reflectance.brdfs import load_brdf
 
 SHEET_COLUMNS, SHEET_ROWS = 4, 3
 """A contact sheet shows at most so many frames, evenly spaced in time."""
@@ -48,10 +56,13 @@ def preview(
     Raises
     ------
     MapSetError, InputFileError, DeviceError
+        Or see `tasks.reflectance.brdfs.load_brdf`, where a model itself is shown.
     """
     _check_picture_target(output, force)
     yield Progress(0, 2, f"reading {map_set.name}")
-    draw = _Studio(map_set, settings, look)
+    opened = open_map_set(map_set, clamp=settings.clamp)
+    exact = None if settings.exact is None else (yield from _exact(opened, settings, settings.exact))
+    draw = _Studio(opened, settings, look, exact)
     yield Progress(1, 2, f"drawing {output.name}")
     _write_picture(output, draw(settings.camera(settings.view)), settings, force)
     return output
@@ -95,7 +106,7 @@ def turntable(
     frame_count = settings.turntable or 2
     poses = list(_turn(settings, frame_count))
     yield Progress(0, frame_count + 1, f"reading {map_set.name}")
-    draw = _Studio(map_set, settings, look)
+    draw = _Studio(open_map_set(map_set, clamp=settings.clamp), settings, look)
     shown = _spaced(frame_count)
     sheet = []
     with temporary_folder() as folder:
@@ -115,14 +126,15 @@ def turntable(
 
 
 class _Studio:
-    """A map set and a mesh, uploaded, to be drawn from any camera."""
+    """A map set, or what is exact in its light, and a mesh, uploaded, to be drawn from any camera."""
 
-    def __init__(self, map_set: Path, settings: PreviewOptions, look: Any) -> None:
+    def __init__(
+        self, opened: OpenedMapSet, settings: PreviewOptions, look: Any, exact: GpuMapSet | None = None
+    ) -> None:
         self._settings = settings
         self._mesh: TriangleMesh = load_mesh(settings.mesh)
-        opened = open_map_set(map_set, clamp=settings.clamp)
-        self._look = look or look_types()[opened.kind]()
-        self._renderer = PreviewRenderer(opened.drawable())
+        self._look = None if exact else look or look_types()[opened.kind]()
+        self._renderer = PreviewRenderer(exact or opened.drawable())
         self._positions = settings.fill * self._mesh.positions
         self._matte = Matte(settings, opened.environment, self._positions, self._mesh.triangles)
 
@@ -130,6 +142,23 @@ class _Studio:
         mesh, turns = (self._positions, self._mesh.normals, self._mesh.triangles), (object_turn, light_turn)
         picture = self._renderer.draw(*mesh, camera, self._settings.size, self._look, *turns)
         return self._matte.under(picture, camera, *turns)
+
+
+def _exact(opened: OpenedMapSet, settings: PreviewOptions, spec: str) -> Steps[GpuMapSet]:
+    """The model itself in the map set's light, from the settings' view."""
+    if opened.environment is None:
+        raise MapSetError("The map set does not hold the light that it was made in: give that as a picture.")
+    model = yield from load_brdf(spec)
+    radiance, alpha = opened.environment.radiance, narrowest_alpha(model)
+    height, width = radiance.shape[:2]
+    if not is_resolved(alpha, height):
+        warn(
+            f"{opened.environment.name} is too coarse, at {width}x{height}, for alpha {alpha:.2g}: take a "
+            f"larger environment."
+        )
+    view_dir = settings.camera(settings.view).view_dir
+    (sphere,) = yield from lit_spheres(model, radiance, [view_dir], rings_of(alpha))
+    return GpuLitSphere(sphere)
 
 
 def _turn(settings: PreviewOptions, frame_count: int) -> Iterator[tuple[Camera, Array, Array]]:

@@ -7,17 +7,24 @@ from typing import Any
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.conventions import texel_centres
-from rsibr.rsibr_addon.core.errors import InputFileError, MapSetError, OutputFileError, RangeError
+from rsibr.rsibr_addon.core.errors import (
+    InputFileError,
+    MapSetError,
+    OutputFileError,
+    RangeError,
+    RsibrWarning,
+)
 from rsibr.rsibr_addon.core.geometry.camera import Camera
 from rsibr.rsibr_addon.core.geometry.directions import reflect, turn_about_z
 from rsibr.rsibr_addon.core.kinds.environment import EnvironmentLook
 from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, ViewsLook
 from rsibr.rsibr_addon.core.kinds.radiance_views.warping import Warping
 from rsibr.rsibr_addon.core.light.transfer_curve import srgb_from_linear
-from rsibr.rsibr_addon.core.maps import sphere_map
+from rsibr.rsibr_addon.core.maps import equirect, sphere_map
 from rsibr.rsibr_addon.core.maps.representation import representation
 from rsibr.rsibr_addon.core.pictures.matte import rays
 from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.files.brdfs import brdf_from_spec
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.files.pictures import read_exr
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
@@ -305,6 +312,39 @@ def test_a_turntable_that_cannot_be_is_refused(
 ) -> None:
     with pytest.raises(RangeError, match=complaint):
         drain(turntable(tmp_path / "m", PreviewOptions(**wanted), tmp_path / "t.png"))
+
+
+def test_a_model_itself_is_the_sum_over_all_texels(tmp_path: Path) -> None:
+    path, spec = write_mirror_capture(tmp_path / "mirror.rsibr.exr", size=32), "phong:n=20,ks=0.6,kd=0.3"
+    settings = PreviewOptions(view=VIEW, size=SIZE, exact=spec)
+    shown = read_exr(drain(preview(path, settings, tmp_path / "out.exr")))
+    frame = Camera(VIEW).frame
+    normals = sphere_map.normal_from_uv(texel_centres(SIZE, SIZE))
+    radiance = environment().radiance
+    light_dirs = representation("equirect").texel_directions(radiance.shape[1])[0] @ frame
+    light = radiance * equirect.texel_solid_angle(*radiance.shape[1::-1])[..., None]
+    model = brdf_from_spec(spec)
+    for row, column in ((24, 24), (12, 30), (30, 8), (24, 44)):
+        # The normal as +Z, about any two axes across
+        axes = np.linalg.qr(np.column_stack([normals[row, column], np.eye(3)[:, :2]]))[0][:, [1, 2, 0]]
+        axes[:, 2] = normals[row, column]
+        lights, view = light_dirs @ axes, np.array([0.0, 0.0, 1.0]) @ axes
+        expected = np.sum(model(lights, view) * np.maximum(lights[..., 2:], 0.0) * light, axis=(0, 1))
+        # The light is looked up in the camera's axes, and the picture shows the mean over a pixel
+        np.testing.assert_allclose(shown[row, column, :3], expected, rtol=0.03)
+
+
+@pytest.mark.parametrize("wanted", [{"perspective": 30.0}, {"turntable": 4}])
+def test_a_model_itself_is_shown_in_one_orthographic_picture(wanted: dict[str, Any]) -> None:
+    with pytest.raises(RangeError, match="leave the perspective and the turntable out"):
+        PreviewOptions(exact="lambert:kd=0.5", **wanted)
+
+
+def test_light_too_coarse_for_a_model_is_told(tmp_path: Path) -> None:
+    path = write_mirror_capture(tmp_path / "mirror.rsibr.exr", size=32)
+    settings = PreviewOptions(size=16, exact="ggx:alpha=0.005,f0=0.04")
+    with pytest.warns(RsibrWarning, match="too coarse, at .* for alpha 0.005: take a larger environment"):
+        drain(preview(path, settings, tmp_path / "out.exr"))
 
 
 @pytest.mark.parametrize("size", [0, -3, 4096])

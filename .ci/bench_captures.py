@@ -17,6 +17,7 @@ from rsibr.rsibr_addon.core.conventions import Array, texel_centres
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.geometry.geodesic import geodesic_sphere
 from rsibr.rsibr_addon.core.geometry.lit_sphere import lit_spheres
+from rsibr.rsibr_addon.core.geometry.reflection_warp import Fading
 from rsibr.rsibr_addon.core.kinds.radiance_views.shading import views_fragment
 from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
 from rsibr.rsibr_addon.core.kinds.radiance_views.warping import Warping
@@ -105,7 +106,7 @@ def predicted(fit: Fit, light: CapturedLight, views: RadianceViews, texels: int)
     return root * np.stack(channels, axis=-1)[new], root * (seen.diffuse + seen.glossy)[new]
 
 
-def blended(views: RadianceViews, warping: Warping) -> tuple[Array, Array]:
+def blended(views: RadianceViews, warping: Warping, fading: Fading = Fading.COSINE) -> tuple[Array, Array]:
     """The same by the blend of the captured views."""
     uv = texel_centres(SIZE, SIZE)
     inside = np.linalg.norm(2.0 * uv - 1.0, axis=-1) < 1.0
@@ -113,7 +114,8 @@ def blended(views: RadianceViews, warping: Warping) -> tuple[Array, Array]:
     ours, true = [], []
     for view in range(CAPTURED, VIEWS):
         normal = sphere_map.normal_from_uv(uv[inside]) @ views.frames[view].T
-        ours.append(views_fragment(views.coarser(CAPTURED), normal, views.sphere.vertices[view], warping))
+        view_dir = views.sphere.vertices[view]
+        ours.append(views_fragment(views.coarser(CAPTURED), normal, view_dir, warping, fading=fading))
         true.append(views.combined[view][inside])
     return np.concatenate(ours), np.concatenate(true)
 
@@ -133,7 +135,12 @@ def main() -> None:
     filtered = {name: filtered_light(light.radiance) for name, light in lights.items()}
     warps = (Warping.SINGLE, Warping.SPLIT, Warping.ALBEDO)
     heads = (
-        *("material", "environment", *(f"12 views, {warp}" for warp in warps)),
+        *(
+            "material",
+            "environment",
+            "12 views, single, by distance",
+            *(f"12 views, {warp}" for warp in warps),
+        ),
         *("lobes from 12", "left out", "lobes from 1", "relit in the other", "CPU"),
     )
     lines = [f"| {' | '.join(heads)} |", f"|---|---|{'---:|' * (len(heads) - 2)}"]
@@ -145,6 +152,7 @@ def main() -> None:
             seconds = time.process_time() - started
             one = drain(fit_captures(views[name], filtered[name], shipped_families(), material, 1)).fit
             figures = [
+                error(*blended(views[name], Warping.SINGLE, Fading.DISTANCE)),
                 *(error(*blended(views[name], warp)) for warp in warps),
                 error(*predicted(fit, filtered[name], views[name], TEXELS)),
                 fit.left_out or np.nan,

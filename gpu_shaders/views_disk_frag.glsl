@@ -5,8 +5,8 @@
 void main()
 {
   int warping = int(mode.warping);
-  vec3 normal_seen[3] = vec3[3](normal_seen_0, normal_seen_1, normal_seen_2);
-  vec3 mirror_seen[3] = vec3[3](mirror_seen_0, mirror_seen_1, mirror_seen_2);
+  vec4 normal_seen[3] = vec4[3](normal_seen_0, normal_seen_1, normal_seen_2);
+  vec4 mirror_seen[3] = vec4[3](mirror_seen_0, mirror_seen_1, mirror_seen_2);
   by_normal = by_mirror = vec4(1.0);
   by_normal.rgb = blend_sources(views, albedo, warping, WARP_NORMAL, sources, normal_seen, weights);
   by_mirror.rgb = blend_sources(views, albedo, warping, WARP_MIRROR, sources, mirror_seen, weights);

@@ -10,11 +10,12 @@ void main()
   sources = find_triangle(sphere, int(mode.last_level), view_dir);
   mat3 corners = geodesic_corners(sphere, sources);
   weights = barycentric_weights(view_dir, corners[0], corners[1], corners[2]);
-  normal_seen_0 = seen_by(WARP_NORMAL, unit_normal, view_dir, corners[0]);
-  normal_seen_1 = seen_by(WARP_NORMAL, unit_normal, view_dir, corners[1]);
-  normal_seen_2 = seen_by(WARP_NORMAL, unit_normal, view_dir, corners[2]);
-  mirror_seen_0 = seen_by(WARP_MIRROR, unit_normal, view_dir, corners[0]);
-  mirror_seen_1 = seen_by(WARP_MIRROR, unit_normal, view_dir, corners[1]);
-  mirror_seen_2 = seen_by(WARP_MIRROR, unit_normal, view_dir, corners[2]);
+  int fading = int(mode.fading);
+  normal_seen_0 = seen_by(fading, WARP_NORMAL, unit_normal, view_dir, corners[0]);
+  normal_seen_1 = seen_by(fading, WARP_NORMAL, unit_normal, view_dir, corners[1]);
+  normal_seen_2 = seen_by(fading, WARP_NORMAL, unit_normal, view_dir, corners[2]);
+  mirror_seen_0 = seen_by(fading, WARP_MIRROR, unit_normal, view_dir, corners[0]);
+  mirror_seen_1 = seen_by(fading, WARP_MIRROR, unit_normal, view_dir, corners[1]);
+  mirror_seen_2 = seen_by(fading, WARP_MIRROR, unit_normal, view_dir, corners[2]);
   gl_Position = vec4(position, 0.0, 1.0);
 }

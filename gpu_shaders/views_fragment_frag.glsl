@@ -11,8 +11,9 @@ void main()
   mat3 corners = geodesic_corners(sphere, sources);
   vec3 weights = barycentric_weights(seen.view_dir, corners[0], corners[1], corners[2]);
   int warping = int(mode.warping);
+  int fading = int(mode.fading);
   vec3 by_normal = warp_and_blend(
-      views, albedo, warping, WARP_NORMAL, seen.normal, seen.view_dir, sources, corners, weights);
+      views, albedo, warping, fading, WARP_NORMAL, seen.normal, seen.view_dir, sources, corners, weights);
   vec3 mirror_dir = reflect_dir(seen.view_dir, seen.mirror_normal);
   vec3 across, up;
   pixel_sides(mirror_dir, mode.antialiased, across, up);
@@ -23,7 +24,7 @@ void main()
   for (int number = 0; number < lookups; number++) {
     vec3 normal = mirror_normal(seen.view_dir, sample_direction(mirror_dir, across, up, counts, number));
     by_mirror += warp_and_blend(
-        views, albedo, warping, WARP_MIRROR, normal, seen.view_dir, sources, corners, weights);
+        views, albedo, warping, fading, WARP_MIRROR, normal, seen.view_dir, sources, corners, weights);
   }
   float diffuse_cosine = dot(seen.normal, seen.view_dir);
   float glossy_cosine = dot(seen.mirror_normal, seen.view_dir);

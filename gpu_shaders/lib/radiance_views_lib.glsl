@@ -16,11 +16,12 @@ vec3 albedo_at(sampler2D albedo, int warping, int warp, float cosine)
   return textureLod(albedo, vec2(cosine, (warp == WARP_NORMAL) ? 0.25 : 0.75), 0.0).rgb;
 }
 
-// Place of a surface point in a source: u, v and the cosine at which the source saw it.
-vec3 seen_by(int warp, vec3 normal, vec3 view_dir, vec3 source_dir)
+// Place of a surface point in a source: u, v, the cosine at which the source saw it, and trust.
+vec4 seen_by(int fading, int warp, vec3 normal, vec3 view_dir, vec3 source_dir)
 {
-  return vec3(source_uv(warp, normal, view_dir, camera_frame(source_dir)),
-              source_cosine(warp, normal, view_dir, source_dir));
+  return vec4(source_uv(warp, normal, view_dir, camera_frame(source_dir)),
+              source_cosine(warp, normal, view_dir, source_dir),
+              source_trust(fading, warp, normal, view_dir, source_dir));
 }
 
 // Radiance of one view that a warp carries.
@@ -44,13 +45,13 @@ vec3 blend_sources(sampler2DArray views,
                    int warping,
                    int warp,
                    ivec3 sources,
-                   vec3 seen[3],
+                   vec4 seen[3],
                    vec3 weights)
 {
   if (warping == WARPING_SINGLE && warp == WARP_NORMAL) {
     return vec3(0.0);
   }
-  vec3 shares = weights * vec3(confidence(seen[0].z), confidence(seen[1].z), confidence(seen[2].z));
+  vec3 shares = weights * vec3(confidence(seen[0].w), confidence(seen[1].w), confidence(seen[2].w));
   shares /= shares.x + shares.y + shares.z;
   vec3 radiance = vec3(0.0);
   for (int i = 0; i < 3; i++) {
@@ -65,6 +66,7 @@ vec3 blend_sources(sampler2DArray views,
 vec3 warp_and_blend(sampler2DArray views,
                     sampler2D albedo,
                     int warping,
+                    int fading,
                     int warp,
                     vec3 normal,
                     vec3 view_dir,
@@ -72,8 +74,8 @@ vec3 warp_and_blend(sampler2DArray views,
                     mat3 source_dirs,
                     vec3 weights)
 {
-  vec3 seen[3] = vec3[3](seen_by(warp, normal, view_dir, source_dirs[0]),
-                         seen_by(warp, normal, view_dir, source_dirs[1]),
-                         seen_by(warp, normal, view_dir, source_dirs[2]));
+  vec4 seen[3] = vec4[3](seen_by(fading, warp, normal, view_dir, source_dirs[0]),
+                         seen_by(fading, warp, normal, view_dir, source_dirs[1]),
+                         seen_by(fading, warp, normal, view_dir, source_dirs[2]));
   return blend_sources(views, albedo, warping, warp, sources, seen, weights);
 }

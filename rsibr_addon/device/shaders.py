@@ -77,7 +77,7 @@ def views_disk_shader() -> gpu.types.GPUShader:
     varyings = gpu.types.GPUStageInterfaceInfo("rsibr_disk")
     for warp in ("normal", "mirror"):
         for source in range(3):
-            varyings.smooth("VEC3", f"{warp}_seen_{source}")
+            varyings.smooth("VEC4", f"{warp}_seen_{source}")
     info = _destination_interface(varyings)
     return build("views_disk", info, "views_disk_vert.glsl", "views_disk_frag.glsl")
 
@@ -155,7 +155,7 @@ class MeshProgram:
 views_fragment_shader = MeshProgram(
     "views_fragment",
     "Mode mode",
-    "float warping; float last_level; float antialiased; float unused_0;",
+    "float warping; float fading; float last_level; float antialiased;",
     {"albedo": "FLOAT_2D", "views": "FLOAT_2D_ARRAY", "sphere": "FLOAT_2D"},
 )
 """Draws a mesh from radiance views, `fragment` mode."""

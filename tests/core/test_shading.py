@@ -9,6 +9,7 @@ from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.geometry.camera import Camera
 from rsibr.rsibr_addon.core.geometry.directions import camera_frame, dot, normalize
 from rsibr.rsibr_addon.core.geometry.geodesic import find_triangle
+from rsibr.rsibr_addon.core.geometry.reflection_warp import Fading
 from rsibr.rsibr_addon.core.kinds.radiance_views.shading import (
     Destination,
     destination_by_mesh,
@@ -37,9 +38,9 @@ MakeDestination = Callable[[RadianceViews, np.ndarray, int, Warping], Destinatio
 
 
 def radiance_by_hand(
-    views: RadianceViews, normal: np.ndarray, view_dir: np.ndarray, warping: Warping
+    views: RadianceViews, normal: np.ndarray, view_dir: np.ndarray, warping: Warping, fading: Fading
 ) -> np.ndarray:
-    """[Cabral1999] sections 3.2-3.4 for one point, step by step, with the confidence of our docs."""
+    """[Cabral1999] sections 3.2-3.4 for one point, step by step, with a confidence of our docs."""
     for corners in views.sphere.triangles.tolist():
         a, b, c = views.sphere.vertices[corners]
         if min(np.linalg.det([view_dir, *pair]) for pair in ((a, b), (b, c), (c, a))) >= 0.0:
@@ -74,7 +75,12 @@ def radiance_by_hand(
                 x, y = x / np.hypot(x, y), y / np.hypot(x, y)
             elif central == "r":
                 x, y, z = normalize((x, y, z + 1.0))
-            trust = min(max(z / 0.6, 1e-3), 1.0)
+            trust = z / 0.6
+            if central == "r" and fading is Fading.DISTANCE:
+                pinched = normalize(view_dir - back)
+                axes = camera_frame(view_dir).T[:2]
+                trust = np.linalg.norm(axes @ normal - axes @ pinched)
+            trust = min(max(trust, 1e-3), 1.0)
             total += weight * trust * tent(maps[view], 0.5 * x + 0.5, 0.5 * y + 0.5) / albedo(table, z)
             share += weight * trust
         radiance += albedo(table, normal @ view_dir) * total / share
@@ -93,14 +99,14 @@ def tent(image: np.ndarray, s: float, t: float) -> np.ndarray:
 
 
 @WARPING
-@pytest.mark.parametrize("count", [12, 42])
-def test_each_step_of_the_paper_by_hand(count: int, warping: Warping) -> None:
+@pytest.mark.parametrize(("count", "fading"), [(12, Fading.DISTANCE), (42, Fading.COSINE)])
+def test_each_step_of_the_paper_by_hand(count: int, fading: Fading, warping: Warping) -> None:
     views = with_random_albedo(random_views(count, 8))
     view_dir = normalize(RNG.normal(size=(60, 3)))
     normal = normalize(view_dir + RNG.normal(size=(60, 3)))
     normal *= np.sign(dot(normal, view_dir))[:, None]
-    ours = views_fragment(views, normal, view_dir, warping)
-    by_hand = [radiance_by_hand(views, n, v, warping) for n, v in zip(normal, view_dir, strict=True)]
+    ours = views_fragment(views, normal, view_dir, warping, fading=fading)
+    by_hand = [radiance_by_hand(views, n, v, warping, fading) for n, v in zip(normal, view_dir, strict=True)]
     # Single precision of the summed maps and of the table, a part in 2e7, over an albedo of 0.2 or more.
     np.testing.assert_allclose(ours, by_hand, atol=1e-6)
 

@@ -10,7 +10,7 @@ from rsibr.rsibr_addon.core.geometry.camera import Camera
 from rsibr.rsibr_addon.core.geometry.directions import camera_frame, dot, normalize, reflect
 from rsibr.rsibr_addon.core.geometry.disk_mesh import disk_mesh, interpolate
 from rsibr.rsibr_addon.core.geometry.geodesic import barycentric_weights, find_triangle, geodesic_sphere
-from rsibr.rsibr_addon.core.geometry.reflection_warp import Warp, confidence, source_cosine, source_uv
+from rsibr.rsibr_addon.core.geometry.reflection_warp import Fading, Warp, confidence, source_trust, source_uv
 from rsibr.rsibr_addon.core.kinds.radiance_views.shading import (
     Destination,
     destination_by_mesh,
@@ -83,7 +83,7 @@ def promised_error(warp: Warp, normal: np.ndarray, view_dir: np.ndarray) -> np.n
     for i in range(3):
         source = sphere.vertices[sources[:, i]]
         uv = source_uv(warp, normal, view_dir, camera_frame(source))
-        shares[:, i] *= confidence(source_cosine(warp, normal, view_dir, source))
+        shares[:, i] *= confidence(source_trust(Fading.COSINE, warp, normal, view_dir, source))
         errors[:, i] = np.take(
             interpolation_errors(warp), np.searchsorted(RADII, np.linalg.norm(2.0 * uv - 1.0, axis=-1))
         )
@@ -146,7 +146,7 @@ def promised_texel_error(direction: tuple[float, float, float], flat: bool) -> n
         total, share = 0.0, 0.0
         for source, weight in zip(sphere.vertices[sources], weights, strict=True):
             source_frame = camera_frame(source)
-            trust = confidence(source_cosine(Warp.MIRROR, disk_normal, frame[:, 2], source))
+            trust = confidence(source_trust(Fading.COSINE, Warp.MIRROR, disk_normal, frame[:, 2], source))
             place = source_uv(Warp.MIRROR, disk_normal, frame[:, 2], source_frame)
             place, trust = np.split(interpolate(2.0 * uv[seen] - 1.0, np.c_[place, trust]), [2], axis=-1)
             shown = mirrored(sphere_map.normal_from_uv(place) @ source_frame.T, source)

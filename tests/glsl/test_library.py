@@ -1,13 +1,21 @@
 """Every function of gpu_shaders/lib against its numpy twin."""
 
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.geometry import directions, geodesic
 from rsibr.rsibr_addon.core.geometry.directions import camera_frame, dot, normalize
-from rsibr.rsibr_addon.core.geometry.reflection_warp import Warp, confidence, source_cosine, source_uv
+from rsibr.rsibr_addon.core.geometry.reflection_warp import (
+    Fading,
+    Warp,
+    confidence,
+    singularity_distance,
+    source_cosine,
+    source_trust,
+    source_uv,
+)
 from rsibr.rsibr_addon.core.kinds.radiance_views.shading import views_fragment
 from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
 from rsibr.rsibr_addon.core.kinds.radiance_views.warping import LEAST_ALBEDO, Warping
@@ -173,7 +181,7 @@ def points_and_sources() -> list[np.ndarray]:
 def place_or_anywhere(warp: Warp) -> Callable[..., np.ndarray]:
     """1e-5 where the source is trusted, beyond which no place is promised."""
     return lambda normal, view_dir, x, y, z: np.where(
-        confidence(source_cosine(warp, normal, view_dir, z)) > 0.1, 1e-5, 1.0
+        source_trust(Fading.COSINE, warp, normal, view_dir, z) > 0.1, 1e-5, 1.0
     )[:, None, None]
 
 
@@ -201,12 +209,26 @@ def warp_twins(warp: Warp) -> dict[str, Twin]:
         ),
         f"seen_by {warp}": Twin(
             "radiance_views_lib.glsl",
-            f"result_0.xyz = seen_by({number}, in_0.xyz, in_1.xyz, in_4.xyz);",
+            f"result_0.xyz = seen_by(FADING_COSINE, {number}, in_0.xyz, in_1.xyz, in_4.xyz).xyz;",
             points_and_sources,
             uv_and_cosine,
             place_or_anywhere(warp),
         ),
+        **{
+            f"source_trust {fading} {warp}": Twin(
+                "reflection_warp_lib.glsl",
+                f"result_0.x = source_trust(FADING_{fading.name}, {number}, in_0.xyz, in_1.xyz, in_2.xyz);",
+                lambda: [points_and_sources()[i] for i in (0, 1, 4)],
+                partial(trust_of, fading, warp),
+                1e-5,
+            )
+            for fading in Fading
+        },
     }
+
+
+def trust_of(fading: Fading, warp: Warp, *vectors: np.ndarray) -> np.ndarray:
+    return source_trust(fading, warp, *vectors)[:, None]
 
 
 REFLECTION_WARP = (
@@ -219,7 +241,14 @@ REFLECTION_WARP = (
             lambda: [single(np.random.default_rng(9).uniform(-1.0, 1.0, (COUNT, 1)))],
             confidence,
             1e-6,
-        )
+        ),
+        "singularity_distance": Twin(
+            "reflection_warp_lib.glsl",
+            "result_0.x = singularity_distance(in_0.xyz, in_1.xyz, in_2.xyz);",
+            lambda: [points_and_sources()[i] for i in (0, 1, 4)],
+            lambda *vectors: singularity_distance(*vectors)[:, None],
+            1e-5,
+        ),
     }
 )
 
@@ -269,14 +298,15 @@ def table_at(warping: Warping, warp: Warp, cosine: np.ndarray) -> np.ndarray:
 
 
 @cache
-def blended(warping: Warping, warp: Warp) -> np.ndarray:
+def blended(warping: Warping, warp: Warp, fading: Fading) -> np.ndarray:
     """What fragments at `blend_arguments` show of one part, less the albedo at their own cosine."""
     normal, view_dir = blend_arguments()[:2]
     parts = {carried: np.zeros_like(VIEWS.diffuse) for carried in ("diffuse", "glossy")}
     parts["diffuse" if warp is Warp.NORMAL else "glossy"] = CARRIED[warping, warp]
     alone = RadianceViews(parts["diffuse"], parts["glossy"], VIEWS.albedo)
     shown_as = warping if warping is Warping.ALBEDO else Warping.SPLIT
-    return views_fragment(alone, normal, view_dir, shown_as) / table_at(warping, warp, dot(normal, view_dir))
+    shown = views_fragment(alone, normal, view_dir, shown_as, fading=fading)
+    return shown / table_at(warping, warp, dot(normal, view_dir))
 
 
 def blending_tolerance(warping: Warping) -> float:
@@ -294,9 +324,9 @@ SOURCES = (
 
 def blending_twins(warping: Warping, warp: Warp) -> dict[str, Twin]:
     numbers = f"WARPING_{warping.name}, WARP_{warp.name}"
-    seen = ", ".join(f"seen_by(WARP_{warp.name}, in_0.xyz, in_1.xyz, source_dirs[{i}])" for i in range(3))
-    of_point = f"views, albedo, {numbers}, in_0.xyz, in_1.xyz, sources, source_dirs, in_3.xyz"
-    of_places = f"views, albedo, {numbers}, sources, vec3[3]({seen}), in_3.xyz"
+    places = f"WARP_{warp.name}, in_0.xyz, in_1.xyz, source_dirs"
+    seen = ", ".join(f"seen_by(FADING_COSINE, {places}[{i}])" for i in range(3))
+    of_places = f"views, albedo, {numbers}, sources, vec4[3]({seen}), in_3.xyz"
     return {
         f"albedo_at {warping} {warp}": Twin(
             "radiance_views_lib.glsl",
@@ -320,19 +350,28 @@ def blending_twins(warping: Warping, warp: Warp) -> dict[str, Twin]:
             "radiance_views_lib.glsl",
             f"{SOURCES} result_0.xyz = blend_sources({of_places});",
             blend_arguments,
-            lambda *_: blended(warping, warp),
+            lambda *_: blended(warping, warp, Fading.COSINE),
             blending_tolerance(warping),
             samplers=views_samplers,
         ),
-        f"warp_and_blend {warping} {warp}": Twin(
-            "radiance_views_lib.glsl",
-            f"{SOURCES} result_0.xyz = warp_and_blend({of_point});",
-            blend_arguments,
-            lambda *_: blended(warping, warp),
-            blending_tolerance(warping),
-            samplers=views_samplers,
-        ),
+        **{
+            f"warp_and_blend {warping} {fading} {warp}": Twin(
+                "radiance_views_lib.glsl",
+                f"{SOURCES} result_0.xyz = warp_and_blend({of_point(warping, fading, warp)});",
+                blend_arguments,
+                partial(lambda fading, *_: blended(warping, warp, fading), fading),
+                blending_tolerance(warping),
+                samplers=views_samplers,
+            )
+            for fading in Fading
+        },
     }
+
+
+def of_point(warping: Warping, fading: Fading, warp: Warp) -> str:
+    """Arguments of `warp_and_blend`."""
+    numbers = f"WARPING_{warping.name}, FADING_{fading.name}, WARP_{warp.name}"
+    return f"views, albedo, {numbers}, in_0.xyz, in_1.xyz, sources, source_dirs, in_3.xyz"
 
 
 RADIANCE_VIEWS = {

@@ -9,6 +9,7 @@ from rsibr.rsibr_addon.core.antialiased.footprint import parallelogram
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.geometry.camera import Camera
 from rsibr.rsibr_addon.core.geometry.directions import dot, normalize, reflect
+from rsibr.rsibr_addon.core.geometry.reflection_warp import Fading
 from rsibr.rsibr_addon.core.kinds.radiance_views import shading as shading
 from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, ViewsLook
 from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
@@ -88,16 +89,16 @@ def reference_pixels(
 
 
 def reference(
-    views: RadianceViews, camera: Camera, mode: Mode, warping: Warping
+    views: RadianceViews, camera: Camera, mode: Mode, warping: Warping, fading: Fading = Fading.COSINE
 ) -> tuple[np.ndarray, np.ndarray]:
     """Radiance by core/kinds, and the pixels all of whose samples see the sphere at n.v > 0.2."""
     normal, view_dir, cosine = samples(camera)
     footprint = sample_footprints(normal, view_dir)
     if mode is Mode.FRAGMENT:
-        radiance = shading.views_fragment(views, normal, view_dir, warping, footprint)
+        radiance = shading.views_fragment(views, normal, view_dir, warping, footprint, fading=fading)
     else:
         make = shading.destination_by_texel if mode is Mode.TEXEL else shading.destination_by_mesh
-        made = make(views, camera.view_dir, views.size, warping)
+        made = make(views, camera.view_dir, views.size, warping, fading)
         radiance = shading.destination_lookup(made, normal, view_dir, footprint)
     return pixels(radiance, cosine > 0.2)
 
@@ -140,6 +141,19 @@ def test_every_lookup_finds_its_texel(patternless, mode: Mode, warping: Warping,
     # As above, with differences of 1 between texels: 4e-4 of 16 texels a unit, and 2 times 2 / 512.
     assert np.abs(picture[..., :3] - expected)[inside].max() < 1.5e-2
     assert expected[inside].std() > 0.05
+
+
+@MODE
+def test_views_fade_by_the_papers_distance(patternless, mode: Mode) -> None:
+    views, renderer = patternless
+    expected, inside = reference(views, CAMERAS[1], mode, Warping.SINGLE, Fading.DISTANCE)
+    picture = renderer.draw(
+        *SPHERE, CAMERAS[1], SIZE, ViewsLook(mode, Warping.SINGLE, fading=Fading.DISTANCE)
+    )
+    # As above
+    assert np.abs(picture[..., :3] - expected)[inside].max() < 1.5e-2
+    by_cosine, _ = reference(views, CAMERAS[1], mode, Warping.SINGLE)
+    assert np.abs(by_cosine - expected)[inside].max() > 3e-2
 
 
 @MODE

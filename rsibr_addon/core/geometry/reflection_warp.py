@@ -23,8 +23,20 @@ class Warp(StrEnum):
     MIRROR = "mirror"
 
 
-TRUSTED_COSINE = 0.6
-"""Cosine between a source's normal and its view above which the source is trusted in full."""
+class Fading(StrEnum):
+    """What fades a source towards its singularity, where the warp leads to the rim of its map.
+
+    COSINE is the cosine between normal and view at which the source saw a point. DISTANCE is that of
+    [Cabral1999] section 3.3, from the singularity in the destination map; only the mirror warp has one there.
+    """
+
+    COSINE = "cosine"
+    DISTANCE = "distance"
+
+
+TRUSTED_COSINE, TRUSTED_DISTANCE = 0.6, 1.0
+"""Cosine between a source's normal and its view, and distance from its singularity in radii of the
+destination map, above which the source is trusted in full."""
 
 LEAST_CONFIDENCE = 1e-3
 """Confidence at the singularity itself, so that a single source still counts."""
@@ -83,13 +95,68 @@ def source_cosine(warp: Warp, normal: ArrayLike, view_dir: ArrayLike, source_vie
     return half
 
 
-def confidence(cosine: ArrayLike) -> Array:
-    """Confidence in a source map's radiance that was seen at a cosine.
+def singularity_distance(normal: ArrayLike, view_dir: ArrayLike, source_view_dir: ArrayLike) -> Array:
+    """Distance in the map of a view from where a source's mirror warp is singular.
 
     Parameters
     ----------
-    cosine : array_like, shape (...,)
-        As `source_cosine` tells.
+    normal, view_dir, source_view_dir : array_like, shape (..., 3)
+        Unit vectors in world coordinates. In the map of the source itself all of the rim is singular; the
+        distance from its middle is told.
+
+    Returns
+    -------
+    ndarray, shape (...,), float64
+        In radii of the map, from 0 to 2.
+
+    Notes
+    -----
+    [Cabral1999] section 3.3: the singularity's place is that of the reflection direction -source_view_dir,
+    warped into the destination map. Maps are orthographic, so a distance in the map is one across the view.
+    GLSL twin: gpu_shaders/lib/reflection_warp_lib.glsl `singularity_distance`, 1e-5.
+    """
+    view_dir = np.asarray(view_dir, dtype=np.float64)
+    between = view_dir - np.asarray(source_view_dir)
+    apart = np.asarray(normal) - between / np.maximum(np.linalg.norm(between, axis=-1, keepdims=True), 1e-6)
+    distance: Array = np.linalg.norm(apart - dot(apart, view_dir)[..., None] * view_dir, axis=-1)
+    return distance
+
+
+def source_trust(
+    fading: Fading, warp: Warp, normal: ArrayLike, view_dir: ArrayLike, source_view_dir: ArrayLike
+) -> Array:
+    """How far a surface point is from a source's singularity, over how far makes it trusted in full.
+
+    Parameters
+    ----------
+    fading : Fading
+    warp : Warp
+    normal, view_dir, source_view_dir : array_like, shape (..., 3)
+        Unit vectors in world coordinates.
+
+    Returns
+    -------
+    ndarray, shape (...,), float64
+        Negative where the normal faces away from the source.
+
+    Notes
+    -----
+    Both ways are 0 at the same place. The cosine measures the pinching itself, is the same for both warps and
+    for a fragment without a destination map, and comes closer to Cycles (docs/accuracy.md). GLSL twin:
+    gpu_shaders/lib/reflection_warp_lib.glsl `source_trust`, 1e-5.
+    """
+    if fading is Fading.DISTANCE and warp is Warp.MIRROR:
+        return singularity_distance(normal, view_dir, source_view_dir) / TRUSTED_DISTANCE
+    return source_cosine(warp, normal, view_dir, source_view_dir) / TRUSTED_COSINE
+
+
+def confidence(trust: ArrayLike) -> Array:
+    """Confidence in a source map's radiance.
+
+    Parameters
+    ----------
+    trust : array_like, shape (...,)
+        As `source_trust` tells.
 
     Returns
     -------
@@ -98,11 +165,7 @@ def confidence(cosine: ArrayLike) -> Array:
 
     Notes
     -----
-    [Cabral1999] section 3.3 fades a source near its singularity, where the warp leads to the rim of the
-    source's map, by the distance in the destination map. This takes the cosine at which the source saw the
-    point. It is zero at the same place, but it measures the pinching itself, is the same for both warps and
-    for a fragment without a destination map, and comes closer to Cycles (docs/accuracy.md). GLSL twin:
-    gpu_shaders/lib/reflection_warp_lib.glsl `confidence`, 2e-6.
+    GLSL twin: gpu_shaders/lib/reflection_warp_lib.glsl `confidence`, 2e-6.
     """
-    trusted: Array = np.clip(np.asarray(cosine) / TRUSTED_COSINE, LEAST_CONFIDENCE, 1.0)
+    trusted: Array = np.clip(np.asarray(trust), LEAST_CONFIDENCE, 1.0)
     return trusted

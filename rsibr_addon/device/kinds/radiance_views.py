@@ -12,6 +12,7 @@ import numpy as np
 from ...core.conventions import Array
 from ...core.geometry.disk_mesh import disk_mesh
 from ...core.geometry.geodesic import GeodesicSphere
+from ...core.geometry.reflection_warp import Fading
 from ...core.kinds.radiance_views.shading import Mode, ViewsLook
 from ...core.kinds.radiance_views.views import RadianceViews
 from ...core.kinds.radiance_views.warping import Warping, albedo_table, chosen_warping
@@ -20,7 +21,7 @@ from ..drawing import Draw, GpuMesh, Inputs, ProgramMapSet
 from ..passes import screen_triangle
 from ..textures import GpuTexture
 
-_WARPINGS = tuple(Warping)
+_WARPINGS, _FADINGS = tuple(Warping), tuple(Fading)
 
 
 class GpuRadianceViews(ProgramMapSet):
@@ -63,7 +64,8 @@ class GpuRadianceViews(ProgramMapSet):
     def _numbers(self, look: ViewsLook) -> Array:
         """The block `mode`."""
         warping = chosen_warping(look.warping, self._left_out)
-        return np.array([_WARPINGS.index(warping), self._last_level, look.antialiased], dtype=float)
+        choices = _WARPINGS.index(warping), _FADINGS.index(look.fading)
+        return np.array([*choices, self._last_level, look.antialiased], dtype=float)
 
     def _make_destination(
         self, destination: gpu.types.GPUUniformBuf, mode: gpu.types.GPUUniformBuf, look: ViewsLook

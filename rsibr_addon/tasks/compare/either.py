@@ -1,10 +1,9 @@
 """References of kinds that state a model: the model itself, or a material that Cycles renders."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ...core.brdf.spec import is_model
 from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.geometry.camera import Camera
@@ -94,26 +93,37 @@ def beside(
     )
 
 
-def by_model(settings: Any) -> bool:
-    """Whether settings name a reflectance model, or leave it to the map set; else a material of Blender."""
-    return settings.material is None or is_model(settings.material)
+@dataclass(frozen=True)
+class Telling:
+    """What `Truth` tells of such references.
+
+    Attributes
+    ----------
+    by_model : callable
+        Settings to whether the truth is the model itself.
+    """
+
+    by_model: Callable[[Any], bool]
+
+    def name(self, settings: Any) -> str:
+        """See `Truth`."""
+        if self.by_model(settings):
+            return exact.name(settings)
+        return "Cycles" if settings.material is None else f"{settings.material} by Cycles"
+
+    def made(self, settings: Any) -> str:
+        """See `Truth`."""
+        return exact.made(settings) if self.by_model(settings) else "rendered by Cycles"
+
+    def notes(self, comparison: Comparison) -> str:
+        """See `Truth`."""
+        by_model = self.by_model(comparison.settings)
+        return exact.notes(comparison) if by_model else references.notes(comparison)
+
+    def quality(self, settings: Any) -> str:
+        """See `Truth`."""
+        return exact.quality(settings) if self.by_model(settings) else references.quality(settings)
 
 
-def name(settings: Any) -> str:
-    """See `Truth`."""
-    return exact.name(settings) if by_model(settings) else f"{settings.material} by Cycles"
-
-
-def made(settings: Any) -> str:
-    """See `Truth`."""
-    return exact.made(settings) if by_model(settings) else "rendered by Cycles"
-
-
-def notes(comparison: Comparison) -> str:
-    """See `Truth`."""
-    return exact.notes(comparison) if by_model(comparison.settings) else references.notes(comparison)
-
-
-def quality(settings: Any) -> str:
-    """See `Truth`."""
-    return exact.quality(settings) if by_model(settings) else references.quality(settings)
+UNLESS_NAMED = Telling(lambda settings: settings.material is None)
+"""The truth is the map set's model, unless settings name a material, which Cycles renders."""

@@ -103,10 +103,10 @@ def _table(comparisons: Sequence[Comparison]) -> str:
 TRUTH = Truth(
     way=MipWay,
     draw=draw,
-    name=either.name,
-    made=either.made,
-    notes=either.notes,
-    quality=either.quality,
+    name=either.UNLESS_NAMED.name,
+    made=either.UNLESS_NAMED.made,
+    notes=either.UNLESS_NAMED.notes,
+    quality=either.UNLESS_NAMED.quality,
     table=_table,
     is_look=_is_look,
 )

@@ -71,7 +71,7 @@ def draw(
     settings = replace(settings, material=_material(map_set, material, settings))
     mesh, cameras = load_mesh(settings.mesh), cameras_of(settings)
     truth: either.Pictures
-    if either.by_model(settings):
+    if _TELLING.by_model(settings):
         model = yield from load_brdf(settings.material or "")
         rings = ring_count(views.size, len(environment.radiance), narrowest_alpha(model))
         pictures = yield from exact.exact_pictures(model, environment, cameras, mesh, settings.size, rings)
@@ -151,16 +151,19 @@ def views_table(comparisons: Sequence[Comparison]) -> str:
 
 def _is_look(way: ViewsWay, look: ViewsLook) -> bool:
     """Whether a way is a look's, or may be: which warp is the best is not told here."""
-    return way.mode is look.mode and look.warping in (WarpChoice.AUTO, way.warping)
+    fades_alike = look.fading is ViewsLook().fading
+    return fades_alike and way.mode is look.mode and look.warping in (WarpChoice.AUTO, way.warping)
 
+
+_TELLING = either.Telling(lambda settings: is_model(settings.material or ""))
 
 TRUTH = Truth(
     way=ViewsWay,
     draw=draw,
-    name=either.name,
-    made=either.made,
-    notes=either.notes,
-    quality=lambda each: "sums over rings of points" if either.by_model(each) else references.quality(each),
+    name=_TELLING.name,
+    made=_TELLING.made,
+    notes=_TELLING.notes,
+    quality=lambda each: "sums over rings of points" if _TELLING.by_model(each) else references.quality(each),
     table=views_table,
     is_look=_is_look,
 )

@@ -5,7 +5,7 @@ import numpy as np
 from ...conventions import Array, texel_centres
 from ...geometry.directions import camera_frame
 from ...geometry.geodesic import geodesic_sphere
-from ...geometry.reflection_warp import Warp, confidence, source_cosine, source_uv
+from ...geometry.reflection_warp import TRUSTED_COSINE, Warp, confidence, source_cosine, source_uv
 from ...maps import sphere_map
 from ...resample import bilinear
 from .warping import Warping, albedo_at, albedo_table, carried
@@ -79,7 +79,7 @@ class LeftOut:
         """Add to the prediction of another view what a warp carries there of this one."""
         uv = source_uv(warp, normal, self._dirs[other], self._frames[view])
         cosine = source_cosine(warp, normal, self._dirs[other], self._dirs[view])
-        share = confidence(cosine)
+        share = confidence(cosine / TRUSTED_COSINE)
         self._shares[warp][other] += share
         # Interpolation is linear, so that sums of maps need no lookups of their own
         seen = bilinear(np.concatenate([diffuse, glossy], axis=-1), uv, sphere_map.wrap)

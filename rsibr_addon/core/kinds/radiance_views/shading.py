@@ -18,7 +18,7 @@ from ...conventions import Array, ArrayLike, Indices, texel_centres
 from ...geometry.directions import camera_frame, dot, mirror_normal, reflect
 from ...geometry.disk_mesh import MARGIN, disk_mesh, interpolate
 from ...geometry.geodesic import barycentric_weights, find_triangle
-from ...geometry.reflection_warp import Warp, confidence, source_cosine, source_uv
+from ...geometry.reflection_warp import Fading, Warp, confidence, source_cosine, source_trust, source_uv
 from ...geometry.sides import Seen, seen_surface
 from ...maps import sphere_map
 from ...options import Choice, Options, option
@@ -64,6 +64,16 @@ class ViewsLook(Options):
         },
         flag="--warp",
     )
+    fading: Fading = option(
+        Fading.COSINE,
+        label="Fading",
+        help="What tells how far a view is trusted near where its map is pinched",
+        choices={
+            Fading.COSINE: Choice("Cosine", "the one at which the view saw a point: closer to Cycles"),
+            Fading.DISTANCE: Choice("Distance", "that from the pinched place, as in the paper of 1999"),
+        },
+        advanced=True,
+    )
     antialiased: bool = antialiased_option("glossy light")
 
 
@@ -95,11 +105,12 @@ def views_fragment(
     warping: Warping,
     mirror_footprint: ArrayLike | None = None,
     facet: ArrayLike | None = None,
+    fading: Fading = Fading.COSINE,
 ) -> Array:
     """Radiance of surface points, each blended from the three views around its own view direction.
 
-    Parameters and result are those of every kind's shading, see `core.kinds`, with the warping alone of the
-    look; the footprint is None for looks that are not antialiased.
+    Parameters and result are those of every kind's shading, see `core.kinds`, with the warping and the fading
+    of the look; the footprint is None for looks that are not antialiased.
 
     Notes
     -----
@@ -109,14 +120,14 @@ def views_fragment(
     """
     normal, view_dir = np.broadcast_arrays(np.asarray(normal, np.float64), np.asarray(view_dir, np.float64))
     seen = seen_surface(normal, view_dir, facet)
-    by_normal, _ = _warp_and_blend(views, seen.normal, view_dir, warping)
-    _, by_mirror = _warp_and_blend(views, seen.mirror_normal, view_dir, warping)
+    by_normal, _ = _warp_and_blend(views, seen.normal, view_dir, warping, fading)
+    _, by_mirror = _warp_and_blend(views, seen.mirror_normal, view_dir, warping, fading)
     if mirror_footprint is not None:
         by_mirror = np.zeros(normal.shape)
         spread = _spread(mirror_footprint, reflect(view_dir, seen.mirror_normal), views.size)
         for chosen, direction, weight in spread:
             own_view = view_dir[chosen]
-            shown = _warp_and_blend(views, mirror_normal(own_view, direction), own_view, warping)[1]
+            shown = _warp_and_blend(views, mirror_normal(own_view, direction), own_view, warping, fading)[1]
             by_mirror[chosen] += weight * shown
     return _coloured(albedo_table(views.albedo, warping), seen, view_dir, by_normal, by_mirror)
 
@@ -149,18 +160,18 @@ def source_shares(
     table = albedo_table(views.albedo, warping)
     shares = np.zeros((*normal.shape[:-1], 3, 3))
     for warp, maps in carried(views.diffuse, views.glossy, warping).items():
-        seen = _seen(views, warp, normal, frame[:, 2], sources)
+        seen = _seen(views, warp, normal, frame[:, 2], sources, Fading.COSINE)
         own = albedo_at(table, warp, dot(normal, frame[:, 2]))
         shares += own[..., None, :] * _weighted(maps, warp, table, sources, seen, weights)
     return sources, np.moveaxis(shares, -2, 0)
 
 
 def destination_by_texel(
-    views: RadianceViews, view_dir: ArrayLike, size: int, warping: Warping
+    views: RadianceViews, view_dir: ArrayLike, size: int, warping: Warping, fading: Fading = Fading.COSINE
 ) -> Destination:
     """The destination map of one view, warped per texel: the future work of [Cabral1999] section 6.
 
-    Parameters are those of `source_shares`.
+    Parameters are those of `source_shares`, and a fading.
 
     Notes
     -----
@@ -169,17 +180,16 @@ def destination_by_texel(
     frame = camera_frame(view_dir)
     normal = sphere_map.normal_from_uv(texel_centres(size, size)) @ frame.T
     direction = np.broadcast_to(frame[:, 2], normal.shape)
-    return Destination(
-        frame, *_warp_and_blend(views, normal, direction, warping), albedo_table(views.albedo, warping)
-    )
+    blended = _warp_and_blend(views, normal, direction, warping, fading)
+    return Destination(frame, *blended, albedo_table(views.albedo, warping))
 
 
 def destination_by_mesh(
-    views: RadianceViews, view_dir: ArrayLike, size: int, warping: Warping
+    views: RadianceViews, view_dir: ArrayLike, size: int, warping: Warping, fading: Fading = Fading.COSINE
 ) -> Destination:
     """The destination map of one view, warped at the vertices of a tessellated disk: the paper's way.
 
-    Parameters are those of `source_shares`.
+    Parameters are those of `source_shares`, and a fading.
 
     Notes
     -----
@@ -196,7 +206,7 @@ def destination_by_mesh(
     table = albedo_table(views.albedo, warping)
 
     def blend(maps: Array, warp: Warp) -> Array:
-        at_vertices = _seen(views, warp, vertex_normal, frame[:, 2], sources)
+        at_vertices = _seen(views, warp, vertex_normal, frame[:, 2], sources, fading)
         seen = np.stack([interpolate(points, at_vertices[..., i, :]) for i in range(3)], axis=-2)
         return _blend(maps, warp, table, sources, seen, weights)
 
@@ -241,7 +251,7 @@ def _spread(
 
 
 def _warp_and_blend(
-    views: RadianceViews, normal: Array, view_dir: Array, warping: Warping
+    views: RadianceViews, normal: Array, view_dir: Array, warping: Warping, fading: Fading
 ) -> tuple[Array, Array]:
     """Radiance of the three views around each view direction, by normal and by mirror, over albedo."""
     sources = find_triangle(views.sphere, view_dir)
@@ -249,7 +259,8 @@ def _warp_and_blend(
     table = albedo_table(views.albedo, warping)
 
     def blend(maps: Array, warp: Warp) -> Array:
-        return _blend(maps, warp, table, sources, _seen(views, warp, normal, view_dir, sources), weights)
+        seen = _seen(views, warp, normal, view_dir, sources, fading)
+        return _blend(maps, warp, table, sources, seen, weights)
 
     return _by_both_warps(views, warping, blend)
 
@@ -265,12 +276,16 @@ def _by_both_warps(
     return blended.get(Warp.NORMAL, np.zeros_like(by_mirror)), by_mirror
 
 
-def _seen(views: RadianceViews, warp: Warp, normal: Array, view_dir: Array, sources: Indices) -> Array:
-    """Places of the surface points in each of the three sources: u, v and cosine, shape (..., 3, 3)."""
+def _seen(
+    views: RadianceViews, warp: Warp, normal: Array, view_dir: Array, sources: Indices, fading: Fading
+) -> Array:
+    """Where each of the three sources shows the surface points: u, v, cosine and trust, shape (..., 3, 4)."""
     normal, view_dir = normal[..., None, :], view_dir[..., None, :]
     uv = source_uv(warp, normal, view_dir, views.frames[sources])
-    cosine = source_cosine(warp, normal, view_dir, views.sphere.vertices[sources])
-    return np.concatenate([uv, cosine[..., None]], axis=-1)
+    source_dirs = views.sphere.vertices[sources]
+    cosine = source_cosine(warp, normal, view_dir, source_dirs)
+    trust = source_trust(fading, warp, normal, view_dir, source_dirs)
+    return np.concatenate([uv, cosine[..., None], trust[..., None]], axis=-1)
 
 
 def _blend(maps: Array, warp: Warp, table: Array, sources: Indices, seen: Array, weights: Array) -> Array:
@@ -283,7 +298,7 @@ def _weighted(maps: Array, warp: Warp, table: Array, sources: Indices, seen: Arr
     """What each of the three sources adds, shape (..., 3, 3)."""
     cosine = seen[..., 2]
     # Weights times confidences, scaled to sum 1: [Cabral1999] section 4 divides by the accumulated sum.
-    shares = weights * confidence(cosine)
+    shares = weights * confidence(seen[..., 3])
     shares = shares / shares.sum(axis=-1, keepdims=True)
     radiance = bilinear(maps, seen[..., :2], sphere_map.wrap, layer=sources)
     weighted: Array = shares[..., None] * radiance / albedo_at(table, warp, cosine)

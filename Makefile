@@ -43,7 +43,7 @@ test-gui: $(READY)
 
 test-web: $(READY)
 	.ci/web/engines install
-	RSIBR_REQUIRE=web $(PYTHON) -m pytest tests/web
+	RSIBR_REQUIRE=bpy,gl,web $(PYTHON) -m pytest tests/web
 
 test-farm: $(READY)
 	RSIBR_REQUIRE=farm FLAMENCO="$(FLAMENCO)" $(PYTHON) -m pytest tests/farm

@@ -14,7 +14,7 @@ from ..rsibr_addon.core.progress import Steps, drain
 from ..rsibr_addon.files.kinds.registry import look_types
 from ..rsibr_addon.files.output_paths import bare_name
 from ..rsibr_addon.host.map_sets import planned_path, written_path
-from ..rsibr_addon.host.meshes import mesh_of_objects
+from ..rsibr_addon.host.meshes import TriangleMesh, mesh_of_objects
 from ..rsibr_addon.host.option_properties import options_of, properties_of
 from ..rsibr_addon.settings.page import PageOptions
 from ..rsibr_addon.tasks.export.engines.engines import ENGINES
@@ -183,14 +183,16 @@ class _ExportPage(_Export):
             for item in bpy.context.selected_objects
             if item.rsibr.map_set and planned_path(item.rsibr) == shading
         ]
-        shown, depsgraph = alike or [active], bpy.context.evaluated_depsgraph_get()
-        mesh, kind = mesh_of_objects(shown, depsgraph), kind_of(map_set)
+        items, depsgraph = alike or [active], bpy.context.evaluated_depsgraph_get()
+        kind = kind_of(map_set)
         look = options_of(look_types()[kind], getattr(active.rsibr, kind))
         self.show_as_scene(bpy.context.scene)
-        own: list[OwnObject] = []
+        shown: TriangleMesh | list[OwnObject]
         if wants_own(active, kind):
-            look, own = in_own_materials(shown, depsgraph, look)
-        return export_page(map_set, output, options_of(PageOptions, self), mesh, look, force, own)
+            shown, look = in_own_materials(items, depsgraph, look)
+        else:
+            shown = mesh_of_objects(items, depsgraph)
+        return export_page(map_set, output, options_of(PageOptions, self), shown, look, force)
 
 
 EXPORT_PAGE = type(

@@ -28,7 +28,7 @@ NEEDS = {
     "cycles": ("bpy", "cycles"),
     "farm": ("bpy", "cycles", "farm"),
     "gui": ("gui",),
-    "web": ("web",),
+    "web": ("bpy", "gl", "web"),
 }
 """Folder of tests -> what its tests need; the other folders need numpy and OpenEXR only."""
 

@@ -100,8 +100,8 @@ def _page(arguments: argparse.Namespace) -> Steps[list[Path]]:
     kind = kind_of(arguments.map_set)
     settings = options.given_of(arguments, _owners(), PAGE, beside=kind)
     look = options.given_of(arguments, _owners(), kind, beside=PAGE)
-    mesh, look, own = named_meshes(settings.mesh, kind, look)
-    return export_page(arguments.map_set, arguments.output, settings, mesh, look, arguments.force, own)
+    shown, look = named_meshes(settings.mesh, kind, look)
+    return export_page(arguments.map_set, arguments.output, settings, shown, look, arguments.force)
 
 
 def _owners() -> dict[str, type[Options]]:

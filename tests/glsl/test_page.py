@@ -16,8 +16,9 @@ from rsibr.rsibr_addon.core.kinds.kernel_pyramid.look import PrincipledLook
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
 from rsibr.rsibr_addon.core.kinds.mip_chain.shading import Borders, MipLook
 from rsibr.rsibr_addon.device.kinds.mip_chain import GpuMipChain
+from rsibr.rsibr_addon.files.png import png_of
 from rsibr.rsibr_addon.host.meshes import TriangleMesh, load_mesh, mesh_row
-from rsibr.rsibr_addon.tasks.export.page import contents
+from rsibr.rsibr_addon.tasks.export.page import contents, own_objects
 from rsibr.rsibr_addon.tasks.export.page.contents import packed_mesh, packed_texture
 from rsibr.rsibr_addon.tasks.export.page.named import named_meshes
 from rsibr.rsibr_addon.tasks.export.page.parameters import block_of, parameters
@@ -202,7 +203,7 @@ def test_the_operator_shows_the_scene_s_view_and_says_where(
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("view")
-def test_the_operator_takes_the_materials_of_slots(tmp_path: Path) -> None:
+def test_the_operator_takes_the_materials_of_slots(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     cube, light = bpy.context.object, tmp_path / "light.rsibr.exr"
     environment = str(sky_file(tmp_path))
     bake = ["bake", "kernel-pyramid", "--environment", environment, "--size", "32", "-o", str(light)]
@@ -215,14 +216,20 @@ def test_the_operator_takes_the_materials_of_slots(tmp_path: Path) -> None:
     node = tree.nodes.new("ShaderNodeTexImage")
     node.image = bpy.data.images.new("colours", 4, 4)
     tree.links.new(node.outputs["Color"], tree.nodes["Principled BSDF"].inputs["Base Color"])
-    cube.data.materials.append(bpy.data.materials.new("second"))
+    cube.data.materials.append(second := bpy.data.materials.new("second"))
+    again = second.node_tree.nodes.new("ShaderNodeTexImage")
+    again.image = node.image
+    second.node_tree.links.new(again.outputs["Color"], second.node_tree.nodes["Principled BSDF"].inputs[0])
+    encoded: list[np.ndarray] = []
+    monkeypatch.setattr(own_objects, "png_of", lambda texels: encoded.append(texels) or png_of(texels))
     cube.data.polygons[0].material_index = 1
     other = cube.copy()
     bpy.context.collection.objects.link(other)
     other.select_set(True)
     bpy.ops.rsibr.export_page(filepath=str(tmp_path / "own.html"))
     own = content_of(tmp_path / "own.html")
-    assert [len(each["images"]) for each in own["materials"]] == [1, 0]
+    assert [each["images"] for each in own["materials"]] == [[0], [0]]
+    assert len(encoded) == 1
     assert [each["slots"] for each in own["objects"]] == 2 * [[[0, 30, 0], [30, 36, 1]]]
     assert (len(own["images"]), own["images"][0]["srgb"], own["parameters"]) == (1, True, [])
     assert own["programs"]["surface"] != plain["programs"]["surface"]
@@ -254,16 +261,17 @@ def test_the_command_shows_objects_of_a_blender_file(tmp_path: Path) -> None:
 def test_objects_of_a_blender_file_are_shown_as_they_stand_there(tmp_path: Path) -> None:
     """In their own materials where the kind has such, by name or pattern."""
     file = scene_file(tmp_path)
-    both, _, own = named_meshes([f"{file}:Cup*"], "kernel_pyramid", PrincipledLook())
+    own, _ = named_meshes([f"{file}:Cup*"], "kernel_pyramid", PrincipledLook())
     assert {each.mesh.name: each.matrix[0, 3] for each in own} == {"Cup, red": 0.0, "Cup, blue": 3.0}
     named = [f"{file}:Cup, red", f"{file}:Cup, blue"]
-    alike, look, own = named_meshes(named, "kernel_pyramid", PrincipledLook(own=False))
-    assert (look, own) == (PrincipledLook(own=False), [])
-    assert len(alike.triangles) == len(both.triangles) == 24
-    _, look, own = named_meshes(named[1:], "kernel_pyramid", PrincipledLook())
-    assert own == []  # one plain material keeps its sliders
+    alike, look = named_meshes(named, "kernel_pyramid", PrincipledLook(own=False))
+    assert look == PrincipledLook(own=False)
+    assert len(alike.triangles) == 24
+    plain, look = named_meshes(named[1:], "kernel_pyramid", PrincipledLook())
+    assert len(plain.triangles) == 12  # one plain material keeps its sliders
     assert np.isclose(look.roughness, 0.7)
-    assert named_meshes(named, "mip_chain", MipLook())[1:] == (MipLook(), [])
+    of_chain, look = named_meshes(named, "mip_chain", MipLook())
+    assert (len(of_chain.triangles), look) == (24, MipLook())
 
 
 def test_meshes_that_are_no_objects_stand_in_a_row() -> None:

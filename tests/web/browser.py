@@ -6,7 +6,7 @@ import shlex
 import subprocess
 import tempfile
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from typing import IO, Any
@@ -24,8 +24,14 @@ PATIENCE = 120
 
 CHROMIUM = (
     *("chromium", "--headless", "--no-sandbox", "--disable-extensions", "--disable-background-networking"),
-    *("--no-first-run", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-dev-shm-usage"),
+    *("--no-first-run", "--disable-dev-shm-usage"),
 )
+
+SWIFTSHADER = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+"""Has Chromium draw with a driver of its own, which is there everywhere."""
+
+LIKE_BLENDER = ("--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist")
+"""Has it draw with the driver that Blender draws with."""
 
 
 class _Handler(SimpleHTTPRequestHandler):
@@ -69,10 +75,10 @@ def asked(page: str, question: dict[str, Any], files: Path) -> dict[str, Any]:
     AssertionError
         It did not answer, or something went wrong there.
     """
-    return _answer(lambda host: f"{host}/tests/{page}", {**PLACES, "files": files}, question)
+    return _answer(lambda host: f"{host}/tests/{page}", {**PLACES, "files": files}, question, SWIFTSHADER)
 
 
-def driven(page: Path, script: str, before: str = "") -> dict[str, Any]:
+def driven(page: Path, script: str, before: str = "", driver: Sequence[str] = LIKE_BLENDER) -> dict[str, Any]:
     """What a page that is opened from disk answers to a script.
 
     Parameters
@@ -84,6 +90,8 @@ def driven(page: Path, script: str, before: str = "") -> dict[str, Any]:
         Chromium's DevTools protocol do what a script cannot: real touches, keys and sizes of screens.
     before : str
         Runs before the page's own.
+    driver : sequence of str
+        `LIKE_BLENDER` or `SWIFTSHADER`.
 
     Raises
     ------
@@ -97,7 +105,7 @@ def driven(page: Path, script: str, before: str = "") -> dict[str, Any]:
         copy.write_text(text + DRIVER.replace("HOST", host).replace("SCRIPT", script), encoding="utf-8")
         return copy.resolve().as_uri()
 
-    return _answer(address, {}, {})
+    return _answer(address, {}, {}, driver)
 
 
 DRIVER = """<script type="module">
@@ -166,7 +174,10 @@ class _Browser:
 
 
 def _answer(
-    address_of: Callable[[str], str], places: dict[str, Path], question: dict[str, Any]
+    address_of: Callable[[str], str],
+    places: dict[str, Path],
+    question: dict[str, Any],
+    driver: Sequence[str],
 ) -> dict[str, Any]:
     """What the page of an address answers; the address is made of that of the server, which is asked."""
     server = ThreadingHTTPServer(("127.0.0.1", 0), _Handler)
@@ -179,7 +190,7 @@ def _answer(
         tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile,
         tempfile.TemporaryFile("w+", errors="replace") as log,  # a pipe that nobody reads would fill up
     ):
-        browser = _Browser([*CHROMIUM, f"--user-data-dir={profile}", address], log)
+        browser = _Browser([*CHROMIUM, *driver, f"--user-data-dir={profile}", address], log)
         server.browser = browser  # type: ignore[attr-defined]
         try:
             answered = server.answered.wait(PATIENCE)  # type: ignore[attr-defined]

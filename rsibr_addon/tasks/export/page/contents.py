@@ -1,5 +1,6 @@
 """Textures, meshes and displays as a page unpacks them."""
 
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -109,6 +110,7 @@ def _packed_rows(values: Array) -> dict[str, Any]:
     return packed_integers(np.rint(DIGITS * values.T).astype(np.int32), 16, along=(1, 1))
 
 
+@cache
 def packed_display(view_transform: str) -> dict[str, Any]:
     """A view transform's table for sRGB displays: see `core.pictures.display`.
 

@@ -13,7 +13,7 @@ from .own_material import in_own_materials
 from .own_objects import OwnObject
 
 
-def named_meshes(specs: Sequence[str], kind: str, look: Any) -> tuple[TriangleMesh, Any, list[OwnObject]]:
+def named_meshes(specs: Sequence[str], kind: str, look: Any) -> tuple[TriangleMesh | list[OwnObject], Any]:
     """What a page shows.
 
     Parameters
@@ -28,12 +28,11 @@ def named_meshes(specs: Sequence[str], kind: str, look: Any) -> tuple[TriangleMe
 
     Returns
     -------
-    mesh : TriangleMesh
-        All of it, within the unit sphere.
+    shown : TriangleMesh or list of OwnObject
+        Objects where the kind and the look have own materials: see `in_own_materials`; else all in one mesh,
+        within the unit sphere.
     look : Options
-        See `in_own_materials`.
-    own : list of OwnObject
-        See there; empty for other kinds, or where the look does not ask for own materials.
+        See there.
 
     Raises
     ------
@@ -47,7 +46,7 @@ def named_meshes(specs: Sequence[str], kind: str, look: Any) -> tuple[TriangleMe
         bare = next((spec for spec in specs if Path(spec).suffix.lower() == ".blend"), None)
         if bare is not None:
             raise InputFileError(f"{bare} is a file of objects: name one, {bare}:OBJECT, or all, {bare}:*.")
-        return mesh_row(specs), look, []
+        return mesh_row(specs), look
     of_files = [each for each in named if each]
     files = {Path(file).resolve() if file else None for file, _ in of_files}
     if len(of_files) < len(specs) or len(files) > 1:
@@ -59,7 +58,6 @@ def named_meshes(specs: Sequence[str], kind: str, look: Any) -> tuple[TriangleMe
     if file and not is_open(Path(file)):
         open_blend(Path(file))
     items, depsgraph = objects_named([name for _, name in of_files])
-    mesh = mesh_of_objects(items, depsgraph)
     if KINDS[kind].own and look.own:
-        return mesh, *in_own_materials(items, depsgraph, look)
-    return mesh, look, []
+        return in_own_materials(items, depsgraph, look)
+    return mesh_of_objects(items, depsgraph), look

@@ -13,7 +13,7 @@ from ....core.options import declared_options
 from ....core.warned import warn
 from ....device.context import ensure_context
 from ....host.baked_inputs import add_unwrapping
-from ....host.meshes import evaluated_mesh
+from ....host.meshes import TriangleMesh, evaluated_mesh, mesh_of_objects
 from ....host.textured_meshes import textured_mesh
 from ...queue.input_bakes import inputs_file
 from ...viewport.baked_inputs import InputBakes
@@ -75,21 +75,23 @@ def own_objects(items: Sequence[Any], depsgraph: Any) -> list[OwnObject]:
     return found
 
 
-def in_own_materials(items: Sequence[Any], depsgraph: Any, look: Any) -> tuple[Any, list[OwnObject]]:
+def in_own_materials(
+    items: Sequence[Any], depsgraph: Any, look: Any
+) -> tuple[TriangleMesh | list[OwnObject], Any]:
     """What shows objects in their own materials.
 
     Parameters, errors and warnings are those of `own_objects` and `look_of`.
 
     Returns
     -------
+    shown : list of OwnObject or TriangleMesh
+        All in one mesh, if `look_of` finds the constants of a material.
     look : Options
-        With the constants of the material, if `look_of` finds them.
-    own : list of OwnObject
-        Empty if it does.
+        With these, if so.
     """
     own = own_objects(items, depsgraph)
     plain = look_of(look, own)
-    return (look, own) if plain is None else (plain, [])
+    return (own, look) if plain is None else (mesh_of_objects(items, depsgraph), plain)
 
 
 def look_of(look: Any, objects: Sequence[OwnObject]) -> Any | None:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ....core.conventions import Array, Indices
-from ....core.materials.principled import Texture
+from ....core.materials.principled import IDENTITY, Texture
 from ....device.own_materials import MOST_TEXTURES, DrawnMaterial
 from ....device.textured_materials import EXTENSIONS, drawn_rows
 from ....device.textured_mesh import slot_ends, uv_attributes
@@ -74,8 +74,8 @@ def packed_objects(objects: Sequence[OwnObject], antialiased: bool) -> dict[str,
     dict
         "objects", each with its "mesh", its "model", a matrix by column, and "slots", the first and the last
         corner of each slot's triangles and its material; "materials", each with the numbers of its "block",
-        the "images" that it samples and whether it is "opaque"; "images"; and "fit", centre and radius of the
-        sphere that the page shows.
+        the "images" that it samples and whether it is "opaque"; "images", and "most_images" of a material;
+        and "fit", centre and radius of the sphere that the page shows.
 
     Raises
     ------
@@ -84,7 +84,7 @@ def packed_objects(objects: Sequence[OwnObject], antialiased: bool) -> dict[str,
     """
     drawn = []
     materials: list[dict[str, Any]] = []
-    images: list[dict[str, Any]] = []
+    images = _Images()
     places: dict[tuple[DrawnMaterial, tuple[str, ...]], int] = {}  # where materials are, for meshes' UV maps
     for each in objects:
         uv_maps = each.mesh.uv_maps
@@ -108,7 +108,13 @@ def packed_objects(objects: Sequence[OwnObject], antialiased: bool) -> dict[str,
     world = [each.mesh.positions @ each.matrix[:3, :3].T + each.matrix[:3, 3] for each in objects]
     whole = Ball.around(np.concatenate(world))
     fit = [*whole.centre.tolist(), whole.radius]
-    return {"objects": drawn, "materials": materials, "images": images, "fit": fit}
+    return {
+        "objects": drawn,
+        "materials": materials,
+        "images": images.packed,
+        "most_images": MOST_TEXTURES,
+        "fit": fit,
+    }
 
 
 def _packed_mesh(mesh: TexturedMesh, ball: Ball, order: Indices) -> dict[str, Any]:
@@ -122,30 +128,41 @@ def _packed_mesh(mesh: TexturedMesh, ball: Ball, order: Indices) -> dict[str, An
 
 
 def _packed_material(
-    material: DrawnMaterial, uv_maps: tuple[str, ...], antialiased: bool, images: list[dict[str, Any]]
+    material: DrawnMaterial, uv_maps: tuple[str, ...], antialiased: bool, images: "_Images"
 ) -> dict[str, Any]:
     """A material; its images go behind the others."""
     rows, textures = drawn_rows(material, uv_maps, antialiased)
     numbers = []
     for number, texture in enumerate(textures):
-        texels = np.array(material.textures[texture].read())
+        image = material.textures[texture]
+        numbers.append(images.place(texture, image))
         if texture.extension == "CLIP":
-            texels = np.pad(texels, ((1, 1), (1, 1), (0, 0)))
+            size = np.array([image.width, image.height])
             mapping = rows[2 * (number - MOST_TEXTURES) :][:2]
-            mapping[:, :3] *= _within_border(texels)
-            mapping[:, 2] += 1.0 / np.array(texels.shape[1::-1])
-        packed = _packed_image(texture, texels, material.textures[texture].format)
-        if packed not in images:
-            images.append(packed)
-        numbers.append(images.index(packed))
+            mapping[:, :3] *= (size / (size + 2.0))[:, None]
+            mapping[:, 2] += 1.0 / (size + 2.0)
     return {"block": rows.ravel().tolist(), "images": numbers, "opaque": material.is_opaque}
 
 
-def _within_border(texels: Array) -> Array:
-    """Share of a bordered image's width and height that lies within its border, shape (2, 1)."""
-    size = np.array(texels.shape[1::-1], np.float64)[:, None]
-    share: Array = (size - 2.0) / size
-    return share
+class _Images:
+    """The images of a page.
+
+    Attributes
+    ----------
+    packed : list of dict
+    """
+
+    def __init__(self) -> None:
+        self.packed: list[dict[str, Any]] = []
+        self._places: dict[Texture, int] = {}
+
+    def place(self, texture: Texture, image: Any) -> int:
+        """Where a texture's image is, a GPUTexture; where on a surface it lies makes no other of it."""
+        looked_up = replace(texture, uv_map="", mapping=IDENTITY, covered=False)
+        if looked_up not in self._places:
+            self._places[looked_up] = len(self.packed)
+            self.packed.append(_packed_image(texture, np.array(image.read()), image.format))
+        return self._places[looked_up]
 
 
 def _packed_image(texture: Texture, texels: Array, stored: str) -> dict[str, Any]:
@@ -153,7 +170,9 @@ def _packed_image(texture: Texture, texels: Array, stored: str) -> dict[str, Any
 
     A page's driver has no borders: what is clipped has one of its own.
     """
-    extension = "EXTEND" if texture.extension == "CLIP" else texture.extension
+    extension = texture.extension
+    if extension == "CLIP":
+        texels, extension = np.pad(texels, ((1, 1), (1, 1), (0, 0))), "EXTEND"
     looked_up = {"extend": EXTENSIONS[extension], "closest": texture.closest}
     if texels.dtype == np.uint8:
         # The first row is the lowest, as WebGL takes it

@@ -41,10 +41,9 @@ def export_page(
     map_set: Path,
     output: Path,
     settings: PageOptions,
-    mesh: TriangleMesh,
+    shown: TriangleMesh | Sequence[OwnObject],
     look: Any = None,
     force: bool = False,
-    own: Sequence[OwnObject] = (),
 ) -> Steps[list[Path]]:
     """Write one page that needs no other file and no network.
 
@@ -54,12 +53,11 @@ def export_page(
         A map set, or a picture of an environment.
     output : Path
         NAME.html.
-    mesh : TriangleMesh
-        In world coordinates, within the unit sphere.
+    shown : TriangleMesh or sequence of OwnObject
+        A mesh in world coordinates, within the unit sphere; or at least one object in its own materials, of a
+        kind whose look has `own`.
     look : Options, optional
         What the page shows at first: see `files.kinds.registry.look_types`; by default the kind's best.
-    own : sequence of OwnObject, optional
-        Objects in their own materials, shown instead of `mesh`. Of a kind whose look has `own`.
 
     Returns
     -------
@@ -75,12 +73,12 @@ def export_page(
     check_target(output, force, (".html",))
     yield Progress(0, 4, f"reading {map_set.name}")
     opened = open_map_set(map_set, clamp=settings.clamp)
-    shown: Any = look or look_types()[opened.kind]()
+    look = look or look_types()[opened.kind]()
     by_sliders = KINDS[opened.kind].by_sliders
     if by_sliders is not None and opened.environment is not None:
-        found = yield from by_sliders(opened.environment, shown)
+        found = yield from by_sliders(opened.environment, look)
         if found is not None:
-            in_memory, shown = found
+            in_memory, look = found
             opened = opened_map_set(map_set, in_memory)
     drawable = opened.drawable()
     if not isinstance(drawable, WithInputs):
@@ -88,17 +86,24 @@ def export_page(
             f"{map_set} is a {in_words(opened.kind).lower()}, which no page shows yet: preview it."
         )
     yield Progress(1, 4, "packing its maps")
-    inputs = drawable.inputs(shown)
+    inputs = drawable.inputs(look)
     textures, error = _packed_textures(inputs)
     yield Progress(2, 4, "packing the mesh and the display")
     title, sentence = _told(map_set, opened, error)
     camera = settings.camera(settings.view)
+    programs = page_sources(inputs.program)
+    if isinstance(shown, TriangleMesh):
+        objects = _one_object(shown, block_of(inputs))
+        sliders = [] if KINDS[opened.kind].live else parameters(drawable, look)
+    else:
+        objects, sliders = packed_objects(shown, look.antialiased), []
+        programs |= own_sources(inputs.program.samplers)
     content = {
-        "programs": page_sources(inputs.program) | (own_sources(inputs.program.samplers) if own else {}),
-        "parameters": [] if own or KINDS[opened.kind].live else parameters(drawable, shown),
+        "programs": programs,
+        "parameters": sliders,
         "textures": textures,
         "split": _packed_split_sum(drawable, inputs),
-        **(packed_objects(own, shown.antialiased) if own else _one_object(mesh, block_of(inputs))),
+        **objects,
         "fill": FILL,
         "displays": {name: packed_display(name) for name in _view_transforms()},
         "display": settings.view_transform,
@@ -128,7 +133,8 @@ def _one_object(mesh: TriangleMesh, block: Array) -> dict[str, Any]:
         "slots": [[0, mesh.triangles.size, 0]],
     }
     material = {"block": block.tolist(), "images": [], "opaque": True}
-    return {"objects": [shown], "materials": [material], "images": [], "fit": [0.0, 0.0, 0.0, 1.0]}
+    fit = [0.0, 0.0, 0.0, 1.0]
+    return {"objects": [shown], "materials": [material], "images": [], "most_images": 0, "fit": fit}
 
 
 def _packed_textures(inputs: Inputs) -> tuple[dict[str, Any], float]:

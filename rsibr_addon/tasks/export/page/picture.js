@@ -52,7 +52,7 @@ class Picture {
     const none = this.bound(gl.TEXTURE_2D, gl.NEAREST);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, 1, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
     this.images = content.materials.map((material) => {
-      const places = content.programs.translucent ? Array.from({ length: 8 }, (_, place) => place) : [];
+      const places = Array.from({ length: content.most_images }, (_, place) => place);
       const sampled = (place) => images[material.images[place]] || { target: gl.TEXTURE_2D, made: none };
       return Object.fromEntries(places.map((place) => [`image_${place}`, sampled(place)]));
     });
@@ -253,13 +253,14 @@ class Picture {
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
-    this.drawSlots("surface", camera, turn, tile, blocks, {});
+    const half = { samples_in_half: ["uniform2fv", [tile.width * samples * 0.5, tile.height * samples * 0.5]] };
+    this.drawSlots("surface", camera, turn, tile, blocks, half);
     if (this.translucent) {
       // What covers all, then what covers in part: device/kinds/kernel_pyramid.py
       gl.enable(gl.BLEND);
       gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
       for (const whole of [1, 0]) {
-        this.drawSlots("translucent", camera, turn, tile, blocks, { whole: ["uniform1f", whole] });
+        this.drawSlots("translucent", camera, turn, tile, blocks, { ...half, whole: ["uniform1f", whole] });
       }
       gl.disable(gl.BLEND);
     }

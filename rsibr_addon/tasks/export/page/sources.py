@@ -20,6 +20,9 @@ precision highp sampler3D;
 LOOKUPS = Path(__file__).with_name("lookups.glsl")
 """What takes the place of `textureLod` at level 0."""
 
+SAMPLES = Path(__file__).with_name("samples.glsl")
+"""What brings a surface to the middle of a sample."""
+
 SAMPLER_TYPES = {"FLOAT_2D": "sampler2D", "FLOAT_2D_ARRAY": "sampler2DArray", "FLOAT_3D": "sampler3D"}
 
 _DRAW = f"{DRAW_STRUCT}\nlayout(std140) uniform DrawBlock {{ Draw draw; }};\n"
@@ -34,10 +37,15 @@ _TEXTURED_CORNERS = (
     f"{_CORNERS}layout(location = 2) in vec4 tangent;\n"
     "layout(location = 3) in vec4 uv_a;\nlayout(location = 4) in vec4 uv_b;\n"
 )
-_SURFACE = "{0} vec3 world_position;\n{0} vec3 world_normal;\n"
-_TEXTURED_SURFACE = (
-    f"{_SURFACE}{{0}} vec3 object_normal;\n{{0}} vec4 object_tangent;\n{{0}} vec4 uv_01;\n{{0}} vec4 uv_23;\n"
-)
+_SURFACE = {"world_position": "vec3", "world_normal": "vec3"}
+_TEXTURED_SURFACE = {
+    **_SURFACE,
+    "object_normal": "vec3",
+    "object_tangent": "vec4",
+    "uv_01": "vec4",
+    "uv_23": "vec4",
+}
+"""What the vertices of a mesh tell its fragments."""
 
 
 def page_sources(program: MeshProgram) -> dict[str, tuple[str, str]]:
@@ -54,9 +62,10 @@ def page_sources(program: MeshProgram) -> dict[str, tuple[str, str]]:
     screen = _source(_SCREEN, "screen_vert.glsl")
     return {
         "surface": (
-            _source(_DRAW + _CORNERS + _SURFACE.format("out"), "mesh_vert.glsl"),
-            _source(
-                _DRAW + block + _samplers(program.samplers) + _SURFACE.format("in") + _RADIANCE,
+            _at_corners(_DRAW + _CORNERS, _SURFACE, "mesh_vert.glsl"),
+            _at_samples(
+                _DRAW + block + _samplers(program.samplers) + _RADIANCE,
+                _SURFACE,
                 f"{program.name}_frag.glsl",
             ),
         ),
@@ -80,14 +89,32 @@ def own_sources(samplers: Mapping[str, str]) -> dict[str, tuple[str, str]]:
     """
     images = {f"image_{number}": "FLOAT_2D" for number in range(MOST_TEXTURES)}
     block = f"{MATERIAL_STRUCT}\nlayout(std140) uniform LookBlock {{ Material material; }};\n"
-    fragment = _DRAW + block + _samplers({**samplers, **images}) + _TEXTURED_SURFACE.format("in") + _RADIANCE
-    vertex = _source(_DRAW + _TEXTURED_CORNERS + _TEXTURED_SURFACE.format("out"), "textured_mesh_vert.glsl")
+    fragment = _DRAW + block + _samplers({**samplers, **images}) + _RADIANCE
+    vertex = _at_corners(_DRAW + _TEXTURED_CORNERS, _TEXTURED_SURFACE, "textured_mesh_vert.glsl")
     name = "principled_textured_frag.glsl"
     translucent = f"#define TRANSLUCENT\nuniform float whole;\n{fragment}"
     return {
-        "surface": (vertex, _source(fragment, name)),
-        "translucent": (vertex, _source(translucent, name)),
+        "surface": (vertex, _at_samples(fragment, _TEXTURED_SURFACE, name)),
+        "translucent": (vertex, _at_samples(translucent, _TEXTURED_SURFACE, name)),
     }
+
+
+def _at_corners(interface: str, surface: Mapping[str, str], name: str) -> str:
+    """A vertex shader, which tells its fragments where they would be seen as well."""
+    told = "".join(
+        f"out {kind} drawn_{each};\n#define {each} drawn_{each}\n" for each, kind in surface.items()
+    )
+    placed = "#undef main\nvoid main() { place(); drawn_clip = gl_Position; }\n"
+    return _source(f"{interface}{told}out vec4 drawn_clip;\n#define main place\n", name) + placed
+
+
+def _at_samples(interface: str, surface: Mapping[str, str], name: str) -> str:
+    """A fragment shader, whose surface is that at the sample: see `SAMPLES`."""
+    told = "".join(f"in {kind} drawn_{each};\n{kind} {each};\n" for each, kind in surface.items())
+    taken = " ".join(f"{each} = at_sample(drawn_{each}, away);" for each in surface)
+    main = f"#undef main\nvoid main() {{ vec2 away = away_from_sample(); {taken} shade(); }}\n"
+    samples = _stripped(SAMPLES.read_text(encoding="utf-8"))
+    return _source(f"{interface}{samples}{told}#define main shade\n", name) + main
 
 
 def _samplers(samplers: Mapping[str, str]) -> str:

@@ -5,11 +5,15 @@ its middle is where its centre falls, and its edges reach half-way to its neighb
 is divided exactly among the texels beneath, by the parts of the parallelogram that lie on each. A texel that
 is larger than those beneath is quartered until it is not. All of it goes somewhere, so power is kept to the
 last digits in all maps.
+
+Where the planes between the axes mirror both maps, texel by texel, one octant is divided for all eight: the
+others' shares are the same, of mirrored texels.
 """
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TypeVar
 
 import numpy as np
@@ -17,7 +21,8 @@ from numpy.typing import NDArray
 
 from .conventions import Array, Indices
 from .geometry.directions import dot
-from .maps.representation import Representation
+from .maps.representation import Octants, Representation
+from .parallelograms import parts_beyond
 from .threads import in_order
 from .ties import TIE
 
@@ -29,8 +34,13 @@ TILE = 192
 BLOCK = TILE**2
 """Texels at a time where they do not make a tile."""
 
-Shares = Iterator[tuple[Indices, Array, Array]]
-"""What texels of the target get: their numbers, shape (M,), solid angles (M,) and powers (channels, M)."""
+Shares = Iterator[tuple[Indices, Indices, Array]]
+"""Numbers of texels in a tile, numbers of texels of the target, and the solid angles [sr] that these get of
+those; of shape (M,) each."""
+
+Sums = tuple[Indices, Array, Array]
+"""Different texels of the target by their numbers, shape (M,), and what these get: solid angles, shape (M,),
+and powers, shape (channels, M)."""
 
 DEEPEST = 4
 """Most quarterings of a texel around a pole, or on a rim that is a single direction."""
@@ -51,7 +61,8 @@ class _Texels:
         The texels' width and height in uv.
     solid_angle : ndarray, shape (rows, columns, grids)
         [sr]
-    radiance : ndarray, shape (channels, rows, columns, grids)
+    number : ndarray of int, shape (rows, columns, grids)
+        Which texel of its tile it is, or is a part of.
     """
 
     uv: Array
@@ -59,7 +70,34 @@ class _Texels:
     sheet: Indices
     step: Array
     solid_angle: Array
-    radiance: Array
+    number: Indices
+
+
+class _Runs:
+    """Shares, summed over neighbours that go to one texel: most do where texels are much smaller.
+
+    Attributes
+    ----------
+    other : ndarray of int, shape (N,)
+        The texels of the target.
+    """
+
+    def __init__(self, texel: Indices, other: Indices, solid_angle: Array) -> None:
+        self._texel, self._weight = texel, solid_angle
+        first = np.flatnonzero(np.diff(other, prepend=-1))
+        self._first = first if 2 * len(first) < len(other) else None
+        self.other = other if self._first is None else other[first]
+
+    def solid_angle(self) -> Array:
+        """What they get [sr], shape (N,)."""
+        return self._summed(self._weight)
+
+    def power(self, radiance: Array) -> Array:
+        """What they get, shape (N,), of the radiance of a tile's texels, shape (M,)."""
+        return self._summed(self._weight * radiance[self._texel])
+
+    def _summed(self, values: Array) -> Array:
+        return values if self._first is None else np.add.reduceat(values, self._first)
 
 
 class Splat:
@@ -101,37 +139,45 @@ class Splat:
             Radiance.
         source : Representation
         """
-        sheets, height, width = image.shape[:3]
-        solid_angle = source.texel_solid_angle(width)
-        u, v = (np.arange(width) + 0.5) / width, (np.arange(height) + 0.5) / height
-
-        def shares_of(tile: tuple[int, int, int]) -> list[tuple[Indices, Array, Array]]:
-            sheet, *first = tile
-            # With a rim of texels more, of no weight: edges are known from both neighbours.
-            rows, columns = (slice(max(start - 1, 0), start + TILE + 1) for start in first)
-            weight = np.zeros((len(v[rows]), len(u[columns]), 1))
-            own = tuple(
-                slice(start - rim.start, start - rim.start + TILE)
-                for start, rim in zip(first, (rows, columns), strict=True)
-            )
-            weight[own] = solid_angle[sheet, rows, columns, None][own]
-            uv = np.stack(np.broadcast_arrays(u[columns], v[rows, None]))[..., None]
-            texels = _Texels(
-                np.moveaxis(uv, 0, -1),
-                source.direction_of_grid(u[columns], v[rows], sheet)[:, :, None],
-                np.full(weight.shape, sheet),
-                np.array([1.0 / width, 1.0 / height]),
-                weight,
-                np.moveaxis(image[sheet, rows, columns, None], -1, 0).astype(np.float64, order="C"),
-            )
-            return list(self._of_grids(source, texels, DEEPEST))
-
-        tiles = itertools.product(range(sheets), range(0, height, TILE), range(0, width, TILE))
-        for shares in in_order(shares_of, tiles):
-            for texel, weight, power in shares:
-                np.add.at(self.solid_angle, texel, weight)
+        images: Octants = [((1, 1, 1), image)]
+        if self._target.has_mirrored_texels(self._width):
+            images = source.octants(image)
+        sheets, height, width = images[0][1].shape[:3]
+        solid_angle = source.texel_solid_angle(image.shape[2])
+        corners = itertools.product(range(sheets), range(0, height, TILE), range(0, width, TILE))
+        for of_images in in_order(partial(self._of_tile, source, solid_angle, images), corners):
+            for number, got, power in of_images:
+                self.solid_angle[number] += got
                 for sums, values in zip(self.power, power, strict=True):
-                    np.add.at(sums, texel, values)
+                    sums[number] += values
+
+    def _of_tile(
+        self, source: Representation, solid_angle: Array, images: Octants, corner: tuple[int, int, int]
+    ) -> list[Sums]:
+        """Sums over the texels of a tile, in each of several mirror images."""
+        sheet, row, column = corner
+        radiance = [image[sheet, row : row + TILE, column : column + TILE] for _, image in images]
+        texels = _tile_of(source, solid_angle, corner, radiance[0].shape[:2])
+        shares = [_Runs(*share) for share in self._of_grids(source, texels, DEEPEST)]
+        number, places = _numbered([runs.other for runs in shares], self._counts.size)
+
+        def total(sums: Iterable[Array]) -> Array:
+            collected = np.zeros(len(number))
+            for place, values in zip(places, sums, strict=True):
+                np.add.at(collected, place, values)
+            return collected
+
+        got = total(runs.solid_angle() for runs in shares)
+        others = [number]
+        if len(images) > 1:
+            signs = np.array([signs for signs, _ in images[1:]])
+            others.extend(self._target.mirrored_texels(number, self._width, signs))
+        made = []
+        for other, of_image in zip(others, radiance, strict=True):
+            channels = np.moveaxis(of_image, -1, 0).astype(np.float64, order="C").reshape(len(self.power), -1)
+            power = [total(runs.power(channel) for runs in shares) for channel in channels]
+            made.append((other, got, np.stack(power)))
+        return made
 
     def _of_grids(self, source: Representation, texels: _Texels, quarterings: int) -> Shares:
         weight = np.where(self._target.shows(texels.direction), texels.solid_angle, 0.0)
@@ -152,13 +198,14 @@ class Splat:
             yield from self._of_quarters(source, texels, coarse, quarterings)
             weight[coarse] = 0.0
         extent[:, coarse] = 0.0
+        some = np.flatnonzero(weight)
         yield from self._of_parallelograms(
-            centre.reshape(2, -1),
-            edges.reshape(2, 2, -1),
-            extent.reshape(2, -1),
-            sheet.ravel(),
-            weight.ravel(),
-            texels.radiance.reshape(len(self.power), -1),
+            np.take(centre.reshape(2, -1), some, axis=-1),
+            np.take(edges.reshape(2, 2, -1), some, axis=-1),
+            np.take(extent.reshape(2, -1), some, axis=-1),
+            np.take(sheet, some),
+            np.take(weight, some),
+            np.take(texels.number, some),
         )
 
     def _of_quarters(
@@ -168,7 +215,7 @@ class Splat:
         quarter = 0.25 * texels.step * np.array([[(-1.0, -1.0), (1.0, -1.0)], [(-1.0, 1.0), (1.0, 1.0)]])
         quarter = quarter[:, :, None]
         uv, sheet = texels.uv[chosen], texels.sheet[chosen]
-        solid_angle, radiance = texels.solid_angle[chosen], texels.radiance[:, chosen]
+        solid_angle, number = texels.solid_angle[chosen], texels.number[chosen]
         for first in range(0, len(uv), BLOCK // 4):
             block = slice(first, first + BLOCK // 4)
 
@@ -183,7 +230,7 @@ class Splat:
                 on_sheet,
                 0.5 * texels.step,
                 share,
-                np.moveaxis(_four(radiance[:, block].T), -1, 0),
+                _four(number[block]),
             )
             yield from self._of_grids(source, parts, quarterings - 1)
 
@@ -212,7 +259,7 @@ class Splat:
             edge /= np.maximum(count, 1.0)
 
     def _of_parallelograms(
-        self, centre: Array, edges: Array, extent: Array, sheet: Indices, weight: Array, radiance: Array
+        self, centre: Array, edges: Array, extent: Array, sheet: Indices, weight: Array, number: Indices
     ) -> Shares:
         """Shares of M parallelograms.
 
@@ -226,8 +273,9 @@ class Splat:
             Width and height of the parallelogram along x and y, at most 1.
         sheet : ndarray of int, shape (M,)
         weight : ndarray, shape (M,)
-            [sr]
-        radiance : ndarray, shape (channels, M)
+            [sr], above 0
+        number : ndarray of int, shape (M,)
+            See `_Texels`.
         """
         # Whole numbers, as float64 until they are indices: that is the faster arithmetic.
         texel = np.minimum(np.floor(centre), [[self._width - 1.0], [self._height - 1.0]])
@@ -236,20 +284,19 @@ class Splat:
         within = centre - texel
         distance = np.minimum(within, 1.0 - within)
         reaches = distance < 0.5 * extent
-        some = np.flatnonzero((reaches[0] | reaches[1]) & (weight > 0.0))
+        some = np.flatnonzero(reaches[0] | reaches[1])
         side = np.copysign(1.0, np.take(within, some, axis=-1) - 0.5)
         parts = parts_beyond(np.take(distance, some, axis=-1), side * np.take(edges, some, axis=-1))
         moved = np.take(weight, some) * parts
         weight[some] -= moved.sum(axis=0)
-        yield own, weight, weight * radiance
-        texel, sheet, own = (np.take(of, some, axis=-1) for of in (texel, sheet, own))
+        yield number, own, weight
+        texel, sheet, own, number = (np.take(of, some, axis=-1) for of in (texel, sheet, own, number))
         for (right, up), amount in zip(((1, 0), (0, 1), (1, 1)), moved, strict=True):
             going = np.flatnonzero(amount)
             beside = np.take(texel, going, axis=-1) + np.take(side, going, axis=-1) * [[right], [up]]
             column, row = beside.astype(np.intp)
             other = self._texel(column, row, np.take(sheet, going), np.take(own, going))
-            share = np.take(amount, going)
-            yield other, share, share * np.take(radiance, np.take(some, going), axis=-1)
+            yield np.take(number, going), other, np.take(amount, going)
 
     def _texel(self, column: Indices, row: Indices, sheet: Indices, otherwise: Indices) -> Indices:
         """Number of a texel, beyond a sheet's edge too; `otherwise` where none is, or none that counts."""
@@ -264,66 +311,50 @@ class Splat:
         return np.where(self._counts[texel], texel, otherwise)
 
 
-def parts_beyond(distance: Array, edges: Array) -> Array:
-    """Parts of a parallelogram beyond a vertical line right of its centre, and a horizontal one above.
+def _tile_of(
+    source: Representation, solid_angle: Array, corner: tuple[int, int, int], shape: tuple[int, int]
+) -> _Texels:
+    """Texels of a map, of given solid angles: a grid of some shape from a sheet, row and column onwards.
 
-    Parameters
-    ----------
-    distance : ndarray, shape (2, M)
-        From the centre to the vertical and to the horizontal line, at least 0.
-    edges : ndarray, shape (2, 2, M)
-        Two vectors of x and y.
-
-    Returns
-    -------
-    ndarray, shape (3, M)
-        Parts of its area, in [0, 1], that lie beyond the vertical line only, beyond the horizontal
-        line only, and beyond both.
+    With a rim of texels more, of no solid angle: edges are known from both neighbours.
     """
-    right, above = _part_beyond_line(distance, np.abs(edges[0]), np.abs(edges[1]))
-    both = np.zeros_like(right)
-    cut_twice = np.flatnonzero((right > 0.0) & (above > 0.0))
-    both[cut_twice] = np.minimum(
-        _part_beyond_corner(np.take(distance, cut_twice, axis=-1), np.take(edges, cut_twice, axis=-1)),
-        np.minimum(np.take(right, cut_twice), np.take(above, cut_twice)),
+    sheet, *first = corner
+    _, *size = solid_angle.shape
+    rows, columns = (
+        np.arange(start - 1, start + count + 1)
+        if source.own_grid
+        else np.arange(max(start - 1, 0), min(start + count + 1, end))
+        for start, count, end in zip(first, shape, size, strict=True)
     )
-    return np.stack([right - both, above - both, both])
+    u, v = (columns + 0.5) / size[1], (rows + 0.5) / size[0]
+    own, in_map = (
+        tuple(slice(start, start + count) for start, count in zip(at, shape, strict=True))
+        for at in ((first[0] - rows[0], first[1] - columns[0]), first)
+    )
+    weight, number = np.zeros((len(v), len(u), 1)), np.zeros((len(v), len(u), 1), dtype=np.intp)
+    weight[own] = solid_angle[sheet, *in_map, None]
+    number[own] = np.arange(shape[0] * shape[1]).reshape(*shape, 1)
+    return _Texels(
+        np.stack(np.broadcast_arrays(u, v[:, None]), axis=-1)[:, :, None],
+        source.direction_of_grid(u, v, sheet)[:, :, None],
+        np.full(weight.shape, sheet),
+        np.array([1.0 / size[1], 1.0 / size[0]]),
+        weight,
+        number,
+    )
 
 
-def _part_beyond_line(distance: Array, a: Array, b: Array) -> Array:
-    """Part of a parallelogram beyond a line, given the extents of its edges across the line.
-
-    Its extent along the line is a trapezoid: a box of width a blurred by one of width b.
-    """
-    longer, twice_area = np.maximum(a, b), 2.0 * a * b
-    reach = 0.5 * (a + b)
-    slope = np.maximum(reach - distance, 0.0) ** 2 / np.where(twice_area > 0.0, twice_area, 1.0)
-    top = 0.5 - distance / np.where(longer > 0.0, longer, 1.0)
-    part: Array = np.where(distance < longer - reach, top, slope)
-    return part
-
-
-def _part_beyond_corner(distance: Array, edges: Array) -> Array:
-    """Part of a parallelogram to the right of a vertical and above a horizontal line.
-
-    Summed over its sides: the areas between each, where it is right of the one line and above the other,
-    and the horizontal line; above the parallelogram's lower sides they are taken away again.
-    """
-    area = edges[0, 0] * edges[1, 1] - edges[0, 1] * edges[1, 0]
-    corners = [
-        0.5 * (a * edges[0] + b * edges[1]) - distance for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))
-    ]
-    total = np.zeros_like(area)
-    for (x0, y0), (x1, y1) in zip(corners, corners[1:] + corners[:1], strict=True):
-        start, end = np.maximum(x0, 0.0), np.maximum(x1, 0.0)
-        slope = (y1 - y0) / np.where(x1 == x0, 1.0, x1 - x0)
-        y_start, y_end = y0 + slope * (start - x0), y0 + slope * (end - x0)
-        height = np.abs(y_end - y_start)
-        ramp = np.maximum(np.maximum(y_start, y_end), 0.0) ** 2 / np.where(height > 0.0, 2.0 * height, 1.0)
-        above = np.minimum(y_start, y_end) >= 0.0
-        total += (start - end) * np.where(above, 0.5 * (y_start + y_end), ramp)
-    part: Array = np.clip(total / np.where(area == 0.0, 1.0, area), 0.0, 1.0)
-    return part
+def _numbered(lists: Sequence[Indices], count: int) -> tuple[Indices, list[Indices]]:
+    """Different numbers of several lists, all below `count`, and the places among them of each list's."""
+    numbers = np.concatenate(lists)
+    # Whichever writes last into a number's place stands for all that are equal
+    last = np.empty(count, dtype=np.intp)
+    each = np.arange(len(numbers))
+    last[numbers] = each
+    stands_for = last[numbers]
+    chosen = stands_for == each
+    place = (np.cumsum(chosen) - 1)[stands_for]
+    return numbers[chosen], np.split(place, np.cumsum([len(numbers) for numbers in lists[:-1]]))
 
 
 def _four(values: NDArray[Scalar]) -> NDArray[Scalar]:

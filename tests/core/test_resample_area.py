@@ -1,5 +1,8 @@
 """Any map from any other: what is kept, and means over areas against brute force."""
 
+import dataclasses
+import itertools
+
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core import splat
@@ -7,8 +10,8 @@ from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.errors import RangeError, ShapeError
 from rsibr.rsibr_addon.core.geometry.directions import normalize
 from rsibr.rsibr_addon.core.maps.representation import REPRESENTATIONS, Representation, representation
+from rsibr.rsibr_addon.core.parallelograms import parts_beyond
 from rsibr.rsibr_addon.core.resample import lookup, resample
-from rsibr.rsibr_addon.core.splat import parts_beyond
 
 SIZES = {"equirect": 128, "cube_map": 64, "dual_paraboloid": 96, "orthographic": 96}
 """Width of a sheet of a map of some 10,000 texels; of the others, 128."""
@@ -126,6 +129,47 @@ def test_a_sun_is_laid_where_it_stands() -> None:
     # It lies in one texel or across a few: its mean direction is within a texel, 1/8 at the face's middle
     assert np.linalg.norm(mean - direction) < 0.08
     assert np.count_nonzero(made) <= 4
+
+
+@pytest.mark.parametrize(
+    ("name", "size", "width"), [("cube_map", 16, 128), ("octahedral", 24, 104), ("equirect", 24, 104)]
+)
+def test_one_octant_is_divided_for_all(name: str, size: int, width: int) -> None:
+    source, target = representation("equirect"), representation(name)
+    image = sky(source, width)
+    octants, whole = (
+        splat.Splat(some, size, 3) for some in (target, dataclasses.replace(target, symmetric=False))
+    )
+    for each in (octants, whole):
+        each.lay_down(image, source)
+    # An octahedral map is bent where two of its octants meet: which neighbours a texel's edges there are
+    # known from depends on the octant
+    apart = np.ones(target.shape(size), dtype=bool)
+    if name == "octahedral":
+        apart[:, size // 2 - 1 : size // 2 + 1] = apart[..., size // 2 - 1 : size // 2 + 1] = False
+    apart = apart.ravel()
+    np.testing.assert_allclose(octants.solid_angle[apart], whole.solid_angle[apart], rtol=1e-11)
+    np.testing.assert_allclose(octants.power[:, apart], whole.power[:, apart], rtol=1e-11)
+    np.testing.assert_allclose(octants.power.sum(axis=1), whole.power.sum(axis=1), rtol=1e-12)
+
+
+@pytest.mark.parametrize("name", ["cube_map", "octahedral", "equirect"])
+@pytest.mark.parametrize("signs", list(itertools.product((1, -1), repeat=3)))
+def test_texels_are_mirrored_as_their_directions(name: str, signs: tuple[int, int, int]) -> None:
+    some = representation(name)
+    direction = some.texel_directions(12).reshape(-1, 3)
+    (mirrored,) = some.mirrored_texels(np.arange(len(direction)), 12, np.array([signs]))
+    np.testing.assert_allclose(direction[mirrored], direction * signs, atol=1e-14)
+
+
+def test_octants_of_an_equirect_map_are_mirrored_views() -> None:
+    some = representation("equirect")
+    direction = some.texel_directions(12)
+    octants = some.octants(direction)
+    assert len(octants) == len({signs for signs, _ in octants}) == 8
+    for signs, octant in octants:
+        assert np.shares_memory(octant, direction)
+        np.testing.assert_allclose(octant, octants[0][1] * signs, atol=1e-14)
 
 
 def test_blocks_do_not_show(monkeypatch: pytest.MonkeyPatch) -> None:

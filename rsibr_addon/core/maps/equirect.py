@@ -48,6 +48,36 @@ def texel_solid_angle(width: int, height: int) -> Array:
     return np.broadcast_to((bands * 2.0 * np.pi / width)[:, None], (height, width))
 
 
+def octants(image: Array) -> list[tuple[tuple[int, int, int], Array]]:
+    """Views of a map's eight octants, each in the order of the first one's mirrored texels.
+
+    Parameters
+    ----------
+    image : ndarray, shape (..., height, width, channels)
+        The width is a multiple of 4.
+
+    Returns
+    -------
+    list of ((int, int, int), ndarray)
+        The signs of x, y and z that take the first octant there, and the view.
+    """
+    height, width = image.shape[-3] // 2, image.shape[-2] // 4
+    first, second, third, fourth = (
+        image[..., start : start + width, :] for start in range(0, 4 * width, width)
+    )
+    columns = [
+        ((1, 1), first),
+        ((-1, 1), second[..., ::-1, :]),
+        ((-1, -1), third),
+        ((1, -1), fourth[..., ::-1, :]),
+    ]
+    return [
+        ((*signs, sign), rows)
+        for signs, quarter in columns
+        for sign, rows in ((1, quarter[..., :height, :, :]), (-1, quarter[..., : height - 1 : -1, :, :]))
+    ]
+
+
 def wrap(columns: Indices, rows: Indices, width: int, height: int) -> tuple[Indices, Indices]:
     """Texel that a lookup beyond the edge falls on: around the horizon, and over a pole to its far side.
 

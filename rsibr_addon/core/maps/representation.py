@@ -5,7 +5,7 @@ a map is an array (sheets, height, width, channels), a point of it is a uv and t
 directions are in world coordinates.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -38,6 +38,10 @@ AHEAD = FRONT * (1.0, 1.0, -1.0)
 DirectionFromUv = Callable[[ArrayLike, Indices], Array]
 DirectionOfGrid = Callable[[Array, Array], Array]
 UvFromDirection = Callable[[ArrayLike], tuple[Array, Indices]]
+Octants = Sequence[tuple[ArrayLike, Array]]
+"""For each octant the signs of the axes, shape (3,), that take the first one there, and its texels, shape
+(sheets, rows, columns, channels), in the order of the first one's."""
+
 WrapSheets = Callable[[Indices, Indices, Indices, int, int], tuple[Indices, Indices, Indices]]
 
 
@@ -61,8 +65,13 @@ class Representation:
         Whether texels outside the disk show directions of their own, instead of repeating its rim.
     blind_angle : float
         Half-angle of the cone about its own -z that the map does not show [rad].
+    symmetric : bool
+        Whether the planes between the world's axes mirror a map of even size onto itself, texel by texel.
     own_grid : callable, optional
         The module's directions of a grid, in the map's own axes, where that is faster than point by point.
+        They go on beyond the map's edges.
+    own_octants : callable, optional
+        The module's views of a map's eight octants, where they are grids.
     own_direction, own_uv, solid_angle, wrap_sheets : callable
         The module's four functions with their parameters filled in, in the map's own axes.
     """
@@ -78,7 +87,9 @@ class Representation:
     disk: float = np.inf
     goes_on: bool = False
     blind_angle: float = 0.0
+    symmetric: bool = False
     own_grid: DirectionOfGrid | None = None
+    own_octants: Callable[[Array], Octants] | None = None
 
     def shape(self, size: int) -> tuple[int, int, int]:
         """The shape of a map, without its channels.
@@ -139,6 +150,51 @@ class Representation:
             return self.direction_from_uv(np.stack(np.meshgrid(u, v), axis=-1), np.array(sheet))
         direction = self.own_grid(u, v)
         return direction if self.frame is WORLD else direction @ self.frame.T
+
+    def octants(self, image: Array) -> Octants:
+        """The octants of a map between the axes, where they are grids of mirrored texels.
+
+        Parameters
+        ----------
+        image : ndarray, shape (sheets, height, width, channels)
+
+        Returns
+        -------
+        sequence of ((3,) array_like, ndarray)
+            Eight views as `Octants`; else the whole map alone, with signs of 1.
+        """
+        if self.own_octants is None or image.shape[2] % 4:
+            return [((1, 1, 1), image)]
+        return self.own_octants(image)
+
+    def has_mirrored_texels(self, size: int) -> bool:
+        """Whether planes between the axes mirror a map, `size` texels wide, texel by texel."""
+        return self.symmetric and size % 2 == 0
+
+    def mirrored_texels(self, texel: Indices, size: int, signs: Array) -> Indices:
+        """Texels to those with directions of other signs, in maps that have these.
+
+        Parameters
+        ----------
+        texel : ndarray of int, shape (N,)
+            Numbers of texels, sheet by sheet and row by row.
+        size : int
+            Width of a sheet in texels.
+        signs : ndarray, shape (images, 3)
+            Of the axes of the world, 1 or -1.
+
+        Returns
+        -------
+        ndarray of int, shape (images, N)
+        """
+        _, height, width = shape = self.shape(size)
+        sheet, row, column = np.unravel_index(texel, shape)
+        centre = np.stack([(column + 0.5) / width, (row + 0.5) / height], axis=-1)
+        # Texels' centres meet
+        uv, on = self.uv_from_direction(self.direction_from_uv(centre, sheet) * signs[:, None])
+        columns, rows = np.moveaxis(np.floor(uv * (width, height)).astype(np.intp), -1, 0)
+        mirrored: Indices = (on * height + rows) * width + columns
+        return mirrored
 
     def uv_from_direction(self, direction: ArrayLike) -> tuple[Array, Indices]:
         """The inverse of `direction_from_uv`; directions in the blind spot are taken to its edge."""
@@ -248,7 +304,9 @@ def _equirect() -> Representation:
         equirect.texel_solid_angle,
         WORLD,
         aspect=2,
+        symmetric=True,
         own_grid=equirect.direction_of_grid,
+        own_octants=equirect.octants,
     )
 
 
@@ -284,7 +342,9 @@ def _angular_map() -> Representation:
 
 def _octahedral() -> Representation:
     functions = _one_sheet(octahedral.direction_from_uv, octahedral.uv_from_direction, octahedral.wrap)
-    return Representation("octahedral", *functions, lambda n, _: octahedral.texel_solid_angle(n), WORLD)
+    return Representation(
+        "octahedral", *functions, lambda n, _: octahedral.texel_solid_angle(n), WORLD, symmetric=True
+    )
 
 
 def _dual_paraboloid(overscan: float = 1.0) -> Representation:
@@ -323,6 +383,7 @@ def _cube_map() -> Representation:
         lambda n, _: cube_map.texel_solid_angle(n),
         WORLD,
         cube_map.SHEETS,
+        symmetric=True,
     )
 
 

@@ -20,7 +20,8 @@ from ..core.materials.packing import Picture
 from ..core.materials.principled import PrincipledInputs, Texture
 from ..core.schema import decode, loads
 from .atomic import written_aside
-from .exr import Part, read_attributes, read_parts, write_parts
+from .exr import read_attributes, read_parts, write_parts
+from .exr_part import Part
 
 ATTRIBUTE = "rsibrInputs"
 """Name of the first part's attribute that describes the file, as JSON."""
@@ -98,10 +99,7 @@ def write_baked_inputs(path: Path, baked: BakedInputs, force: bool = False) -> N
     OutputFileError
         It exists and `force` is not set, or it cannot be written.
     """
-    parts = [
-        Part(part_name(*key), dict(zip("RGB", np.moveaxis(texels, -1, 0), strict=True)))
-        for key, texels in baked.pictures.items()
-    ]
+    parts = [Part(part_name(*key), {"RGB": texels}) for key, texels in baked.pictures.items()]
     count = 0
     if baked.corners is not None:
         count = len(baked.corners)
@@ -144,7 +142,7 @@ def read_baked_inputs(path: Path) -> BakedInputs:
         is_known = slot.isdecimal() and INPUTS.issuperset(picture) and 1 <= len(picture) <= len("RGB")
         if not is_known or part.channels.keys() != set("RGB"):
             raise _unknown(path)
-        texels = np.stack([part.channels[axis] for axis in "RGB"], axis=-1)
+        texels = part.side_by_side("RGB")
         pictures[int(slot), picture] = texels.astype(np.float32, copy=False)
     return BakedInputs(pictures, described["uv_map"], corners, tuple(described["remarks"]))
 

@@ -4,7 +4,7 @@ import contextlib
 import io
 import os
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -14,6 +14,7 @@ import OpenEXR
 from ..core.conventions import Array, Indices
 from ..core.errors import InputFileError
 from ..core.threads import starting, thread_count
+from .exr_part import BYTES_OF_SAMPLE, Part, window_size
 from .exr_sampling import interpolated
 from .memory import check_memory
 from .reading import opened
@@ -30,9 +31,6 @@ primaries_named = OpenEXR.colorInteropIDToChromaticities
 
 with starting():
     OpenEXR.set_global_thread_count(thread_count())
-
-FEWEST_STORED = 1000
-"""Number of pixels in a picture of which at least one must be stored."""
 
 LARGEST_TILE = 2048
 """Width or height of a tile that reaches beyond its picture."""
@@ -58,28 +56,6 @@ it takes up to 2.7 times as long.
 
 ROWS_OF_CHUNK = {OpenEXR.ZIP_COMPRESSION: 16, OpenEXR.PIZ_COMPRESSION: 32}
 """Rows that are packed together, by the compressions that are written."""
-
-BYTES_OF_SAMPLE = 8
-"""Bytes of memory for each number of a channel: a float, and as much again for the picture made of it."""
-
-
-@dataclass(frozen=True)
-class Part:
-    """One picture of a file.
-
-    Attributes
-    ----------
-    name : str
-        Unique in its file; may be empty when it is alone.
-    channels : dict of str to ndarray, shape (height, width)
-        Pixels by channel name, float32, float16 or uint32, row 0 at the bottom.
-    attributes : dict of str to object
-        The part's header as the package gives it; on writing, only attributes of our own.
-    """
-
-    name: str
-    channels: dict[str, Array]
-    attributes: dict[str, Any] = field(default_factory=dict)
 
 
 class OpenExr:
@@ -151,22 +127,23 @@ class OpenExr:
             for header, (width, height) in zip(headers, sizes, strict=True)
         )
         check_memory(BYTES_OF_SAMPLE * texels, str(path), max(sizes))
-        with self._package_file(separate_channels=True) as file:
+        if all(map(_holds_rgb, headers)):
+            # The headers as the package gives them do not tell whether channels have one type, without which
+            # it takes none together
+            with contextlib.suppress(InputFileError):
+                return self._read(separate_channels=False)
+        return self._read(separate_channels=True)
+
+    def _read(self, separate_channels: bool) -> list[Part]:
+        with self._package_file(separate_channels=separate_channels) as file:
             # Where the package cannot read a part's pixels, it leaves the part out, without an exception
-            if len(file.parts) != len(headers):
+            if left_out := len(self.headers) - len(file.parts):
                 raise InputFileError(
-                    f"{path} is truncated or damaged (pixels of {len(headers) - len(file.parts)} of its "
-                    f"{len(headers)} parts cannot be read): fetch or make it again."
+                    f"{self._path} is truncated or damaged (pixels of {left_out} of its {len(self.headers)} "
+                    f"parts cannot be read): fetch or make it again."
                 )
             return [
-                Part(
-                    part.header.get("name", ""),
-                    {
-                        name: _full(channel, part.header["dataWindow"])
-                        for name, channel in part.channels.items()
-                    },
-                    dict(part.header),
-                )
+                Part(part.header.get("name", ""), _pixels_by_name(part), dict(part.header))
                 for part in file.parts
             ]
 
@@ -243,6 +220,25 @@ def _check_tiles(path: str | Path, tiles: Any, size: tuple[int, int]) -> None:
         )
 
 
+def _holds_rgb(header: dict[str, Any]) -> bool:
+    """Whether a part has red, green and blue in full, and nothing beside them but alpha."""
+    channels = header["channels"]
+    return {channel.name for channel in channels} | {"A"} == set("RGBA") and all(
+        channel.xSampling == channel.ySampling == 1 for channel in channels
+    )
+
+
+def _pixels_by_name(part: Any) -> dict[str, Array]:
+    """The channels of a part as the package has read it, row 0 at the bottom."""
+    (first, channel), *_ = part.channels.items()
+    if channel.pixels.ndim == 2:
+        return {name: _full(channel, part.header["dataWindow"]) for name, channel in part.channels.items()}
+    pixels = channel.pixels
+    for low, high in zip(range(len(pixels) // 2), reversed(range(len(pixels))), strict=False):
+        pixels[[low, high]] = pixels[[high, low]]
+    return {name: pixels[..., number] for number, name in enumerate(first)}
+
+
 def _full(channel: Any, window: tuple[Indices, Indices]) -> Array:
     """A channel's pixels at the full size of its part, row 0 at the bottom."""
     sampling, pixels = (channel.ySampling, channel.xSampling), channel.pixels
@@ -250,70 +246,6 @@ def _full(channel: Any, window: tuple[Indices, Indices]) -> Array:
         pixels = interpolated(pixels, axis, step, length)
     flipped: Array = pixels[::-1]
     return flipped
-
-
-def window_size(window: tuple[Indices, Indices]) -> tuple[int, int]:
-    """Width and height of a window.
-
-    Parameters
-    ----------
-    window : (ndarray, ndarray)
-        Its corners, both within it, as a header has them.
-
-    Returns
-    -------
-    int, int
-    """
-    low, high = window
-    return int(high[0]) - int(low[0]) + 1, int(high[1]) - int(low[1]) + 1
-
-
-def in_display_window(path: str | Path, part: Part) -> Part:
-    """The whole picture of a part that stores only a window of it, or more than it.
-
-    Parameters
-    ----------
-    path : str or Path
-        The file's path, for messages.
-    part : Part
-        As read.
-
-    Returns
-    -------
-    Part
-        With the pixels of its display window; those that the file does not store are 0.
-
-    Raises
-    ------
-    InputFileError
-        It stores none of them, or hardly any.
-    RangeError
-        The picture is too large for this machine's memory.
-    """
-    low, high = (np.asarray(corner, dtype=np.int64) for corner in part.attributes["dataWindow"])
-    first, last = (np.asarray(corner, dtype=np.int64) for corner in part.attributes["displayWindow"])
-    if np.array_equal(low, first) and np.array_equal(high, last):
-        return part
-    start, end = np.maximum(low, first), np.minimum(high, last) + 1
-    width, height = window_size(part.attributes["displayWindow"])
-    if np.any(end <= start) or np.prod(end - start) * FEWEST_STORED < width * height:
-        raise InputFileError(
-            f"{path} is black, as its data window lies beside its display window, or is a speck in it: "
-            f"save it again, cropped."
-        )
-    check_memory(BYTES_OF_SAMPLE * width * height * len(part.channels), str(path), (width, height))
-    channels = {}
-    for name, pixels in part.channels.items():
-        picture = np.zeros((height, width), pixels.dtype)
-        # Windows count rows from the top
-        picture[::-1][_between(start - first, end - first)] = pixels[::-1][_between(start - low, end - low)]
-        channels[name] = picture
-    return Part(part.name, channels, part.attributes)
-
-
-def _between(start: Indices, end: Indices) -> tuple[slice, slice]:
-    """Rows and columns from (x, y) `start` up to, not including, `end`."""
-    return slice(start[1], end[1]), slice(start[0], end[0])
 
 
 def compression_of(width: int) -> Any:
@@ -335,7 +267,7 @@ def write_parts(path: Path, parts: Sequence[Part]) -> None:
     OSError
         The system refuses, or the disk is full.
     """
-    shapes = [pixels.shape for part in parts for pixels in part.channels.values()]
+    shapes = [pixels.shape[:2] for part in parts for pixels in part.channels.values()]
     largest = np.max(shapes, axis=0).tolist()
     # Through our own stream, because the package's drops the error of its last bytes
     with path.open("wb") as stream:
@@ -359,7 +291,7 @@ def packed(part: Part, largest: Sequence[int], top: int = 0) -> bytes:
         Compressed as `write_parts` does it.
     """
     stream = io.BytesIO()
-    height, width = next(iter(part.channels.values())).shape
+    height, width = next(iter(part.channels.values())).shape[:2]
     window = np.array([0, top], np.int32), np.array([width - 1, top + height - 1], np.int32)
     attributes = part.attributes | {"dataWindow": window}
     OpenEXR.File([_described(replace(part, attributes=attributes), largest)]).write(stream)

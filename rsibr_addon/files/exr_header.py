@@ -9,7 +9,8 @@ import numpy as np
 
 from ..core.conventions import Array, ArrayLike
 from .chromaticities import REC_709, luminance_weights, rec709_from
-from .exr import CUBE, primaries_named, window_size
+from .exr import CUBE, primaries_named
+from .exr_part import window_size
 
 ACES = (0.7347, 0.2653, 0.0, 1.0, 0.0001, -0.077, 0.32168, 0.33767)
 """Chromaticities of every picture in an ACES container, stated or not."""

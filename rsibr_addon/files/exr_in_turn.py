@@ -13,7 +13,8 @@ from typing import BinaryIO
 import numpy as np
 
 from ..core.conventions import Array
-from .exr import MAGIC, ROWS_OF_CHUNK, Part, compression_of, packed
+from .exr import MAGIC, ROWS_OF_CHUNK, compression_of, packed
+from .exr_part import Part
 
 _VERSION = struct.pack("<I", 2 | 1 << 12)
 """Version 2, with several parts."""
@@ -130,9 +131,8 @@ class PartsInTurn:
 
     def _packed(self, name: str, pixels: Array, top: int = 0) -> tuple[dict[bytes, bytes], list[memoryview]]:
         """Attributes of some rows by name, each with its type and size before it, and their chunks."""
-        channels = {channel: pixels[..., i] for i, channel in enumerate("RGB")}
         attributes = {self._attribute: self._text} if name == self._first else {}
-        file = packed(Part(name, channels, attributes), self._largest, top)
+        file = packed(Part(name, {"RGB": pixels}, attributes), self._largest, top)
         header, at = {}, len(MAGIC + _VERSION)
         while file[at]:
             end_of_name = file.index(0, at)

@@ -23,8 +23,9 @@ from ..core.threads import in_order
 from ..core.warned import warn
 from . import radiance_hdr
 from .atomic import check_target, written_aside
-from .exr import MAGIC, OpenExr, Part
+from .exr import MAGIC, OpenExr
 from .exr_in_turn import PartsInTurn
+from .exr_part import Part
 from .map_set_check import check_header
 from .map_set_data import MapSet, MapsInTurn
 from .map_set_header import FORMAT
@@ -235,7 +236,7 @@ def _checked_pixels(path: str | Path, listed: dict[str, Any], part: Part) -> Arr
     types = {pixels.dtype.name for pixels in part.channels.values()}
     if part.channels.keys() != set("RGB") or types not in ({"float32"}, {"float16"}):
         raise MapSetError(f"{path} has no R, G and B in float or half in part {part.name!r}: make it again.")
-    stored = np.stack([part.channels[channel] for channel in "RGB"], axis=-1)
+    stored = part.side_by_side("RGB")
     if _derived(stored)["sha256"] != listed["sha256"]:
         raise MapSetError(f"{path} is damaged: part {part.name!r} is not as written; fetch or make it again.")
     unusable = int(np.count_nonzero(~np.isfinite(stored)))

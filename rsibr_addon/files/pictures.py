@@ -11,9 +11,10 @@ from ..core.errors import InputFileError, ShapeError
 from ..core.warned import warn
 from .atomic import written_aside
 from .chromaticities import XYZ, rec709_from
-from .exr import OpenExr, Part, in_display_window, open_exr, read_attributes, window_size, write_parts
+from .exr import OpenExr, open_exr, read_attributes, write_parts
 from .exr_header import Meaning, meaning
 from .exr_layers import Layer, choose, layers_of
+from .exr_part import Part, in_display_window, window_size
 from .map_set_mark import ATTRIBUTE
 from .picture_facts import GREY, PictureFacts
 
@@ -39,9 +40,8 @@ def write_exr(path: str | Path, rgba: Array, force: bool = False) -> None:
     if rgba.ndim != 3 or rgba.shape[2] != 4:
         raise ShapeError(f"{path} takes a picture of shape (height, width, 4), not {rgba.shape}.")
     pixels = rgba.astype(np.float32)
-    channels: dict[str, Array] = {name: pixels[..., i] for i, name in enumerate("RGBA")}
     with written_aside(path, force) as aside:
-        write_parts(aside, [Part("", channels)])
+        write_parts(aside, [Part("", {"RGBA": pixels})])
 
 
 def read_exr(path: str | Path) -> Array:
@@ -178,9 +178,7 @@ def _rec709_picture(channels: dict[str, Array], meant: Meaning) -> Array:
         channels = channels | {"R": channels["X"], "G": channels["Y"], "B": channels["Z"]}
         matrix = rec709_from(XYZ)
     roles = [role for role in "RGBA" if role in channels] if "R" in channels else ["Y"]
-    pixels = np.empty((*channels[roles[0]].shape, len(roles)), np.float32)
-    for number, role in enumerate(roles):
-        pixels[..., number] = channels[role]
+    pixels = Part("", channels).side_by_side(roles).astype(np.float32, copy=False)
     if len(roles) >= 3 and not np.array_equal(matrix, np.eye(3)):
         with np.errstate(over="ignore", invalid="ignore"):  # from values that are already infinite
             for row in pixels:

@@ -8,6 +8,7 @@ from ..core.conventions import Array
 from ..core.errors import InputFileError
 from . import exr, radiance_hdr
 from .atomic import check_target, written_aside
+from .exr_part import Part
 from .picture_facts import PictureFacts
 from .pictures import describe_exr, picture_of, split_layer
 from .reading import opened
@@ -131,9 +132,8 @@ def write_radiance(path: str | Path, radiance: Array, force: bool = False, comme
         radiance_hdr.write_hdr(path, radiance, force, comments)
         return
     pixels = radiance.astype(np.float32, copy=False)
-    channels = {name: pixels[..., i] for i, name in enumerate("RGB")}
     with written_aside(path, force) as aside:
-        exr.write_parts(aside, [exr.Part("", channels, {"comments": comments} if comments else {})])
+        exr.write_parts(aside, [Part("", {"RGB": pixels}, {"comments": comments} if comments else {})])
 
 
 def _start(path: str | Path) -> bytes:

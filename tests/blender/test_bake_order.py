@@ -8,7 +8,8 @@ import bpy
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import InputFileError, OutputFileError, RsibrError, SceneError
-from rsibr.rsibr_addon.files.exr import Part, write_parts
+from rsibr.rsibr_addon.files.exr import write_parts
+from rsibr.rsibr_addon.files.exr_part import Part
 from rsibr.rsibr_addon.files.staging import is_staging_folder
 from rsibr.rsibr_addon.host.bake_settings import apply_settings, plain_settings
 from rsibr.rsibr_addon.job import read_job

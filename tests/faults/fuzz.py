@@ -20,7 +20,8 @@ from rsibr.rsibr_addon.command_line import info, job
 from rsibr.rsibr_addon.command_line.console import Console
 from rsibr.rsibr_addon.core.errors import DeviceError, RsibrError
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.files.exr import Part, read_parts, write_parts
+from rsibr.rsibr_addon.files.exr import read_parts, write_parts
+from rsibr.rsibr_addon.files.exr_part import Part
 from rsibr.rsibr_addon.files.fits import read_fit
 from rsibr.rsibr_addon.files.map_set import read_map_set, read_map_set_header, write_map_set
 from rsibr.rsibr_addon.files.map_set_mark import ATTRIBUTE

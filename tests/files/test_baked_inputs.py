@@ -17,7 +17,8 @@ from rsibr.rsibr_addon.files.baked_inputs import (
     unwrapping_name,
     write_baked_inputs,
 )
-from rsibr.rsibr_addon.files.exr import Part, write_parts
+from rsibr.rsibr_addon.files.exr import write_parts
+from rsibr.rsibr_addon.files.exr_part import Part
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 
 RNG = np.random.default_rng(5)

@@ -4,8 +4,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.files.exr import Part, write_parts
+from rsibr.rsibr_addon.files.exr import write_parts
 from rsibr.rsibr_addon.files.exr_in_turn import PartsInTurn
+from rsibr.rsibr_addon.files.exr_part import Part
 
 RNG = np.random.default_rng(0)
 MAPS = {

@@ -5,8 +5,6 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from ...core.brdf.gallery import gallery_name
 from ...core.brdf.lambert import Lambert
 from ...core.brdf.lobe_width import narrowest_alpha
@@ -20,7 +18,8 @@ from ...core.kinds.radiance_views.left_out import LeftOut
 from ...core.options import to_plain
 from ...core.progress import Progress, Steps, drain
 from ...files.atomic import written_aside
-from ...files.exr import Part, read_parts, write_parts
+from ...files.exr import read_parts, write_parts
+from ...files.exr_part import Part
 from ...files.kinds.radiance_views import LEFT_OUT
 from ...files.map_set_data import ENVIRONMENT, MapsInTurn
 from ...files.map_set_header import Origin, Recipe, make_header
@@ -129,10 +128,10 @@ def _captured(settings: RadianceViewsSettings, light: Environment) -> "ViewsByMo
 
 
 def _keep_view(paths: Sequence[Path], view: int, diffuse: Array, glossy: Array, noise: float) -> None:
-    parts = []
-    for name, radiance in {"diffuse": diffuse, "glossy": glossy}.items():
-        channels = {channel: radiance[..., i] for i, channel in enumerate("RGB")}
-        parts.append(Part(name, channels, {NOISE: repr(noise)}))
+    parts = [
+        Part(name, {"RGB": radiance}, {NOISE: repr(noise)})
+        for name, radiance in {"diffuse": diffuse, "glossy": glossy}.items()
+    ]
     with written_aside(paths[view], force=True) as aside:
         write_parts(aside, parts)
 
@@ -164,24 +163,20 @@ def _map_set(
             shapes[name] = (settings.size,) * 2
             parts.append({"name": name, "role": part.name, "view": view, "view_dir": view_dir})
         variance += float(finished[0].attributes[NOISE]) ** 2 / len(paths)
-        left_out.add(view, *map(_rgb, finished))
+        left_out.add(view, *(part.side_by_side("RGB") for part in finished))
     errors = {"relative_noise": variance**0.5}
     errors |= {f"{LEFT_OUT}{warping}": error for warping, error in left_out.errors().items()}
 
     def maps() -> Iterator[Array]:
         yield from (light.radiance, albedo)
         for path in paths:
-            yield from map(_rgb, read_parts(path))
+            yield from (part.side_by_side("RGB") for part in read_parts(path))
 
     untold = ("material", *(RENDERING if is_model(settings.material) else ()))
     stated = {name: value for name, value in to_plain(settings).items() if name not in untold}
     origin = Origin(light, stated, software, captured.material, errors)
     header = make_header("sphere_map", (settings.size, settings.size), parts, origin)
     return MapsInTurn("radiance_views", shapes, maps(), header)
-
-
-def _rgb(part: Part) -> Array:
-    return np.stack([part.channels[channel] for channel in "RGB"], axis=-1)
 
 
 METHOD = Method(bake, cost, material, sources)

@@ -4,9 +4,23 @@
 #include "lib/footprint_lib.glsl"
 #include "lib/summed_area_lib.glsl"
 
+// Places of ways in `Averaging`; floats, as they come among others.
+const float SUBDIVIDE = 0.0;
+const float QUADRILATERAL = 1.0;
+
 const float PART_ROWS = 2.0;
 const int MOST_SUBDIVIDED = 16;
 const float MOST_STRIPS = 32.0;
+const float WHOLE = 1e-3;
+
+// Width and height [texels] of boxes for smaller footprints.
+const float SMALL = 1.001;
+
+// Least width [texels] by which a strip's mean counts, so that one without any counts too.
+const float LEAST_WIDTH = 1e-3;
+
+// Beyond all u: an interval from here to its negative is empty.
+const float BEYOND = 1e9;
 
 // Boxes that hold parts of the footprint.
 vec3 summed_mean(sampler2DArray table, vec3 unit, vec3 corners[4])
@@ -60,13 +74,13 @@ vec3 strip_mean(sampler2DArray table, vec3 unit, vec3 corners[4], vec4 whole)
     float ahead = (i > 0) ? at[i].x - at[max(i - 1, 0)].x : 0.0;
     at[i].x -= roundEven(ahead);
   }
-  float count = clamp(ceil((whole.w - whole.y) * size.y - 0.001), 1.0, MOST_STRIPS);
+  float count = clamp(ceil((whole.w - whole.y) * size.y - WHOLE), 1.0, MOST_STRIPS);
   vec4 sum = vec4(0.0);
   for (float strip = 0.0; strip < count; strip += 1.0) {
     vec2 rows = mix(whole.yy, whole.ww, vec2(strip, strip + 1.0) / count);
     float middle = 0.5 * (rows.x + rows.y);
-    vec2 crossed = vec2(1e9, -1e9);
-    vec2 outer = vec2(1e9, -1e9);
+    vec2 crossed = vec2(BEYOND, -BEYOND);
+    vec2 outer = vec2(BEYOND, -BEYOND);
     for (int i = 0; i < 4; i++) {
       vec2 from = at[i];
       vec2 to = at[(i + 1) % 4];
@@ -82,7 +96,7 @@ vec3 strip_mean(sampler2DArray table, vec3 unit, vec3 corners[4], vec4 whole)
     float left = 0.5 * (span.x + span.y) - half_width;
     left -= floor(left);
     vec4 box = vec4(left, rows.x, left + 2.0 * half_width, rows.y);
-    float weight = max(extent, 1e-3 / size.x) * sin(PI * middle);
+    float weight = max(extent, LEAST_WIDTH / size.x) * sin(PI * middle);
     sum += weight * vec4(box_mean(table, unit, box), 1.0);
   }
   return sum.rgb / sum.a;
@@ -98,14 +112,14 @@ vec3 footprint_mean(sampler2D bordered,
                     vec3 corners[4],
                     float averaging)
 {
-  if (averaging < 0.5) {
+  if (averaging == SUBDIVIDE) {
     return subdivided_mean(bordered, table, unit, direction, corners);
   }
   vec2 size = vec2(textureSize(table, 0).xy - 1);
   vec4 box = footprint_box(corners, size);
   vec2 extent = (box.zw - box.xy) * size;
-  if (max(extent.x, extent.y) < 1.001) {
+  if (max(extent.x, extent.y) < SMALL) {
     return equirect_radiance(bordered, direction);
   }
-  return (averaging < 1.5) ? strip_mean(table, unit, corners, box) : summed_mean(table, unit, corners);
+  return (averaging == QUADRILATERAL) ? strip_mean(table, unit, corners, box) : summed_mean(table, unit, corners);
 }

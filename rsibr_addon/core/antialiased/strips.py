@@ -10,6 +10,9 @@ from .summed_area import SummedAreaTable, box_mean
 MOST_STRIPS = 32
 """Most strips of a quadrilateral; where it has more rows, a strip has several."""
 
+LEAST_WIDTH = 1e-3
+"""Least width [texels] by which a strip's mean counts, so that one without any counts too."""
+
 WHOLE = 1e-3
 """Part of a row that needs no strip of its own: boxes may have whole rows, but for rounding."""
 
@@ -50,7 +53,7 @@ def strip_means(table: SummedAreaTable, corners: Array) -> Array:
         )
         box[:, ::2] -= np.floor(box[:, :1])
         box[around[on]] = whole[on & around]
-        weight = np.maximum(right - left, 1e-3) * np.sin(0.5 * np.pi / height * (begin + end)[on])
+        weight = np.maximum(right - left, LEAST_WIDTH) * np.sin(0.5 * np.pi / height * (begin + end)[on])
         total[on] += weight[:, None] * box_mean(table, box)
         weights[on] += weight
     mean: Array = total / weights[:, None]

@@ -81,7 +81,7 @@ class RSIBR_PT_film(_OfEngine, bpy.types.Panel):
         blur.active = not scene.rsibr_render.background
         blur.prop(scene.rsibr_render, "background_blur")
         column.prop(scene.rsibr_render, "background_exposure")
-        for message in filter(None, (previews.backgrounds.message, *previews.floors.messages)):
+        for message in filter(None, (previews.behind.backgrounds.message, *previews.behind.floors.messages)):
             tell(self.layout, message, context.region.width)
 
 

@@ -66,7 +66,7 @@ class Renders:
         frame = self._frame(view)
         while previews.is_busy:
             frame = self._frame(view)
-        if trouble := previews.faults.trouble or previews.backgrounds.message:
+        if trouble := previews.faults.trouble or previews.behind.backgrounds.message:
             raise RenderError(trouble)
         if self._darkness is None:
             self._darkness = darkness()
@@ -75,7 +75,7 @@ class Renders:
     def messages(self, picture: Picture) -> list[str]:
         """What is to be said of what a picture shows, as far as it is drawn."""
         told = [message for item in picture.items for message in self._messages(item)]
-        return [*told, *self._previews.floors.messages]
+        return [*told, *self._previews.behind.floors.messages]
 
     def news(self, messages: Iterable[str]) -> list[str]:
         """Those of some messages that this render has not told."""

@@ -13,7 +13,7 @@ from ...host.blend_files import whole_path
 from ...host.option_properties import options_of
 from ...settings.render import RenderOptions
 from ..light.light_pictures import read_light
-from .map_sets import stamp_of
+from .map_sets import Stamp, stamp_of
 
 
 @dataclass
@@ -53,7 +53,12 @@ class Backgrounds:
 
     def __init__(self, worker: Executor) -> None:
         self._worker, self._scenes = worker, dict[int, _OfScene]()
+        self._stamps: dict[Path, Stamp | None] = {}
         self.message = ""
+
+    def files_changed(self) -> None:
+        """Look anew whether pictures are still the same."""
+        self._stamps.clear()
 
     @property
     def is_busy(self) -> bool:
@@ -88,7 +93,9 @@ class Backgrounds:
         exposure = 2.0**options.background_exposure
         if options.background is not None:
             path = whole_path(options.background)
-            return self._made(number, (path, stamp_of(path)), world, _picture, path), exposure
+            if path not in self._stamps:
+                self._stamps[path] = stamp_of(path)
+            return self._made(number, (path, self._stamps[path]), world, _picture, path), exposure
         if options.background_blur and world:
             blur, light = options.background_blur, world.environment
             return self._made(number, (light.sha256, blur), world, _blurred, light, blur), exposure

@@ -37,7 +37,7 @@ class Floors:
 
     def __init__(self) -> None:
         self.messages: list[str] = []
-        self._shadows: dict[tuple[Any, ...], CaughtShadow] = {}
+        self._shadows: dict[tuple[Any, ...], CaughtShadow | None] = {}
         self._lamps: dict[tuple[str, bytes], Lamps] = {}
 
     def caught(
@@ -81,6 +81,19 @@ class Floors:
         floor = floor_from_world(catcher.drawable.surface.matrix, catcher.plane, eye)
         if floor is None:
             return None
+        cast = ((each.mesh.batch, each.surface.matrix.tobytes()) for each in casters)
+        key = light.sha256, turn.tobytes(), floor.tobytes(), *cast
+        known = key in self._shadows
+        shadow = self._shadows.pop(key) if known else self._made(casters, light, turn, floor)
+        self._shadows[key] = shadow  # the newest last
+        if len(self._shadows) > KEPT:
+            del self._shadows[next(iter(self._shadows))]
+        return shadow
+
+    def _made(
+        self, casters: Sequence[Drawable], light: Environment, turn: Array, floor: Array
+    ) -> CaughtShadow | None:
+        """None where nothing is above the floor."""
         placed = [(each, floor @ each.surface.matrix) for each in casters]
         bounds = {each: _moved(model, each.corners) for each, model in placed if each.corners is not None}
         above = [(each, model) for each, model in placed if bounds[each][:, 2].max() > 0.0]
@@ -88,17 +101,6 @@ class Floors:
             return None
         area = FloorArea(*floor_area(np.concatenate([bounds[each] for each, _ in above])))
         models: list[Cast] = [(each.mesh, model) for each, model in above]
-        cast = ((mesh.batch, model.tobytes()) for mesh, model in models)
-        key = light.sha256, turn.tobytes(), floor.tobytes(), *cast
-        shadow = self._shadows.pop(key, None) or self._made(models, light, turn, floor, area)
-        self._shadows[key] = shadow  # the newest last
-        if len(self._shadows) > KEPT:
-            del self._shadows[next(iter(self._shadows))]
-        return shadow
-
-    def _made(
-        self, models: list[Cast], light: Environment, turn: Array, floor: Array, area: FloorArea
-    ) -> CaughtShadow:
         up = turn @ floor[2, :3]
         found = light.sha256, np.round(up, 6).tobytes()
         if found not in self._lamps:

@@ -21,13 +21,12 @@ from ...host.live_light import is_readable, shows_surroundings
 from ...host.visible_surfaces import Layer, Side, Surface, View, map_set_of, objects_numbered
 from ..methods.kinds import KINDS
 from ..methods.live_materials import LiveFits
-from .backgrounds import Backgrounds
 from .baked_inputs import InputBakes
+from .behind import BehindObjects
 from .blender_pictures import BlenderPictures
 from .contents import Contents, Drawable, LayerContents
 from .displays import Displays
 from .faults import Faults
-from .floors import Floors
 from .frame import Frame, Shown, placed
 from .looks import Looks, own_look, wants_own
 from .map_sets import MapSets, ViewportMapSet
@@ -54,8 +53,7 @@ class Previews:
         What was baked of materials.
     worlds : Worlds
         The worlds' own map sets.
-    floors, backgrounds
-        What lies behind all objects.
+    behind : BehindObjects
     faults : Faults
         What went wrong. Call `draw`, `render_surroundings` and `add_display` within its `guarded`.
     """
@@ -70,7 +68,7 @@ class Previews:
         self._stage, self._other_stage = Stage(), Stage()
         self.inputs = InputBakes(self._reader)
         self.worlds = Worlds()
-        self.floors, self.backgrounds = Floors(), Backgrounds(self._reader)
+        self.behind = BehindObjects(self._reader)
         self._layers = LayerContents(self._shows_own, self.inputs, self.worlds)
         self._displays = Displays()
         self._surfaces: Any = None
@@ -82,6 +80,7 @@ class Previews:
         self._map_sets.keep([])
         self._map_sets = MapSets(self._fits, self._reader)
         self._looks, self.faults = Looks(), Faults()
+        self.behind.backgrounds.files_changed()
         self.worlds.changed()
         self._layers.scene_changed(materials=False)
 
@@ -97,6 +96,7 @@ class Previews:
             self.worlds.changed()
         self._layers.scene_changed(materials)
         self._blender_pictures.scene_changed()
+        self.behind.backgrounds.files_changed()
         for light in self._map_sets.lights.values():
             light.scene_changed()
 
@@ -114,11 +114,11 @@ class Previews:
     @property
     def is_busy(self) -> bool:
         """Whether a map set is on its way, so that `take_news` is to be asked."""
-        return any(each.is_busy for each in (self._map_sets, self.inputs, self.backgrounds))
+        return any(each.is_busy for each in (self._map_sets, self.inputs, self.behind.backgrounds))
 
     def take_news(self) -> bool:
         """Whether a redraw would show more than the last one."""
-        return any([self._map_sets.take_news(), self.inputs.take_news(), self.backgrounds.take_news()])
+        return any([self._map_sets.take_news(), self.inputs.take_news(), self.behind.backgrounds.take_news()])
 
     def is_loading(self, item: Any) -> bool:
         """Whether an object's map set is on its way."""
@@ -225,13 +225,18 @@ class Previews:
             for (each, map_set, looks), light in zip(looked, lights, strict=True)
         ]
         hiding = placed(contents.others or [], view, sight)
-        return replace(self._behind(contents, view, sight), shown=shown, hiding=hiding)
+        behind = self.behind.of(contents, view, sight, self._world(view), self.faults)
+        return replace(behind, shown=shown, hiding=hiding)
 
     def draw_backdrop(self, view: View) -> None:
-        """Fill the active frame buffer with the world, in linear radiance, where all objects are shaded."""
+        """Fill the active frame buffer with the world, in linear radiance, where all objects are shaded.
+
+        The view's next `frame` has the same behind its objects: Blender asks for both, one after the other.
+        """
         if view.shades_all:
-            sight = Sight.by(*view.matrices)
-            self._behind(self._contents(view), view, sight).draw_behind(self._stage, view, sight)
+            sight, contents = Sight.by(*view.matrices), self._contents(view)
+            behind = self.behind.first(contents, view, sight, self._world(view), self.faults)
+            behind.draw_behind(self._stage, view, sight)
 
     def render_surroundings(self, view: View) -> bool:
         """Render the light around objects that are in live light, as far as the scene has changed.
@@ -295,21 +300,6 @@ class Previews:
     def _numbers_with_baked_inputs(self, layers: Collection[Layer] | None = None) -> set[int]:
         previewed = self._layers.previewed(layers)
         return {each.surface.number for each in previewed if each.materials and each.materials.has_baked}
-
-    def _behind(self, contents: Contents, view: View, sight: Sight) -> Frame:
-        """A frame of what lies behind all objects, where all are shaded."""
-        if not view.shades_all:
-            return Frame([], [], [], [], None, 1.0, self.faults)
-        world = self._world(view)
-        light = world.backdrop.environment if world and world.backdrop else None
-        floors = [
-            (mesh, draw, shadow)
-            for each, shadow in self.floors.caught(contents, view, light, sight.eye)
-            for mesh, draw in placed([each.drawable], view, sight)
-        ]
-        behind, exposure = self.backgrounds.of(view.depsgraph.scene_eval, world.backdrop if world else None)
-        holes = placed(contents.holes, view, sight)
-        return Frame([], [], holes, floors, behind, exposure, self.faults)
 
     def _contents(self, view: View) -> Contents:
         """What a view layer shows, looked at anew if it may have changed."""

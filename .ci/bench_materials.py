@@ -7,7 +7,6 @@ root-mean-square errors over the picture.
 """
 
 import argparse
-import dataclasses
 import warnings
 from collections.abc import Iterator
 from typing import Any
@@ -69,6 +68,10 @@ MATERIALS: dict[str, dict[str, Any]] = {
     "clay": {"base_color": (0.55, 0.4, 0.3), "specular_level": 0.0, "diffuse_roughness": 1.0},
 }
 
+CLOTH = {"base_color": RED, "roughness": 0.8, "sheen_weight": 1.0, "sheen_tint": (1.0, 0.8, 0.7)}
+SHEENS = (0.25, 0.5, 0.8)
+"""Roughnesses of its sheen, which engines' split sum does not have."""
+
 
 def tiles() -> tuple[Array, Array, Array]:
     """Column and row of each tile, shapes (N,), and the sphere's normal there in the camera's axes (N, 3)."""
@@ -117,7 +120,7 @@ def by_cycles(environment: Environment, surface: Surface, bumped: Array, samples
     """Radiance of each tile, twice, of as many samples each."""
     column, row, normal = tiles()
     camera = Camera((0.0, 0.0, 1.0))
-    names = [field.name for field in dataclasses.fields(Principled)]
+    names = [name for name in INPUTS if hasattr(surface, name)]
     inputs = {INPUTS[name]: np.asarray(getattr(surface, name)) for name in names}
     varied = {name: each for name, each in inputs.items() if len(each.shape) and len(each) == len(normal)}
     varied["Normal"] = bumped @ camera.frame.T
@@ -215,16 +218,33 @@ class Place:
         for name, (surface, bumped) in {"textured": textured(normal), "coated plastic": coated}.items():
             truth = by_cycles(self._environment, surface, bumped, samples)
             yield self._row(name, "Cycles", surface, bumped, truth)
+        for roughness in SHEENS:
+            surface = uniform({**CLOTH, "sheen_roughness": roughness}, len(normal))
+            truth = by_cycles(self._environment, surface, normal, samples)
+            name = f"cloth, sheen of roughness {roughness:g}"
+            yield f"| {name} | {self._environment.name} | Cycles | {self._own(surface, normal, truth)[1]} | |"
+
+    def _own(self, surface: Surface, normal: Array, truth: list[Array]) -> tuple[float, str]:
+        """Our error, and its words."""
+        shown = principled_radiance(self._pyramid, self._families, surface, *_seen(normal))
+        ours = error(shown, truth)
+        return ours, _in_words(ours)
 
     def _row(self, name: str, against: str, surface: Surface, normal: Array, truth: list[Array]) -> str:
-        frame = Camera((0.0, 0.0, 1.0)).frame
-        view_dir = np.broadcast_to(frame[:, 2], normal.shape)
-        points = normal @ frame.T, view_dir
-        ours = error(principled_radiance(self._pyramid, self._families, surface, *points), truth)
-        theirs = error(self._split.shaded(surface, *points), truth)
+        ours, own = self._own(surface, normal, truth)
+        theirs = error(self._split.shaded(surface, *_seen(normal)), truth)
         ratio = f" ({theirs / ours:.1f}x)" if ours > 0.0 else ""
-        own, other = (f"{each:.1%}" if each > 0.0 else "below the noise" for each in (ours, theirs))
-        return f"| {name} | {self._environment.name} | {against} | {own} | {other}{ratio} |"
+        return f"| {name} | {self._environment.name} | {against} | {own} | {_in_words(theirs)}{ratio} |"
+
+
+def _seen(normal: Array) -> tuple[Array, Array]:
+    """Normals of the camera's axes in the world's, and the views of them."""
+    frame = Camera((0.0, 0.0, 1.0)).frame
+    return normal @ frame.T, np.broadcast_to(frame[:, 2], normal.shape)
+
+
+def _in_words(error: float) -> str:
+    return f"{error:.1%}" if error > 0.0 else "below the noise"
 
 
 def main() -> None:

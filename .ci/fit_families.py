@@ -14,8 +14,16 @@ from rsibr.rsibr_addon.core.conventions import Array
 from rsibr.rsibr_addon.core.lobes.accuracy import FitErrors, fit_errors
 from rsibr.rsibr_addon.core.lobes.family import Family
 from rsibr.rsibr_addon.core.lobes.family_fit import fit_gaussian, fit_ggx, fit_leaning
+from rsibr.rsibr_addon.core.lobes.rings import elevations, fit_sheen, ring_errors
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.files.families import SHIPPED, shipped_family, write_family
+from rsibr.rsibr_addon.files.families import (
+    SHIPPED,
+    shipped_family,
+    shipped_sheen,
+    write_family,
+    write_sheen,
+)
+from rsibr.rsibr_addon.host.sheen import measured_sheen
 
 MATERIALS: dict[str, tuple[Fresnel, Array]] = {
     "white metal": (Schlick(f0=1.0), schlick(1.0)),
@@ -55,6 +63,21 @@ def errors(family: Family) -> str:
     return "\n".join(lines)
 
 
+def sheen_errors() -> str:
+    """Errors of sheen towards views, and its albedo."""
+    mu = elevations(4)
+    lines = [
+        f"| roughness | {' | '.join(f'n.v {each:.3f}' for each in mu)} |",
+        f"|---|{len(mu) * '---|'}",
+    ]
+    for roughness in (0.2, 0.3, 0.4, 0.5, 0.7, 1.0):
+        sheen = measured_sheen(roughness, mu)
+        found = ring_errors(sheen, shipped_sheen().at(roughness, mu))
+        columns = " | ".join(f"{e:.2f} ({a:.3f})" for e, a in zip(found, sheen.albedo, strict=True))
+        lines.append(f"| {roughness} | {columns} |")
+    return "\n".join(lines)
+
+
 def main() -> None:
     """Fit, where asked to, and write the table."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -63,7 +86,9 @@ def main() -> None:
         write_family(SHIPPED / "ggx.npz", drain(fit_ggx()))
         write_family(SHIPPED / "gaussian.npz", drain(fit_gaussian()))
         write_family(SHIPPED / "leaning.npz", drain(fit_leaning()))
+        write_sheen(SHIPPED / "sheen.npz", drain(fit_sheen(measured_sheen)))
     write_table("materials.md", "family", errors(shipped_family("ggx")))
+    write_table("materials.md", "sheen", sheen_errors())
 
 
 if __name__ == "__main__":

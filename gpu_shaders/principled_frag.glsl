@@ -1,4 +1,6 @@
-// Twin of core/kinds/kernel_pyramid/shading.py `principled_radiance`, of one material.
+// Twin of core/kinds/kernel_pyramid/shading.py `principled_radiance`, of one material, which has no
+// sheen.
+#define SHEENLESS
 #include "lib/footprint_lib.glsl"
 #include "lib/principled_radiance_lib.glsl"
 #include "lib/sides_lib.glsl"
@@ -22,6 +24,9 @@ void main()
                             widened_roughness(look.coating.x, spread),
                             look.coating.y,
                             look.coat.rgb,
+                            0.0,
+                            0.0,
+                            vec3(0.0),
                             look.emission.rgb);
   radiance.rgb = principled_radiance(atlas,
                                      lookups,
@@ -29,6 +34,7 @@ void main()
                                      leaning,
                                      albedos,
                                      rises,
+                                     sheens,
                                      surface,
                                      seen.normal,
                                      seen.normal,

@@ -28,13 +28,16 @@ const int COAT_TINT = 14;
 const int EMISSION_COLOR = 17;
 const int EMISSION_STRENGTH = 20;
 const int ALPHA = 21;
-const int NORMAL_COLOR = 22;
-const int NORMAL_STRENGTH = 25;
-const int BUMP_STRENGTH = 26;
-const int BUMP_DISTANCE = 27;
-const int COAT_NORMAL_COLOR = 28;
-const int COAT_NORMAL_STRENGTH = 31;
-const int NUMBERS = 32;
+const int SHEEN_WEIGHT = 22;
+const int SHEEN_ROUGHNESS = 23;
+const int SHEEN_TINT = 24;
+const int NORMAL_COLOR = 27;
+const int NORMAL_STRENGTH = 30;
+const int BUMP_STRENGTH = 31;
+const int BUMP_DISTANCE = 32;
+const int COAT_NORMAL_COLOR = 33;
+const int COAT_NORMAL_STRENGTH = 36;
+const int NUMBERS = 40;
 
 float numbers[NUMBERS];
 
@@ -264,6 +267,9 @@ void main()
                             widened_roughness(clamp(numbers[COAT_ROUGHNESS], 0.0, 1.0), coat_spread),
                             numbers[COAT_IOR],
                             color_of(COAT_TINT),
+                            numbers[SHEEN_WEIGHT],
+                            numbers[SHEEN_ROUGHNESS],
+                            color_of(SHEEN_TINT),
                             emitted(color_of(EMISSION_COLOR) * numbers[EMISSION_STRENGTH], draw.strength));
   radiance.rgb = principled_radiance(atlas,
                                      lookups,
@@ -271,6 +277,7 @@ void main()
                                      leaning,
                                      albedos,
                                      rises,
+                                     sheens,
                                      surface,
                                      seen.normal,
                                      normalize(seen.outside ? world_normal : -world_normal),

@@ -3,11 +3,19 @@
 // holds the directional albedos of GGX times the powers from 2 onwards; layer 1 that of GGX itself, and twice
 // its integral over mu.
 //
-// A program for surfaces without a coat, or without rough facets below it, may define UNCOATED or
-// SMOOTH_DIFFUSE: where fragments may differ, drivers compute both ways of a branch.
+// The texture `sheens` has a column for each roughness from 0 to 1 and a row for each elevation, as `albedos`
+// has: the weights of `SheenTable`, which sum to the albedo.
+//
+// A program for surfaces without sheen, without a coat, or without rough facets below it, may define
+// SHEENLESS, UNCOATED or SMOOTH_DIFFUSE: where fragments may differ, drivers compute both ways of a branch.
 #include "lib/family_lib.glsl"
 #include "lib/fresnel_powers_lib.glsl"
 
+#ifdef SHEENLESS
+const bool MAY_HAVE_SHEEN = false;
+#else
+const bool MAY_HAVE_SHEEN = true;
+#endif
 #ifdef UNCOATED
 const bool MAY_BE_COATED = false;
 #else
@@ -35,6 +43,9 @@ struct Surface {
   float coat_roughness;
   float coat_ior;
   vec3 coat_tint;
+  float sheen_weight;
+  float sheen_roughness;
+  vec3 sheen_tint;
   vec3 emission;
 };
 
@@ -43,6 +54,7 @@ struct Layers {
   Powers base;
   vec3 diffuse;
   vec3 emission;
+  vec3 sheen;
 };
 
 // Of GGX of one width towards one view.
@@ -80,6 +92,27 @@ Powers bounced(Powers single, vec3 mean, Albedo albedo, out vec3 reflected)
 float left_of(vec3 reflected)
 {
   return clamp(1.0 - max(max(reflected.r, reflected.g), reflected.b), 0.0, 1.0);
+}
+
+// Twin of core/lobes/rings.py `SheenTable.at`.
+vec4 sheen_weights(sampler2D sheens, float roughness, float mu)
+{
+  float columns = float(textureSize(sheens, 0).x);
+  float column = clamp(roughness, 0.0, 1.0) * (columns - 1.0);
+  return textureLod(sheens, vec2((column + 0.5) / columns, mu), 0.0);
+}
+
+// The factor of white sheen, and what it leaves for what is below.
+vec3 sheen_of(Surface surface, float mu, sampler2D sheens, out float below)
+{
+  if (!MAY_HAVE_SHEEN || surface.sheen_weight <= 0.0) {
+    below = 1.0;
+    return vec3(0.0);
+  }
+  vec3 factor = surface.sheen_weight * max(surface.sheen_tint, 0.0);
+  float albedo = dot(sheen_weights(sheens, surface.sheen_roughness, mu), vec4(1.0));
+  below = left_of(factor * albedo);
+  return factor;
 }
 
 // The coat, and what it leaves for what is below.
@@ -124,19 +157,29 @@ Powers plastic_of(Surface surface, Albedo albedo, sampler2D rises, out vec3 refl
   return bounced(boundary, tinted + (1.0 - tinted) * risen, albedo, reflected);
 }
 
-// coat_mu: the cosine of the view to the coat's normal.
-Layers layers_of(Surface surface, float mu, float coat_mu, sampler2DArray albedos, sampler2D rises)
+// coat_mu, sheen_mu: the cosines of the view to the coat's and to the sheen's normal.
+Layers layers_of(Surface surface,
+                 float mu,
+                 float coat_mu,
+                 float sheen_mu,
+                 sampler2DArray albedos,
+                 sampler2D rises,
+                 sampler2D sheens)
 {
   float covered = clamp(surface.alpha, 0.0, 1.0);
   float metallic = clamp(surface.metallic, 0.0, 1.0);
   Albedo albedo = ggx_albedo(albedos, surface.roughness * surface.roughness, mu);
   vec3 below, reflected;
   Powers coat = coat_of(surface, coat_mu, albedos, rises, below);
+  float left;
+  vec3 sheen = covered * sheen_of(surface, sheen_mu, sheens, left);
+  covered *= left;
   below *= covered;
   Powers plastic = coloured((1.0 - metallic) * below, plastic_of(surface, albedo, rises, reflected));
   Powers metal = coloured(metallic * below, metal_of(surface, albedo));
   return Layers(coloured(vec3(covered), coat),
                 Powers(metal.zeroth + plastic.zeroth, metal.rising + plastic.rising),
                 below * ((1.0 - metallic) * left_of(reflected)),
-                below * surface.emission);
+                below * surface.emission,
+                sheen);
 }

@@ -125,6 +125,19 @@ vec3 diffuse_radiance(sampler2D atlas,
   return left.w * color * max(radiance, 0.0);
 }
 
+// White sheen.
+vec3 sheen_radiance(
+    sampler2D atlas, sampler2D lookups, sampler2D sheens, float roughness, float mu, vec3 normal)
+{
+  vec4 weights = sheen_weights(sheens, roughness, mu);
+  vec2 uv = octahedral_uv(normal);
+  vec3 radiance = weights.x * pyramid_radiance(atlas, lookups, COSINE_MAP, uv);
+  for (int number = 0; number < 3; number++) {
+    radiance += weights[1 + number] * pyramid_radiance(atlas, lookups, RING_MAPS + number, uv);
+  }
+  return radiance;
+}
+
 // Covered by the surface's alpha. The normals are those of `Seen`: for diffuse light, the surface's own
 // where that is bumped, and for the rest; and that of the coat's own.
 vec3 principled_radiance(sampler2D atlas,
@@ -133,6 +146,7 @@ vec3 principled_radiance(sampler2D atlas,
                          sampler2DArray leaning,
                          sampler2DArray albedos,
                          sampler2D rises,
+                         sampler2D sheens,
                          Surface surface,
                          vec3 normal,
                          vec3 smooth_normal,
@@ -142,8 +156,15 @@ vec3 principled_radiance(sampler2D atlas,
 {
   float mu = clamp(dot(mirror_normal, view_dir), 1e-4, 1.0);
   float coat_mu = clamp(dot(coat_normal, view_dir), 1e-4, 1.0);
-  Layers layers = layers_of(surface, mu, coat_mu, albedos, rises);
+  // Fibres stand on base and coat alike
+  vec3 sheen_normal = normalize(mix(normal, coat_normal, clamp(surface.coat_weight, 0.0, 1.0)));
+  float sheen_mu = clamp(dot(sheen_normal, view_dir), 0.0, 1.0);
+  Layers layers = layers_of(surface, mu, coat_mu, sheen_mu, albedos, rises, sheens);
   vec3 radiance = layers.emission;
+  if (MAY_HAVE_SHEEN && layers.sheen != vec3(0.0)) {
+    radiance += layers.sheen *
+                sheen_radiance(atlas, lookups, sheens, surface.sheen_roughness, sheen_mu, sheen_normal);
+  }
   if (layers.diffuse != vec3(0.0)) {
     radiance += layers.diffuse * diffuse_radiance(atlas,
                                                   lookups,

@@ -9,12 +9,12 @@ import gpu
 from ..core.materials.principled import Baked, Input, PrincipledInputs, Texture
 
 MOST_TEXTURES = 8
-"""Textures that a material may sample; OpenGL grants 16 in all, and a pyramid takes 6."""
+"""Textures that a material may sample; OpenGL grants 16 in all, and a pyramid takes 7."""
 
 MOST_UV_MAPS = 4
 """UV maps that a mesh may have on the GPU."""
 
-TRANSLUCENT, UNCOATED, SMOOTH_DIFFUSE = "TRANSLUCENT", "UNCOATED", "SMOOTH_DIFFUSE"
+TRANSLUCENT, SHEENLESS, UNCOATED, SMOOTH_DIFFUSE = "TRANSLUCENT", "SHEENLESS", "UNCOATED", "SMOOTH_DIFFUSE"
 """What programs may have defined: see `DrawnMaterial.defines`."""
 
 
@@ -43,13 +43,14 @@ class DrawnMaterial:
     def defines(self) -> tuple[str, ...]:
         """What its program has defined.
 
-        A program without a coat or rough facets is a good deal faster than one in which their weight is 0:
-        where fragments may differ, drivers compute both ways of a branch. One with `TRANSLUCENT` leaves out
-        what covers nothing, and draws what covers all if its constant `whole` is 1, and the rest if that is
-        0. A program that leaves fragments out is a fifth slower, everywhere.
+        A program without sheen, a coat or rough facets is a good deal faster than one in which their weight
+        is 0: where fragments may differ, drivers compute both ways of a branch. One with `TRANSLUCENT` leaves
+        out what covers nothing, and draws what covers all if its constant `whole` is 1, and the rest if that
+        is 0. A program that leaves fragments out is a fifth slower, everywhere.
         """
         wanted = {
             TRANSLUCENT: not self.is_opaque,
+            SHEENLESS: _is_zero(self.inputs.sheen_weight),
             UNCOATED: _is_zero(self.inputs.coat_weight),
             SMOOTH_DIFFUSE: _is_zero(self.inputs.diffuse_roughness),
         }

@@ -39,12 +39,15 @@ INPUTS = (
     "emission_color",
     "emission_strength",
     "alpha",
+    "sheen_weight",
+    "sheen_roughness",
+    "sheen_tint",
 )
 """Inputs whose numbers come first, as in gpu_shaders/principled_textured_frag.glsl."""
 
-NUMBERS = 32
-"""Numbers of all inputs: after `INPUTS` a normal map's color and strength, a bump's strength and distance,
-and color and strength of the coat's normal map."""
+NUMBERS = 40
+"""Numbers of all inputs, and room up to a multiple of 4: after `INPUTS` a normal map's color and strength,
+a bump's strength and distance, and color and strength of the coat's normal map."""
 
 MATERIAL_STRUCT = (
     f"struct Material {{ vec4 counts; vec4 antialiasing; vec4 height; vec4 constants[{NUMBERS // 4}]; "
@@ -226,7 +229,8 @@ def material_rows(inputs: PrincipledInputs, textures: tuple[Texture, ...], uv_ma
             f"bake some of its inputs."
         )
     numbered = [(row, value.texture) for value in _inputs(inputs) for row in value.rows]
-    constants = np.array([row[4] for row, _ in numbered], np.float32)
+    constants = np.zeros(NUMBERS, np.float32)
+    constants[: len(numbered)] = [row[4] for row, _ in numbered]
     # The last one adds nothing, for a texture of no number, as that of a bump's height
     factors, targets = np.zeros((2, NUMBERS + 1, 4), np.float32)
     ranges = np.zeros((MOST_TEXTURES, 4), np.float32)

@@ -1,18 +1,22 @@
-"""Families of lobes as files of arrays, and the families that come with us."""
+"""Families of lobes and the table of sheen as files of arrays, and those that come with us."""
 
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from zipfile import BadZipFile
 
 import numpy as np
 
+from ..core.conventions import Array
 from ..core.errors import InputFileError, RangeError, ShapeError
 from ..core.lobes.bank import KernelBank
 from ..core.lobes.family import Family
+from ..core.lobes.rings import SheenTable
 from .atomic import written_aside
 
 SHIPPED = Path(__file__).with_name("families")
-"""The folder of the families that come with us; `.ci/fit_families.py` makes them."""
+"""The folder of what comes with us; `.ci/fit_families.py` makes it."""
 
 
 @cache
@@ -63,12 +67,37 @@ def read_family(path: Path) -> Family:
     InputFileError
         The file is missing, or no family of lobes.
     """
+    with _arrays(path) as arrays:
+        alpha, mu, concentrations, tilts, weights = (
+            arrays[name].astype(np.float64) for name in ("alpha", "mu", "concentrations", "tilts", "weights")
+        )
+        return Family(alpha, mu, KernelBank(tuple(concentrations.tolist())), tilts, weights)
+
+
+@cache
+def shipped_sheen() -> SheenTable:
+    """The table of Cycles' sheen that comes with us.
+
+    Raises
+    ------
+    InputFileError
+        Its file is damaged.
+    """
+    with _arrays(SHIPPED / "sheen.npz") as arrays:
+        return SheenTable(arrays["weights"].astype(np.float64))
+
+
+def write_sheen(path: Path, table: SheenTable) -> None:
+    """Write a table of sheen in single precision, replacing the file, NAME.npz."""
+    with written_aside(path, force=True) as aside:
+        np.savez_compressed(aside, allow_pickle=False, weights=table.weights.astype(np.float32))
+
+
+@contextmanager
+def _arrays(path: Path) -> Iterator[Mapping[str, Array]]:
+    """The arrays of a file; what goes wrong within is told as its fault."""
     try:
         with np.load(path, allow_pickle=False) as arrays:
-            alpha, mu, concentrations, tilts, weights = (
-                arrays[name].astype(np.float64)
-                for name in ("alpha", "mu", "concentrations", "tilts", "weights")
-            )
-        return Family(alpha, mu, KernelBank(tuple(concentrations.tolist())), tilts, weights)
+            yield arrays
     except (OSError, EOFError, KeyError, ValueError, BadZipFile, RangeError, ShapeError) as error:
         raise InputFileError(f"{path} is no family of lobes: install RSIBR again. ({error})") from error

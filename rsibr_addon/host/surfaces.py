@@ -44,7 +44,6 @@ MISSING = {
     "Anisotropic": "anisotropy",
     "Anisotropy": "anisotropy",
     "Thin Film Thickness": "thin film",
-    "Sheen Weight": "sheen",
 }
 """Input of a shader -> what is not shown, where it is not 0."""
 

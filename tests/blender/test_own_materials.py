@@ -221,7 +221,6 @@ def long_chain(material: bpy.types.Material) -> None:
         (noise, r"default for Base Color \(Noise Texture\) and Roughness \(Noise Texture\)\."),
         (baked_normal, r"default for Normal \(Bevel\)\."),
         (glass, "Material Material is shown without transmission."),
-        (sheen, "Material Material is shown without sheen."),
         (bumped_coat, r"default for Coat Normal \(a bump of its own\)"),
         (many_images, f"more than {MOST_TEXTURES} images"),
         (many_uv_maps, f"The materials of Cube use more than {MOST_UV_MAPS} UV maps"),

@@ -8,9 +8,15 @@ from rsibr.rsibr_addon.core.filtering.harmonics.analysis import analyse_environm
 from rsibr.rsibr_addon.core.filtering.prefilter import analysis_degree, prefilter, prefilter_exact
 from rsibr.rsibr_addon.core.filtering.radial_lobes import cosine_lobe, von_mises_fisher_lobe
 from rsibr.rsibr_addon.core.filtering.zonal import ZonalLobe, expand
-from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import BakedPyramid, bake_pyramid, leaning_lobe
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import (
+    BakedPyramid,
+    bake_pyramid,
+    leaning_lobe,
+    ring_lobe,
+)
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.look import PrincipledLook
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL
+from rsibr.rsibr_addon.core.lobes.rings import WIDTHS
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.core.resample import lookup
 
@@ -33,14 +39,17 @@ def baked(radiance: Array) -> BakedPyramid:
 def lobes(baked: BakedPyramid) -> list[tuple[ZonalLobe, Array, int]]:
     """Each filtered map, with its lobe and a factor that the map has over it."""
     kernels = [von_mises_fisher_lobe(kappa) for kappa in baked.pyramid.bank.concentrations]
-    maps = [*(sheets[0] for sheets in baked.pyramid.maps), *baked.pyramid.diffuse]
-    factors = [1.0] * len(kernels) + [1.0 / np.pi, 1.0]
-    return list(zip([*kernels, cosine_lobe(), leaning_lobe()], maps, factors, strict=True))
+    maps = [*(sheets[0] for sheets in baked.pyramid.maps), *baked.pyramid.diffuse, *baked.pyramid.rings]
+    rings = [ring_lobe(width) for width in WIDTHS]
+    factors = [1.0] * len(kernels) + [1.0 / np.pi, 1.0] + [1.0] * len(rings)
+    return list(zip([*kernels, cosine_lobe(), leaning_lobe(), *rings], maps, factors, strict=True))
 
 
 def test_no_texel_is_further_from_the_sum_than_stated(radiance: Array, baked: BakedPyramid) -> None:
     rng = np.random.default_rng(2)
-    for (lobe, sheet, factor), errors in zip(lobes(baked), (*baked.kernels, *baked.diffuse), strict=True):
+    for (lobe, sheet, factor), errors in zip(
+        lobes(baked), (*baked.kernels, *baked.diffuse, *baked.rings), strict=True
+    ):
         row, column = rng.integers(0, len(sheet), (2, 10))
         direction = OCTAHEDRAL.texel_directions(len(sheet))[0, row, column]
         exact = factor * prefilter_exact(radiance, [lobe], direction)[0]

@@ -41,10 +41,10 @@ def map_sets() -> list[MapSet]:
 
 def _kernel_pyramid() -> MapSet:
     maps = tuple(RNG.random((1, n, n, 3), dtype=np.float32) for n in (2, 4, 6))
-    diffuse = RNG.random((2, 2, 2, 3), dtype=np.float32)
-    errors = [FilterErrors(RNG.random(3), 1e-3 * number) for number in range(4)]
-    pyramid = Pyramid(KernelBank((0.5, 1.0)), maps[2], maps[:2], diffuse)
-    baked = BakedPyramid(pyramid, tuple(errors[:2]), tuple(errors[2:]))
+    diffuse, rings = (RNG.random((count, 2, 2, 3), dtype=np.float32) for count in (2, 3))
+    errors = [FilterErrors(RNG.random(3), 1e-3 * number) for number in range(7)]
+    pyramid = Pyramid(KernelBank((0.5, 1.0)), maps[2], maps[:2], diffuse, rings)
+    baked = BakedPyramid(pyramid, tuple(errors[:2]), tuple(errors[2:4]), tuple(errors[4:]))
     return kernel_pyramid.to_map_set(baked, Origin(LIGHT, {}, "test"))
 
 

@@ -143,9 +143,10 @@ def test_tables_of_several_sizes_are_several_textures(tmp_path: Path) -> None:
 
 def test_maps_of_one_role_and_several_sizes_are_told_apart(tmp_path: Path) -> None:
     mirror, *maps = (RNG.random((1, n, n, 3), dtype=np.float32) for n in (16, 4, 4, 8))
-    pyramid = Pyramid(KernelBank((0.5, 1.0, 2.0)), mirror, tuple(maps), RNG.random((2, 2, 2, 3)))
+    diffuse, rings = RNG.random((2, 2, 2, 3)), RNG.random((3, 3, 3, 3))
+    pyramid = Pyramid(KernelBank((0.5, 1.0, 2.0)), mirror, tuple(maps), diffuse, rings)
     errors = FilterErrors(np.zeros(3), 0.0)
-    baked = BakedPyramid(pyramid, (errors,) * 3, (errors,) * 2)
+    baked = BakedPyramid(pyramid, (errors,) * 3, (errors,) * 2, (errors,) * 3)
     source = tmp_path / "pyramid.rsibr.exr"
     write_map_set(source, kernel_pyramid.to_map_set(baked, Origin(SKY, {}, "a test")))
     textures = {path.stem: read(path) for path in drain(export(source, tmp_path / "out.ktx2"))}
@@ -155,6 +156,7 @@ def test_maps_of_one_role_and_several_sizes_are_told_apart(tmp_path: Path) -> No
         "out-prefiltered-4": ["kernel00", "kernel01"],
         "out-prefiltered-8": ["kernel02"],
         "out-diffuse-leaning": ["diffuse", "leaning"],
+        "out-ring": ["ring00", "ring01", "ring02"],
     }
     found = textures["out-prefiltered-8"].levels[0][0, ..., :3]
     np.testing.assert_allclose(found, maps[2][0], rtol=2.0**-11, atol=2.0**-25)

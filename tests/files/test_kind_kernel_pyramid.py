@@ -21,10 +21,12 @@ LIGHT = Environment(RNG.random((8, 16, 3), dtype=np.float32), "light")
 
 def make_map_set() -> tuple[BakedPyramid, MapSet]:
     maps = tuple(RNG.random((1, n, n, 3), dtype=np.float32) for n in (4, 4, 8))
-    mirror, diffuse = (RNG.random((count, n, n, 3), dtype=np.float32) for count, n in ((1, 16), (2, 4)))
-    errors = [FilterErrors(RNG.random(3), 1e-3 * number) for number in range(5)]
-    pyramid = Pyramid(KernelBank((0.5, 1.0, 2.0)), mirror, maps, diffuse)
-    baked = BakedPyramid(pyramid, tuple(errors[:3]), tuple(errors[3:]))
+    mirror, diffuse, rings = (
+        RNG.random((count, n, n, 3), dtype=np.float32) for count, n in ((1, 16), (2, 4), (3, 8))
+    )
+    errors = [FilterErrors(RNG.random(3), 1e-3 * number) for number in range(8)]
+    pyramid = Pyramid(KernelBank((0.5, 1.0, 2.0)), mirror, maps, diffuse, rings)
+    baked = BakedPyramid(pyramid, tuple(errors[:3]), tuple(errors[3:5]), tuple(errors[5:]))
     return baked, to_map_set(baked, Origin(LIGHT, {"size": 16}, "a test"))
 
 
@@ -37,10 +39,10 @@ def test_a_pyramid_comes_back_bit_by_bit(tmp_path: Path) -> None:
     for found, written in zip(back.all_maps, baked.pyramid.all_maps, strict=True):
         np.testing.assert_array_equal(found, written)
     assert held.header["size"] == [16, 16]
-    every = (*baked.kernels, *baked.diffuse)
+    every = (*baked.kernels, *baked.diffuse, *baked.rings)
     largest = np.max([errors.bound for errors in every], axis=0)
     np.testing.assert_array_equal(held.header["error_bound"]["filter"], largest)
-    assert held.header["error_bound"]["interpolation"] == 0.004
+    assert held.header["error_bound"]["interpolation"] == 0.007
     stated = {part["name"]: part for part in held.header["parts"]}
     assert stated["kernel02"]["concentration"] == 2.0
     np.testing.assert_array_equal(stated["leaning"]["bound"], every[4].bound)
@@ -55,6 +57,8 @@ def test_a_pyramid_comes_back_bit_by_bit(tmp_path: Path) -> None:
         (lambda header, parts: parts["kernel00"].update(role="other"), "not those that materials are"),
         (lambda header, parts: parts["mirror"].update(role="other"), "0 maps of the role mirror"),
         (lambda header, parts: parts["leaning"].update(role="diffuse"), "2 maps of the role diffuse"),
+        (lambda header, parts: parts["ring01"].update(width=0.3), "not the rings that sheen is made of"),
+        (lambda header, parts: parts["ring02"].update(role="other"), "not the rings that sheen is made of"),
     ],
 )
 def test_what_is_no_pyramid_is_named(tmp_path: Path, spoil: Callable, sentence: str) -> None:
@@ -72,6 +76,7 @@ def test_what_is_no_pyramid_is_named(tmp_path: Path, spoil: Callable, sentence: 
         ("kernel01", (4, 5, 3), "a square map for each of its kernels"),
         ("mirror", (8, 4, 3), "a square map for each of its kernels"),
         ("leaning", (2, 2, 3), "diffuse maps differ in size"),
+        ("ring01", (4, 4, 3), "ring maps differ in size"),
     ],
 )
 def test_maps_of_other_shapes_are_named(

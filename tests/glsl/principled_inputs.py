@@ -67,12 +67,13 @@ def surface_arguments() -> list[np.ndarray]:
         np.hstack([numbers(5, columns=3), np.roll(often_zero(6), 1, axis=0)]),
         np.hstack([numbers(7, columns=3), numbers(8)]),
         np.hstack([numbers(9), numbers(10, 1.0, 3.0), np.roll(often_zero(11), COUNT // 2, axis=0)]),
-        np.hstack([numbers(12), numbers(13, 1.0, 3.0)]),
+        np.hstack([numbers(12), numbers(13, 1.0, 3.0), np.roll(often_zero(60), 2, axis=0), numbers(61)]),
+        numbers(62, columns=3),
     ]
 
 
 def surface_of(*arguments: np.ndarray) -> Surface:
-    base, specular, coat, emission, boundary, coating = arguments
+    base, specular, coat, emission, boundary, coating, sheen_tint = arguments
     return Surface(
         base_color=base[:, :3],
         metallic=base[:, 3],
@@ -86,11 +87,14 @@ def surface_of(*arguments: np.ndarray) -> Surface:
         coat_roughness=coating[:, 0],
         coat_ior=coating[:, 1],
         coat_tint=coat[:, :3],
+        sheen_weight=coating[:, 2],
+        sheen_roughness=coating[:, 3],
+        sheen_tint=sheen_tint[:, :3],
         emission=emission[:, :3],
     )
 
 
 SURFACE = """
 Surface surface = Surface(in_0.rgb, in_0.a, in_4.x, in_4.y, in_3.a, in_4.z, in_1.a, in_1.rgb, in_2.a, in_5.x,
-                          in_5.y, in_2.rgb, in_3.rgb);
+                          in_5.y, in_2.rgb, in_5.z, in_5.w, in_6.rgb, in_3.rgb);
 """

@@ -65,9 +65,9 @@ def layer_twin(code: str, expected, results: int) -> Twin:
     """Of a function of a surface, seen at a cosine."""
     return Twin(
         "principled_lib.glsl",
-        f"{SURFACE} float mu = in_6.x; vec3 beside; {code}",
+        f"{SURFACE} float mu = in_7.x; vec3 beside; {code}",
         surfaces_and_mu,
-        lambda *arguments: expected(surface_of(*arguments[:6]), arguments[6][:, 0], families()),
+        lambda *arguments: expected(surface_of(*arguments[:-1]), arguments[-1][:, 0], families()),
         # Weights of texels of 8 bits are another mu, by 1e-4, of albedos that rise with slopes up to 6
         2e-3,
         results=results,
@@ -77,11 +77,11 @@ def layer_twin(code: str, expected, results: int) -> Twin:
 
 def samplers_of_layers() -> Samplers:
     made = samplers()
-    return {name: made[name] for name in ("albedos", "rises")}
+    return {name: made[name] for name in ("albedos", "rises", "sheens")}
 
 
 def beside_lobes(layers: Layers) -> np.ndarray:
-    return np.stack([layers.diffuse, layers.emission], axis=1)
+    return np.stack([layers.diffuse, layers.emission, layers.sheen], axis=1)
 
 
 ALBEDO = "Albedo albedo = ggx_albedo(albedos, surface.roughness * surface.roughness, mu);"
@@ -234,18 +234,19 @@ TWINS = {
         6,
     ),
     "layers_of base": layer_twin(
-        f"Layers found = layers_of(surface, mu, mu, albedos, rises); {written('found.base')}",
+        f"Layers found = layers_of(surface, mu, mu, mu, albedos, rises, sheens); {written('found.base')}",
         lambda surface, mu, albedos: layers_of(surface, mu, albedos).base,
         5,
     ),
     "layers_of diffuse and emission": layer_twin(
-        "Layers found = layers_of(surface, mu, mu, albedos, rises);"
-        "result_0.rgb = found.diffuse; result_1.rgb = found.emission;",
+        "Layers found = layers_of(surface, mu, mu, mu, albedos, rises, sheens);"
+        "result_0.rgb = found.diffuse; result_1.rgb = found.emission;"
+        "result_2.rgb = found.sheen;",
         lambda surface, mu, albedos: beside_lobes(layers_of(surface, mu, albedos)),
-        2,
+        3,
     ),
     "layers_of coat": layer_twin(
-        f"Layers found = layers_of(surface, mu, mu, albedos, rises); {written('found.coat')}",
+        f"Layers found = layers_of(surface, mu, mu, mu, albedos, rises, sheens); {written('found.coat')}",
         lambda surface, mu, albedos: layers_of(surface, mu, albedos).coat,
         5,
     ),

@@ -11,7 +11,7 @@ from rsibr.rsibr_addon.core.geometry.directions import dot, normalize, reflect
 from rsibr.rsibr_addon.core.geometry.sides import seen_surface
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid import shading
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.atlas import atlas_texels
-from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import bake_pyramid, width_of
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import RING_TEXELS, bake_pyramid, width_of
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import principled_radiance
 from rsibr.rsibr_addon.core.lobes.bank import KernelBank
@@ -103,8 +103,8 @@ def assert_near(found: np.ndarray, expected: np.ndarray, peak: float) -> None:
 
 def shaded(light: Pyramid, normal: np.ndarray, view_dir: np.ndarray, inputs: list[np.ndarray]) -> np.ndarray:
     code = SURFACE + (
-        "result_0.rgb = principled_radiance(atlas, lookups, ggx, leaning, albedos, rises, surface, in_6.xyz, "
-        "in_6.xyz, in_6.xyz, in_6.xyz, in_7.xyz);"
+        "result_0.rgb = principled_radiance(atlas, lookups, ggx, leaning, albedos, rises, sheens, surface, "
+        "in_7.xyz, in_7.xyz, in_7.xyz, in_7.xyz, in_8.xyz);"
     )
     facing = seen_surface(normal, view_dir).normal
     return evaluate(LIBRARY, code, [*inputs, facing, view_dir], 1, samplers_of(light))[:, 0, :3]
@@ -123,12 +123,12 @@ def test_white_surfaces_vanish_in_a_white_furnace(metallic: float) -> None:
     baked = drain(bake_pyramid(np.ones((64, 128, 3)), SIZE)).pyramid
     # Sums over texels are not quite even near the poles
     furnace = replace(baked, maps=tuple(np.ones_like(sheets) for sheets in baked.maps))
-    base, specular, coat, emission, boundary, coating = (each.copy() for each in inputs)
+    base, specular, coat, emission, boundary, coating, tint = (each.copy() for each in inputs)
     base[:, :3], base[:, 3], coat[:, :3], emission[:] = 1.0, metallic, 1.0, (0.0, 0.0, 0.0, 1.0)
     specular[:] = 1.0, 1.0, 1.0, 0.5
-    boundary[:, 1:], coating[:, 1] = (1.5, 0.0), 1.5
-    found = shaded(furnace, normal, view_dir, [base, specular, coat, emission, boundary, coating])
-    # As the numpy twin: families err by half a percent of what they reflect, for each of two layers
+    boundary[:, 1:], coating[:, 1], tint[:] = (1.5, 0.0), 1.5, 1.0
+    found = shaded(furnace, normal, view_dir, [base, specular, coat, emission, boundary, coating, tint])
+    # As the numpy twin: families err by half a percent of what they reflect, for each of their layers
     np.testing.assert_allclose(found[dot(normal, view_dir) > 0.05], 1.0, atol=0.01)
 
 
@@ -211,7 +211,8 @@ def test_diffuse_radiance() -> None:
     arguments = [color, roughness, mu, normal, smooth, mirror_dir]
     found = evaluate(LIBRARY, code, arguments, 1, textures)[:, 0, :3]
     surface = Surface(base_color=color, diffuse_roughness=roughness[:, 0])
-    all_of_it = Layers(*[np.zeros((POINTS, 5, 3))] * 2, np.ones((POINTS, 3)), np.zeros((POINTS, 3)))
+    none = np.zeros((POINTS, 3))
+    all_of_it = Layers(*[np.zeros((POINTS, 5, 3))] * 2, np.ones((POINTS, 3)), none, none)
     view_dir = reflect(mirror_dir, normal)
     expected = shading._diffuse(
         pyramid(), families().leaning, surface, all_of_it, normal, smooth, view_dir, mu[:, 0]
@@ -231,7 +232,9 @@ def test_maps_lie_in_the_atlas_with_what_continues_them() -> None:
     shown = [*corners[:resolved], *corners[KERNEL_COUNT:]]
     taken = np.zeros(atlas.shape[:2], dtype=int)
     for (left, bottom, size), sheet in zip(
-        shown, [sheets[0] for sheets in (*light.maps, light.mirror)] + [*light.diffuse], strict=True
+        shown,
+        [sheets[0] for sheets in (*light.maps, light.mirror)] + [*light.diffuse, *light.rings],
+        strict=True,
     ):
         np.testing.assert_array_equal(atlas[bottom : bottom + size, left : left + size, :3], sheet)
         # Each edge is folded about its middle
@@ -244,7 +247,9 @@ def test_maps_lie_in_the_atlas_with_what_continues_them() -> None:
 def test_an_atlas_fits_into_graphics_memory() -> None:
     widths = [width_of(kappa, SIZE) for kappa in KERNELS.concentrations]
     maps = tuple(np.zeros((1, width, width, 3), np.float32) for width in widths)
-    atlas, _ = atlas_texels(Pyramid(KERNELS, np.zeros((1, SIZE, SIZE, 3)), maps, np.zeros((2, 32, 32, 3))))
+    others = (np.zeros((count, width, width, 3)) for count, width in ((1, SIZE), (2, 32), (3, RING_TEXELS)))
+    mirror, diffuse, rings = others
+    atlas, _ = atlas_texels(Pyramid(KERNELS, mirror, maps, diffuse, rings))
     # Of half floats; what is asked of a bank in graphics memory
     assert 2 * atlas.size < 40e6
 

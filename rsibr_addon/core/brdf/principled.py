@@ -1,8 +1,8 @@
-"""Cycles' Principled BSDF, without transmission, subsurface, anisotropy, sheen and thin film.
+"""Cycles' Principled BSDF, without transmission, subsurface, anisotropy and thin film.
 
-A coat lies over a metal or over a dielectric boundary above a diffuse base. Each layer leaves what it does
-not reflect to a view for the layers below, by its directional albedo. Light that bounces between microfacets
-is added to GGX by a factor of the single bounce [Kulla2017].
+Sheen lies over a coat, and that over a metal or over a dielectric boundary above a diffuse base. Each layer
+leaves what it does not reflect to a view for the layers below, by its directional albedo. Light that bounces
+between microfacets is added to GGX by a factor of the single bounce [Kulla2017].
 """
 
 from dataclasses import dataclass
@@ -25,7 +25,7 @@ LARGEST = 1e9
 
 
 class Albedos(Protocol):
-    """Directional albedos of GGX."""
+    """Directional albedos of GGX and of sheen."""
 
     def powers(self, alpha: Array, mu: Array) -> Array:
         """Those of GGX times each of `POWERS`, shape (..., C)."""
@@ -35,6 +35,10 @@ class Albedos(Protocol):
         """Twice the integral of a white metal's times mu, from 0 to 1, shape (...,)."""
         ...
 
+    def sheen(self, roughness: Array, mu: Array) -> Array:
+        """Those of white sheen, shape (...,)."""
+        ...
+
 
 @dataclass(frozen=True)
 class Surface:
@@ -42,11 +46,12 @@ class Surface:
 
     Attributes
     ----------
-    base_color, specular_tint, coat_tint, emission : array_like, shape (..., 3)
+    base_color, specular_tint, coat_tint, sheen_tint, emission : array_like, shape (..., 3)
         In linear Rec. 709. `emission` is colour times strength.
     metallic, roughness, ior, specular_level, diffuse_roughness : array_like, shape (...,)
     coat_weight, coat_roughness, coat_ior : array_like, shape (...,)
         Indices of at least 1.
+    sheen_weight, sheen_roughness : array_like, shape (...,)
     alpha : array_like, shape (...,)
         Coverage.
     """
@@ -63,6 +68,9 @@ class Surface:
     coat_roughness: ArrayLike = 0.03
     coat_ior: ArrayLike = 1.5
     coat_tint: ArrayLike = (1.0, 1.0, 1.0)
+    sheen_weight: ArrayLike = 0.0
+    sheen_roughness: ArrayLike = 0.5
+    sheen_tint: ArrayLike = (1.0, 1.0, 1.0)
     emission: ArrayLike = (0.0, 0.0, 0.0)
 
 
@@ -78,15 +86,24 @@ class Layers:
         Factor of the diffuse reflection of `base_color`.
     emission : ndarray, shape (..., 3)
         Radiance.
+    sheen : ndarray, shape (..., 3)
+        Factor of white sheen.
     """
 
     coat: Array
     base: Array
     diffuse: Array
     emission: Array
+    sheen: Array
 
 
-def layers_of(surface: Surface, mu: ArrayLike, albedos: Albedos, coat_mu: ArrayLike | None = None) -> Layers:
+def layers_of(
+    surface: Surface,
+    mu: ArrayLike,
+    albedos: Albedos,
+    coat_mu: ArrayLike | None = None,
+    sheen_mu: ArrayLike | None = None,
+) -> Layers:
     """Shares of a surface's layers towards a view.
 
     Parameters
@@ -97,20 +114,32 @@ def layers_of(surface: Surface, mu: ArrayLike, albedos: Albedos, coat_mu: ArrayL
     albedos : Albedos
     coat_mu : array_like, shape (...,), optional
         n.v of a coat that has a normal of its own.
+    sheen_mu : array_like, shape (...,), optional
+        n.v of the sheen's normal, which is between the others'.
     """
     mu = np.asarray(mu, dtype=np.float64)
+    sheen, left = _sheen(surface, mu if sheen_mu is None else np.asarray(sheen_mu, np.float64), albedos)
     coat, below = _coat(surface, mu if coat_mu is None else np.asarray(coat_mu, np.float64), albedos)
     metallic = np.clip(np.asarray(surface.metallic, np.float64), 0.0, 1.0)[..., None]
     plastic, reflected = _plastic(surface, mu, albedos)
     base = metallic[..., None] * _metal(surface, mu, albedos) + (1.0 - metallic[..., None]) * plastic
     covered = np.clip(np.asarray(surface.alpha, np.float64), 0.0, 1.0)[..., None]
-    below = covered * below
+    below = covered * left * below
     return Layers(
-        covered[..., None] * coat,
+        (covered * left)[..., None] * coat,
         below[..., None, :] * base,
         below * (1.0 - metallic) * _left(reflected),
         below * np.asarray(surface.emission, np.float64),
+        covered * sheen,
     )
+
+
+def _sheen(surface: Surface, mu: Array, albedos: Albedos) -> tuple[Array, Array]:
+    """The factor of white sheen, shape (..., 3), and what it leaves for what is below, shape (..., 1)."""
+    weight = np.maximum(np.asarray(surface.sheen_weight, np.float64), 0.0)[..., None]
+    factor = weight * np.maximum(np.asarray(surface.sheen_tint, np.float64), 0.0)
+    albedo = albedos.sheen(np.asarray(surface.sheen_roughness, np.float64), mu)[..., None]
+    return factor, _left(factor * albedo)
 
 
 def _coat(surface: Surface, mu: Array, albedos: Albedos) -> tuple[Array, Array]:
@@ -188,7 +217,7 @@ def _left(reflected: Array) -> Array:
 
 @dataclass(frozen=True, kw_only=True)
 class Principled(Brdf):
-    """One material of Cycles' Principled BSDF: see `Surface`.
+    """One material of Cycles' Principled BSDF, without sheen: see `Surface`.
 
     It is not reciprocal, as Cycles' is not: layers take what the view's side reflects, not the light's.
     """
@@ -241,7 +270,10 @@ def ggx_by_powers(geometry: Geometry, alpha: float) -> Array:
 
 
 class ExactAlbedos:
-    """Albedos by quadrature, interpolated between `COAT_ELEVATIONS`: one width at a time."""
+    """Albedos of `Principled`, which has no sheen, by quadrature: one width at a time.
+
+    They are interpolated between `COAT_ELEVATIONS`.
+    """
 
     def powers(self, alpha: Array, mu: Array) -> Array:
         """See `Albedos`."""
@@ -253,6 +285,10 @@ class ExactAlbedos:
         node, weight = np.polynomial.legendre.leggauss(32)
         mu = 0.5 * (node + 1.0)
         return np.asarray(weight @ (mu * self.powers(alpha, mu)[:, 0]))
+
+    def sheen(self, roughness: Array, mu: Array) -> Array:
+        """See `Albedos`."""
+        return np.zeros_like(mu)
 
 
 @cache

@@ -10,10 +10,19 @@ from ..errors import ShapeError
 from .principled import Input, PrincipledInputs, Shading, Texture
 from .sampling import evaluate
 
-TINTS = ("base_color", "specular_tint", "coat_tint")
+TINTS = ("base_color", "specular_tint", "coat_tint", "sheen_tint")
 SHARES = ("roughness", "diffuse_roughness", "coat_roughness")
 """Values that are kept within 0 and 1, as Cycles does."""
-VALUES = ("metallic", "ior", "alpha", "specular_level", "coat_weight", "coat_ior")
+VALUES = (
+    "metallic",
+    "ior",
+    "alpha",
+    "specular_level",
+    "coat_weight",
+    "coat_ior",
+    "sheen_weight",
+    "sheen_roughness",
+)
 
 
 def surface_at(inputs: PrincipledInputs, texels: Mapping[Texture, Array], uv: Mapping[str, Array]) -> Surface:

@@ -19,7 +19,7 @@ from ..shaders import MeshProgram, build, kept_until_exit, mesh_interface
 from ..textured_materials import MaterialBinding, textured_program
 from ..textured_mesh import GpuTexturedMesh
 from ..textures import GpuTexture
-from .kernel_pyramid_texels import albedo_texels, family_texels, lookup_texels
+from .kernel_pyramid_texels import albedo_texels, family_texels, lookup_texels, sheen_texels
 
 SAMPLERS = {
     "atlas": "FLOAT_2D",
@@ -28,6 +28,7 @@ SAMPLERS = {
     "leaning": "FLOAT_2D_ARRAY",
     "albedos": "FLOAT_2D_ARRAY",
     "rises": "FLOAT_2D",
+    "sheens": "FLOAT_2D",
 }
 """Name of each of a pyramid's textures, in their order -> its type."""
 
@@ -76,6 +77,7 @@ class GpuPyramid(ProgramMapSet):
             GpuTexture("family of leaning facets", family_texels(families.leaning)),
             GpuTexture("albedos of GGX", albedo_texels(families)),
             GpuTexture("Fresnel terms", rise_table()[None, :, 1:]),
+            GpuTexture("sheen", sheen_texels(families)),
         )
         self._families, self._places = families, places
         # The widest maps, which come first, are of kernels that hardly cancel each other

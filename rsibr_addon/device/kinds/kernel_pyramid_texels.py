@@ -109,19 +109,19 @@ def lookup_texels(families: Families, places: Array) -> Array:
     Parameters
     ----------
     families : Families
-    places : ndarray, shape (1, K + 3, 4)
+    places : ndarray, shape (1, K + 3 + R, 4)
         See `core.kinds.kernel_pyramid.atlas.atlas_texels`.
 
     Returns
     -------
-    ndarray, shape (R, A + A' + 1, 4), float32
+    ndarray, shape (L, A + A' + 1, 4), float32
         A column for each width of GGX, and of the leaning facets, and the next one: the number of slots in
         which either has a lookup, up to the last; then for each slot the place of the map, and the lobe. A
-        column with the places of the mirror's map and both diffuse ones.
+        column with the places of the mirror's map, both diffuse ones, and the rings.
     """
     of_maps = places[0, :, :3]  # all maps are squares
     columns = [column for family in (families.ggx, families.leaning) for column in _columns(family, of_maps)]
-    columns.append(np.pad(of_maps[-3:], ((0, 0), (0, 1))))
+    columns.append(np.pad(of_maps[len(KERNELS) :], ((0, 0), (0, 1))))
     texels = np.zeros((max(map(len, columns)), len(columns), 4), dtype=np.float32)
     for number, column in enumerate(columns):
         texels[: len(column), number] = column
@@ -153,4 +153,10 @@ def albedo_texels(families: Families) -> Array:
     texels[0] = albedo[..., 1:]
     texels[1, ..., 0] = albedo[..., 0]
     texels[1, ..., 1] = families.mean(families.ggx.alpha)
+    return texels
+
+
+def sheen_texels(families: Families) -> Array:
+    """The table of sheen as gpu_shaders/lib/principled_lib.glsl reads it, shape (S, N, 4), float32."""
+    texels: Array = families.sheen_table.weights.swapaxes(0, 1).astype(np.float32)
     return texels

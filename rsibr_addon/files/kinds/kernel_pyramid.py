@@ -13,15 +13,16 @@ from ...core.kinds.kernel_pyramid.look import PrincipledLook
 from ...core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid
 from ...core.kinds.kernel_pyramid.shading import Families, principled_radiance
 from ...core.lobes.bank import KernelBank
+from ...core.lobes.rings import WIDTHS
 from ...settings.kernel_pyramid import KernelPyramidSettings, PyramidComparison
-from ..families import shipped_family
+from ..families import shipped_family, shipped_sheen
 from ..map_set_data import ENVIRONMENT, MapSet
 from ..map_set_header import Colour, Origin, Shading, StoredKind, make_header, role_in_words
 
 KIND = "kernel_pyramid"
 
-MIRROR, KERNEL, LAMBERT, LEANING = "mirror", "prefiltered", "diffuse", "leaning"
-"""Roles of parts: the environment itself, filtered with a kernel, and both maps of `Pyramid.diffuse`."""
+MIRROR, KERNEL, LAMBERT, LEANING, RING = "mirror", "prefiltered", "diffuse", "leaning", "ring"
+"""Roles of parts: the environment itself, filtered with a kernel, both of `Pyramid.diffuse`, and rings."""
 
 
 class _Filtered(TypedDict):
@@ -31,6 +32,10 @@ class _Filtered(TypedDict):
 
 class _Kernel(_Filtered):
     concentration: float
+
+
+class _Ring(_Filtered):
+    width: float
 
 
 def to_map_set(baked: BakedPyramid, origin: Origin) -> MapSet:
@@ -46,7 +51,11 @@ def to_map_set(baked: BakedPyramid, origin: Origin) -> MapSet:
     for role, sheet, errors in zip((LAMBERT, LEANING), pyramid.diffuse, baked.diffuse, strict=True):
         maps[role] = sheet
         parts.append({"name": role, "role": role, **_told(errors)})
-    every = (*baked.kernels, *baked.diffuse)
+    for number, (width, errors) in enumerate(zip(WIDTHS, baked.rings, strict=True)):
+        name = f"ring{number:02d}"
+        maps[name] = pyramid.rings[number]
+        parts.append({"name": name, "role": RING, "width": width, **_told(errors)})
+    every = (*baked.kernels, *baked.diffuse, *baked.rings)
     bound = {
         "filter": np.max([errors.bound for errors in every], axis=0).tolist(),
         "interpolation": max(errors.interpolation for errors in every),
@@ -62,7 +71,8 @@ def from_map_set(path: Path, map_set: MapSet) -> Pyramid:
     Raises
     ------
     MapSetError
-        Its layout is not octahedral; a map is missing, there twice or no square; or two kernels are equal.
+        Its layout is not octahedral; a map is missing, there twice or no square; two kernels are equal; or
+        rings are not of our widths.
     """
     layout = map_set.header["layout"]
     if layout != OCTAHEDRAL.name:
@@ -74,31 +84,37 @@ def from_map_set(path: Path, map_set: MapSet) -> Pyramid:
         if len(found) != 1:
             raise MapSetError(f"{path} holds {len(found)} maps of the role {role}, not one: make it again.")
         single[role] = found[0]
-    kernels = sorted(
-        (part for part in parts if part["role"] == KERNEL), key=lambda part: float(part["concentration"])
+    kernels, rings = (
+        sorted((part for part in parts if part["role"] == role), key=lambda part: float(part[number]))
+        for role, number in ((KERNEL, "concentration"), (RING, "width"))
     )
+    if tuple(part["width"] for part in rings) != WIDTHS:
+        raise MapSetError(f"{path} holds not the rings that sheen is made of: make it again.")
+    of_rings = [map_set.maps[part["name"]] for part in rings]
     try:
-        if single[LAMBERT].shape != single[LEANING].shape:
-            raise ShapeError("Its diffuse maps differ in size: bake it again.")
+        for name, sheets in (("diffuse", [single[LAMBERT], single[LEANING]]), ("ring", of_rings)):
+            if len({sheet.shape for sheet in sheets}) != 1:
+                raise ShapeError(f"Its {name} maps differ in size: bake it again.")
         return Pyramid(
             KernelBank(tuple(part["concentration"] for part in kernels)),
             single[MIRROR][None],
             tuple(map_set.maps[part["name"]][None] for part in kernels),
             np.stack([single[LAMBERT], single[LEANING]]),
+            np.stack(of_rings),
         )
     except (RangeError, ShapeError) as error:
         raise MapSetError(f"{path} holds no kernel pyramid. {error}") from error
 
 
 def shipped_families() -> Families:
-    """The families of lobes that come with us.
+    """The families of lobes, and the table of sheen, that come with us.
 
     Raises
     ------
     InputFileError
         See `files.families.shipped_family`.
     """
-    return Families(shipped_family("ggx"), shipped_family("leaning"))
+    return Families(shipped_family("ggx"), shipped_family("leaning"), shipped_sheen())
 
 
 def _told(errors: FilterErrors) -> dict[str, Any]:
@@ -111,6 +127,8 @@ def _facts(header: dict[str, Any]) -> dict[str, str]:
 
 
 def _part_title(part: dict[str, Any]) -> str:
+    if part["role"] == RING:
+        return f"Ring, Width {part['width']:g}"
     if part["role"] != KERNEL:
         return role_in_words(part)
     return f"Kernel, Concentration {part['concentration']:.3g}"
@@ -130,7 +148,7 @@ STORED = StoredKind(
     settings=KernelPyramidSettings,
     look=PrincipledLook,
     comparison=PyramidComparison,
-    roles={KERNEL: _Kernel, LAMBERT: _Filtered, LEANING: _Filtered},
+    roles={KERNEL: _Kernel, LAMBERT: _Filtered, LEANING: _Filtered, RING: _Ring},
     facts=_facts,
     part_title=_part_title,
     shading=_shading,

@@ -11,6 +11,7 @@ from ...core.errors import RangeError
 from ...core.kinds.kernel_pyramid.pyramid import Pyramid
 from ...core.lobes.bank import KernelBank
 from ...core.lobes.family import KERNELS
+from ...core.lobes.rings import WIDTHS
 from ...device.drawing import GpuMapSet
 from ...device.kinds.environment import GpuEnvironment
 from ...device.kinds.kernel_pyramid import GpuPyramid
@@ -73,9 +74,9 @@ def own_materials_kind() -> str:
 
 def darkness() -> GpuMapSet:
     """No light, of the kind of `own_materials_kind`: in it, materials show what they emit."""
-    none = np.zeros((2, 2, 2, 3), np.float32)
+    none = np.zeros((len(WIDTHS), 2, 2, 3), np.float32)
     bank = KernelBank(KERNELS.concentrations[:1])
-    return _pyramid(Pyramid(bank, none[:1], (none[:1],), none))
+    return _pyramid(Pyramid(bank, none[:1], (none[:1],), none[:2], none))
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
 """Objects shaded with their own materials: what is drawn of each slot, and what is to be said of it."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from ...core.errors import SceneError
@@ -144,9 +144,6 @@ class Materials:
 
 NO_MATERIAL = ShownMaterial("", DrawnMaterial(UNASSIGNED))
 
-NOT_SHOWN = {name: getattr(PLAIN, name) for name in ("sheen_weight", "sheen_roughness", "sheen_tint")}
-"""Inputs that no shader takes; `PrincipledInputs.missing` tells of them."""
-
 LABELS = {**INPUTS, **NORMAL_INPUTS}
 """Field of `PrincipledInputs` -> input of Blender's node."""
 
@@ -173,7 +170,6 @@ def shown_material(
     except RecursionError:
         told = f"Material {name} has chains of nodes that are too long to follow: bake them to images."
         return ShownMaterial(name, DrawnMaterial(PLAIN), (told,))
-    inputs = replace(inputs, **NOT_SHOWN)
     has_baked = bool(pictures_of(inputs))
     reader = _Reader()
     inputs = readable(with_pictures(inputs, textures), reader.read)

@@ -14,9 +14,10 @@ def atlas_texels(pyramid: Pyramid) -> tuple[Array, Array]:
     -------
     atlas : ndarray, shape (height, width, 4), float32
         Alpha is 1; the width is that of the widest map within its border.
-    places : ndarray, shape (1, K + 3, 4), float32
+    places : ndarray, shape (1, K + 3 + R, 4), float32
         Left and lower edge of a map, its width and its height, as shares of the atlas: of each of `KERNELS`,
-        the mirror, and both diffuse ones. What the environment does not resolve is where the mirror is.
+        the mirror, both diffuse ones, and the rings. What the environment does not resolve is where the
+        mirror is.
     """
     sheets = [sheet for sheets in pyramid.all_maps for sheet in sheets]
     corners, height = _shelves([len(sheet) + 2 for sheet in sheets])
@@ -24,13 +25,15 @@ def atlas_texels(pyramid: Pyramid) -> tuple[Array, Array]:
     for sheet, (left, bottom) in zip(sheets, corners, strict=True):
         size = len(sheet) + 2
         atlas[bottom : bottom + size, left : left + size, :3] = _bordered(sheet)
-    mirror, *kernels, cosine, leaning = (
+    mirror, *others = (
         (left + 1, bottom + 1, len(sheet), len(sheet))
         for sheet, (left, bottom) in zip(sheets, corners, strict=True)
     )
-    resolved = dict(zip(pyramid.bank.concentrations, kernels[::-1], strict=True))
+    count, rings = len(pyramid.bank), len(pyramid.rings)
+    resolved = dict(zip(pyramid.bank.concentrations, others[:count][::-1], strict=True))
     of_kernels = [resolved.get(kappa, mirror) for kappa in KERNELS.concentrations]
-    places = np.array([[*of_kernels, mirror, cosine, leaning]]) / (2 * atlas.shape[1::-1])
+    of_normals = [*others[count + rings :], *others[count : count + rings]]
+    places = np.array([[*of_kernels, mirror, *of_normals]]) / (2 * atlas.shape[1::-1])
     return atlas, places.astype(np.float32)
 
 

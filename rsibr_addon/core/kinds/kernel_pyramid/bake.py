@@ -16,6 +16,7 @@ from ...filtering.radial_lobes import cosine_lobe
 from ...filtering.zonal import ZonalLobe, ZonalSeries, expand
 from ...lobes.bank import KernelBank
 from ...lobes.family import KERNELS
+from ...lobes.rings import WIDTHS, ring
 from ...maps.representation import representation
 from ...progress import Progress, Steps
 from ...resample import resample
@@ -29,6 +30,9 @@ TEXELS_BY_SHARPNESS = 16.0
 
 SMALLEST = 32
 """Width of the smallest maps, larger than the broadest kernels need: diffuse light is theirs alone."""
+
+RING_TEXELS = 128
+"""Width of the rings' maps: a point of light shows as a ring as wide as theirs."""
 
 MOST_MISSING = 2.0
 """Width that a map needs over that of the largest; beyond it the mirror's is nearer to a kernel's map."""
@@ -64,13 +68,14 @@ class BakedPyramid:
     pyramid : Pyramid
     kernels : tuple of FilterErrors
         Of each kernel's map.
-    diffuse : tuple of FilterErrors
-        Of both diffuse maps.
+    diffuse, rings : tuple of FilterErrors
+        Of both diffuse maps, and of each ring's.
     """
 
     pyramid: Pyramid
     kernels: tuple[FilterErrors, ...]
     diffuse: tuple[FilterErrors, ...]
+    rings: tuple[FilterErrors, ...]
 
 
 def width_of(concentration: float, size: int) -> int:
@@ -104,8 +109,10 @@ def bake_pyramid(radiance: Array, size: int) -> Steps[BakedPyramid]:
     diffuse = [expand(lobe, _TOLERANCE_AT_HORIZON) for lobe in (cosine_lobe(), leaning_lobe())]
     series = _resolved(len(radiance), size, diffuse)
     bank = KernelBank(KERNELS.concentrations[: len(series)])
-    harmonics = analyse_environment(radiance, analysis_degree([*series, *diffuse]))
+    rings = [expand(ring_lobe(width), _TOLERANCE_AT_HORIZON) for width in WIDTHS]
+    harmonics = analyse_environment(radiance, analysis_degree([*series, *diffuse, *rings]))
     (white, leant), diffuse_errors = _filtered(harmonics, diffuse, SMALLEST)
+    ring_maps, ring_errors = _filtered(harmonics, rings, min(RING_TEXELS, size))
     maps: list[Array] = []
     errors: list[FilterErrors] = []
     for width, kernels in groupby(
@@ -116,9 +123,9 @@ def bake_pyramid(radiance: Array, size: int) -> Steps[BakedPyramid]:
         maps += [sheet[None] for sheet in found]
         errors += found_errors
     mirror = resample(radiance[None], EQUIRECT, OCTAHEDRAL, size, np.float32)
-    pyramid = Pyramid(bank, mirror, tuple(maps), np.stack([white / np.float32(np.pi), leant]))
+    pyramid = Pyramid(bank, mirror, tuple(maps), np.stack([white / np.float32(np.pi), leant]), ring_maps)
     diffuse_errors[0] = replace(diffuse_errors[0], bound=diffuse_errors[0].bound / np.pi)
-    return BakedPyramid(pyramid, tuple(errors), tuple(diffuse_errors))
+    return BakedPyramid(pyramid, tuple(errors), tuple(diffuse_errors), tuple(ring_errors))
 
 
 def _resolved(height: int, size: int, diffuse: list[ZonalSeries]) -> list[ZonalSeries]:
@@ -155,3 +162,10 @@ def leaning_lobe() -> ZonalLobe:
         return values
 
     return ZonalLobe(profile, (0.0, 0.25 * np.pi, 0.5 * np.pi, np.pi))
+
+
+def ring_lobe(width: float) -> ZonalLobe:
+    """`lobes.rings.ring` of a width."""
+    knots = [0.5 * np.pi - angle for angle in (8.0 * width, 4.0 * width, 2.0 * width, width, 0.5 * width)]
+    within = [angle for angle in knots if angle > 0.0]
+    return ZonalLobe(lambda angle: ring(np.cos(angle), width), (0.0, *within, 0.5 * np.pi, np.pi))

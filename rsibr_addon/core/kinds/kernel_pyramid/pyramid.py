@@ -6,6 +6,7 @@ from ...conventions import Array, ArrayLike
 from ...errors import RangeError, ShapeError
 from ...lobes.bank import KernelBank
 from ...lobes.family import KERNELS
+from ...lobes.rings import WIDTHS
 from ...maps.representation import representation
 from ...resample import lookup
 
@@ -14,7 +15,7 @@ OCTAHEDRAL = representation("octahedral")
 
 @dataclass(frozen=True, eq=False)
 class Pyramid:
-    """Octahedral maps of an environment: itself, K kernels, and two diffuse ones.
+    """Octahedral maps of an environment: itself, K kernels, two diffuse ones, and R rings.
 
     Attributes
     ----------
@@ -27,11 +28,13 @@ class Pyramid:
     diffuse : ndarray, shape (2, n, n, 3)
         By direction of the normal: what Lambert's reflection shows of white, and the integral of radiance
         times n.l times `oren_nayar.leaning_albedo`.
+    rings : ndarray, shape (R, n, n, 3)
+        By direction of the normal: radiance filtered with `lobes.rings.ring` of each of its `WIDTHS`.
 
     Raises
     ------
     ShapeError
-        There are not as many maps as kernels, or a map is no square.
+        There are not as many maps as kernels or rings, or a map is no square.
     RangeError
         The kernels are not the first ones of `family.KERNELS`.
     """
@@ -40,18 +43,20 @@ class Pyramid:
     mirror: Array
     maps: tuple[Array, ...]
     diffuse: Array
+    rings: Array
 
     def __post_init__(self) -> None:
         square = all(sheets.shape[1:] == (sheets.shape[1], sheets.shape[1], 3) for sheets in self.all_maps)
-        if len(self.maps) != len(self.bank) or not square:
-            raise ShapeError("A pyramid has a square map for each of its kernels: bake it again.")
+        counts = (len(self.maps), len(self.rings)) == (len(self.bank), len(WIDTHS))
+        if not counts or not square:
+            raise ShapeError("A pyramid has a square map for each of its kernels and rings: bake it again.")
         if self.bank.concentrations != KERNELS.concentrations[: len(self.bank)]:
             raise RangeError("Its kernels are not those that materials are made of: bake it again.")
 
     @property
     def all_maps(self) -> tuple[Array, ...]:
         """Every map, the sharpest first."""
-        return (self.mirror, *self.maps[::-1], self.diffuse)
+        return (self.mirror, *self.maps[::-1], self.rings, self.diffuse)
 
     @property
     def texels(self) -> int:

@@ -9,10 +9,11 @@ from ...brdf.fresnel_powers import powers_of
 from ...brdf.oren_nayar import bounces, facets
 from ...brdf.principled import Layers, Surface, layers_of
 from ...conventions import Array, ArrayLike
-from ...geometry.directions import dot, reflect
+from ...geometry.directions import dot, normalize, reflect
 from ...geometry.sides import seen_surface
 from ...lobes.family import Family
 from ...lobes.fit import lobe_axes
+from ...lobes.rings import SheenTable
 from ...resample import lookup
 from .pyramid import OCTAHEDRAL, Pyramid
 
@@ -29,10 +30,12 @@ class Families:
         GGX times each of `fresnel_powers.POWERS`.
     leaning : Family
         `oren_nayar.tilt`, of one width.
+    sheen_table : SheenTable
     """
 
     ggx: Family
     leaning: Family
+    sheen_table: SheenTable
 
     def share(self, alpha: ArrayLike) -> Array:
         """Share of a mirror in a lobe narrower than the family's first: the rest is that one's.
@@ -56,6 +59,11 @@ class Families:
         share, rough = self.share(alpha), np.maximum(alpha, self.ggx.alpha[0])
         mixed: Array = (1.0 - share) * np.interp(np.log(rough), np.log(self.ggx.alpha), white) + share
         return mixed
+
+    def sheen(self, roughness: Array, mu: Array) -> Array:
+        """See `Albedos`."""
+        albedo: Array = self.sheen_table.at(roughness, mu).sum(axis=-1)
+        return albedo
 
 
 def principled_radiance(
@@ -104,11 +112,16 @@ def principled_radiance(
         else seen_surface(coat_normal, view_dir, facet).mirror_normal
     )
     coat_mu = np.clip(dot(coat_normal, view_dir), _GRAZING, 1.0)
-    layers = layers_of(surface, mu, families, coat_mu)
+    # Fibres stand on base and coat alike
+    coated = np.clip(np.asarray(surface.coat_weight, np.float64), 0.0, 1.0)[..., None]
+    sheen_normal = normalize(seen.normal + coated * (coat_normal - seen.normal))
+    sheen_mu = np.clip(dot(sheen_normal, view_dir), 0.0, 1.0)
+    layers = layers_of(surface, mu, families, coat_mu, sheen_mu)
     own_mu = np.clip(dot(seen.normal, view_dir), _GRAZING, 1.0)
     smooth = seen.normal if smooth_normal is None else seen_surface(smooth_normal, view_dir, facet).normal
     diffuse = _diffuse(pyramid, families.leaning, surface, layers, seen.normal, smooth, view_dir, own_mu)
     radiance = layers.emission + diffuse
+    radiance += layers.sheen * _sheen(pyramid, families.sheen_table, surface, sheen_normal, sheen_mu)
     for roughness, coefficients, layer_normal in (
         (surface.roughness, layers.base, seen.mirror_normal),
         (surface.coat_roughness, layers.coat, coat_normal),
@@ -183,6 +196,15 @@ def _diffuse(
         pyramid, leaning, np.ones(len(ones)), mu[is_rough], ones, *axes
     )
     return layers.diffuse * color * share[:, None] * np.maximum(radiance, 0.0)
+
+
+def _sheen(pyramid: Pyramid, table: SheenTable, surface: Surface, normal: Array, mu: Array) -> Array:
+    """White sheen, shape (N, 3)."""
+    weights = table.at(surface.sheen_roughness, mu)
+    maps = (pyramid.diffuse[0], *pyramid.rings)
+    shown = np.stack([lookup(sheet[None], normal, OCTAHEDRAL) for sheet in maps], axis=1)
+    radiance: Array = np.einsum("nr,nri->ni", weights, shown)
+    return radiance
 
 
 def lookup_diffuse(pyramid: Pyramid, normal: Array) -> tuple[Array, Array]:

@@ -24,6 +24,7 @@ def split_families(families: Families) -> Families:
     return Families(
         Family(ggx.alpha, ggx.mu, ggx.bank, np.zeros_like(ggx.tilts), weights),
         families.leaning,
+        families.sheen_table,
     )
 
 

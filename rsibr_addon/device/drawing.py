@@ -158,6 +158,14 @@ class Emissive(Protocol):
 
 
 @runtime_checkable
+class Refractive(Protocol):
+    """A map set that may show what is seen through an object."""
+
+    def refracts(self, look: Any) -> bool:
+        """Whether a look shows refracted light, averaged over pixels."""
+
+
+@runtime_checkable
 class WithSplitSum(WithInputs, Protocol):
     """A map set whose program also shades by the split sum of engines."""
 

@@ -1,5 +1,6 @@
 """Pictures of a mesh drawn off-screen, in linear radiance."""
 
+from dataclasses import replace
 from typing import Any
 
 import gpu
@@ -9,7 +10,7 @@ from ..core.conventions import Array, Indices
 from ..core.geometry.camera import Camera
 from . import buffers
 from .context import ensure_context
-from .drawing import Draw, GpuMapSet, GpuMesh
+from .drawing import Draw, GpuMapSet, GpuMesh, Refractive
 from .passes import plain_state, screen_interface, screen_triangle
 from .shaders import build, kept_until_exit
 
@@ -18,6 +19,10 @@ STILL = np.eye(3)
 
 SAMPLES_PER_AXIS = 4
 """Samples along each axis of a pixel, whose mean is the pixel: antialiased, as by Cycles' box filter."""
+
+TILES_OF_REFRACTION = 2
+"""Tiles along each axis that a picture of refracted light is drawn in, each with as many samples as another
+picture: what is refracted at creases and outlines turns within a sample."""
 
 
 class PreviewRenderer:
@@ -64,7 +69,10 @@ class PreviewRenderer:
         ndarray, shape (size, size, 4), float32
             Radiance times coverage, and coverage; row 0 at the bottom.
         """
-        fine = size * SAMPLES_PER_AXIS
+        refracts = isinstance(self._content, Refractive) and self._content.refracts(look)
+        tiles = TILES_OF_REFRACTION if refracts else 1
+        tile, per_axis = -(-size // tiles), SAMPLES_PER_AXIS * tiles
+        fine = tile * per_axis
         colour = buffers.render_target(fine)
         depth = gpu.types.GPUTexture((fine, fine), format="DEPTH_COMPONENT32F")
         target = gpu.types.GPUFrameBuffer(depth_slot=depth, color_slots=(colour,))
@@ -78,6 +86,16 @@ class PreviewRenderer:
             turn=light_turn.T,
         )
         mesh = GpuMesh(positions, normals, _nearest_first(positions @ object_turn.T, triangles, camera))
+        picture = np.empty((tile * tiles, tile * tiles, 4), np.float32)
+        for bottom, left in np.ndindex(tiles, tiles):
+            place = tile * left, tile * bottom
+            within = replace(placed, projection=_magnified(place, tile, size) @ placed.projection)
+            self._draw_samples(target, mesh, within, look)
+            rows, columns = (slice(start, start + tile) for start in place[::-1])
+            picture[rows, columns] = _means(colour, tile, per_axis)
+        return picture[:size, :size]
+
+    def _draw_samples(self, target: gpu.types.GPUFrameBuffer, mesh: GpuMesh, placed: Draw, look: Any) -> None:
         depth_test, depth_mask = gpu.state.depth_test_get(), gpu.state.depth_mask_get()
         with target.bind():
             target.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
@@ -88,19 +106,34 @@ class PreviewRenderer:
             finally:
                 gpu.state.depth_test_set(depth_test)
                 gpu.state.depth_mask_set(depth_mask)
-        return self._means(colour, size)
 
-    def _means(self, samples: gpu.types.GPUTexture, size: int) -> Array:
-        """The means of each pixel's samples, which are sixteen times as much to read back."""
-        means = buffers.render_target(size)
-        target = gpu.types.GPUFrameBuffer(color_slots=(means,))
-        shader = sample_means_shader()
-        with target.bind(), plain_state():
-            shader.bind()
-            shader.uniform_int("per_axis", SAMPLES_PER_AXIS)
-            shader.uniform_sampler("samples", samples)
-            screen_triangle(shader).draw(shader)
-            return buffers.pixels(target, size)
+
+def _means(samples: gpu.types.GPUTexture, size: int, per_axis: int) -> Array:
+    """The means of each pixel's samples, of which there are many more to read back."""
+    means = buffers.render_target(size)
+    target = gpu.types.GPUFrameBuffer(color_slots=(means,))
+    shader = sample_means_shader()
+    with target.bind(), plain_state():
+        shader.bind()
+        shader.uniform_int("per_axis", per_axis)
+        shader.uniform_sampler("samples", samples)
+        screen_triangle(shader).draw(shader)
+        return buffers.pixels(target, size)
+
+
+def _magnified(place: tuple[int, int], tile: int, size: int) -> Array:
+    """What makes a square of a picture fill the frame, shape (4, 4), for clip coordinates.
+
+    Parameters
+    ----------
+    place : (int, int)
+        The square's left and bottom, in pixels.
+    tile, size : int
+        Widths of the square and the picture, in pixels.
+    """
+    matrix = np.diag([size / tile, size / tile, 1.0, 1.0])
+    matrix[:2, 3] = [(size - 2.0 * start) / tile - 1.0 for start in place]
+    return matrix
 
 
 def _nearest_first(positions: Array, triangles: Indices, camera: Camera) -> Indices:

@@ -82,6 +82,12 @@ class GpuReflectionTables(ProgramMapSet):
         summed = {f"{role}_sums": (role.value, each.unit) for role, each in sums.items() if look.antialiased}
         return Inputs(reflection_tables_shader, fields, {**textures, "weights": weights}, summed)
 
+    def refracts(self, look: TablesLook) -> bool:
+        """See `Refractive`."""
+        return (
+            look.antialiased and Role.REFRACTION in self._tables.maps and look.weight(Role.REFRACTION) > 0.0
+        )
+
     def draw_emission(self, mesh: GpuMesh, draw: Draw, look: TablesLook) -> None:
         """See `Emissive`."""
         tables, _ = self._as_looked_at(look)

@@ -8,12 +8,10 @@ from ..rsibr_addon.core.errors import RsibrError
 from ..rsibr_addon.host.bake_settings import bakes_inputs_by_itself
 from ..rsibr_addon.host.visible_surfaces import layer_of
 from ..rsibr_addon.session.running import session
-from ..rsibr_addon.tasks.queue.background import State
+from ..rsibr_addon.tasks.queue.background import Farm, State
 from ..rsibr_addon.tasks.queue.input_bakes import InputBake, input_bake_of, inputs_file
 from . import background
 from .at_once import AtOnce
-
-TOO_LONG = "The materials of {} have chains of nodes that are too long to follow: bake them to images."
 
 
 class RSIBR_OT_bake_inputs(AtOnce, bpy.types.Operator):
@@ -39,10 +37,9 @@ class RSIBR_OT_bake_inputs(AtOnce, bpy.types.Operator):
                 inputs.forgive(item)
             try:
                 output = inputs_file(item, depsgraph)
-            except (RsibrError, OSError, RecursionError) as error:
+            except (RsibrError, OSError) as error:
                 inputs.forgive(item)  # its next file is another, whatever it wished before
-                told = TOO_LONG.format(item.name) if isinstance(error, RecursionError) else str(error)
-                inputs.refuse(item, told)
+                inputs.refuse(item, str(error))
                 continue
             if inputs.wish(item, output) or output is None or not bakes or inputs.is_refused(item):
                 continue
@@ -54,7 +51,7 @@ class RSIBR_OT_bake_inputs(AtOnce, bpy.types.Operator):
 
 def _bake(scene: bpy.types.Scene, item: bpy.types.Object, output: Path) -> None:
     """Queue the bake that an object wishes, unless it is asked for already."""
-    own = [each for each in session().bakes.bakes if isinstance(each, InputBake)]
+    own = [each for each in session().bakes.bakes if isinstance(each, InputBake) and not each.elsewhere]
     # While one goes on, the latest wish waits for its end; others are forgotten
     for bake in own:
         if item.session_uid in bake.items:
@@ -65,8 +62,30 @@ def _bake(scene: bpy.types.Scene, item: bpy.types.Object, output: Path) -> None:
                 if not bake.items:
                     bake.cancel()
                     bake.tidy()
+    queue_inputs(scene, item, output)
+    session().previews.inputs.ask(item)
+
+
+def queue_inputs(
+    scene: bpy.types.Scene, item: bpy.types.Object, output: Path, farm: Farm | None = None
+) -> None:
+    """Bake an object's inputs, unless the same are being baked.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+    item : bpy.types.Object
+    output : Path
+        See `inputs_file`.
+    farm : Farm, optional
+        Does the bake.
+
+    Raises
+    ------
+    RsibrError
+        See `input_bake_of`.
+    """
     if (same := session().bakes.unfinished(output)) is not None:
         same.items.append(item.session_uid)
     else:
-        background.submit(input_bake_of(scene, item, output))
-    session().previews.inputs.ask(item)
+        background.submit(input_bake_of(scene, item, output, farm))

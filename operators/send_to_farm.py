@@ -1,13 +1,20 @@
 """Have a farm bake, then shade the selected objects from what it has baked."""
 
+from collections.abc import Iterator, Sequence
+
 import bpy
 
-from ..rsibr_addon.core.errors import SceneError
+from ..rsibr_addon.core.errors import RsibrError, SceneError
+from ..rsibr_addon.core.warned import warn
+from ..rsibr_addon.files.baked_inputs import is_whole
 from ..rsibr_addon.host.bake_settings import check_online, farm_address, farm_folder
+from ..rsibr_addon.tasks.methods.kinds import KINDS
 from ..rsibr_addon.tasks.queue.background import Farm
 from ..rsibr_addon.tasks.queue.bake_request import request_for
+from ..rsibr_addon.tasks.queue.input_bakes import inputs_file
 from .at_once import Undoable
 from .bake_in_background import chosen_objects, queue_bakes
+from .bake_inputs import queue_inputs
 from .reporting import can_start
 
 
@@ -24,7 +31,24 @@ class RSIBR_OT_send_to_farm(Undoable, bpy.types.Operator):
 
     def work(self, context: bpy.types.Context) -> None:
         """Send the bakes; where the same was baked before, its file is taken at once."""
-        self.report({"INFO"}, queue_bakes(context.scene, chosen_objects(context), farm=_farm()))
+        items, farm = chosen_objects(context), _farm()
+        told = [queue_bakes(context.scene, items, farm=farm), *_queue_inputs(context, items, farm)]
+        self.report({"INFO"}, "; ".join(told))
+
+
+def _queue_inputs(context: bpy.types.Context, items: Sequence[bpy.types.Object], farm: Farm) -> Iterator[str]:
+    """Have the farm bake what no image says of the objects' own materials, if they will show these."""
+    kind, depsgraph = context.scene.rsibr_bake.kind, context.evaluated_depsgraph_get()
+    for item in items:
+        if not KINDS[kind].own or not getattr(item.rsibr, kind).own:
+            continue
+        try:
+            output = inputs_file(item, depsgraph)
+            if output is not None and not is_whole(output):
+                queue_inputs(context.scene, item, output, farm)
+                yield f"Sending textures of {item.name}"
+        except RsibrError as error:
+            warn(str(error))
 
 
 def _check(context: bpy.types.Context) -> None:

@@ -8,6 +8,7 @@ from .core.errors import InputFileError, RangeError, SchemaError
 from .core.options import to_plain
 from .core.schema import decode, loads
 from .files.kinds.registry import STORED
+from .settings.baked_inputs import ObjectInputsSettings
 from .settings.light import Light
 from .settings.method import MethodSettings
 
@@ -29,8 +30,9 @@ class BakeJob(Generic[Settings]):
     settings : MethodSettings
         Settings of one of the methods.
     output : str
-        The map set to write, NAME.rsibr.exr or NAME.exr.
+        The map set to write, NAME.rsibr.exr or NAME.exr; or the file of baked inputs, NAME.exr.
     light : Light
+        Of a map set.
     force : bool
         Whether `output` is replaced if it exists.
     if_missing : bool
@@ -133,8 +135,13 @@ def read_job(text: str, name: str) -> BakeJob[Any] | CommandJob:
 
 
 def _bake_job(found: _BakeFile) -> BakeJob[Any]:
-    if found.kind not in STORED:
-        raise SchemaError(f"kind is not one of {', '.join(STORED)}")
-    settings = decode(STORED[found.kind].settings, found.settings, "settings")
+    settings = decode(_settings_type(found.kind), found.settings, "settings")
     light = decode(Light, found.light, "light")
     return BakeJob(settings, found.output, light, found.force, if_missing=not found.force)
+
+
+def _settings_type(kind: str) -> type[MethodSettings]:
+    kinds = (*STORED, ObjectInputsSettings.KIND)
+    if kind not in kinds:
+        raise SchemaError(f"kind is not one of {', '.join(kinds)}")
+    return STORED[kind].settings if kind in STORED else ObjectInputsSettings

@@ -77,8 +77,8 @@ def run_job(job: BakeJob[Any], console: Console) -> dict[str, Any]:
     Returns
     -------
     dict
-        "map_set", the path of the file; and the figures of its method, see `tasks.methods.method.Baked`; or
-        "found", true, where the file was there already.
+        "map_set" or "baked_inputs", the path of the file; and the figures of its method, see
+        `tasks.methods.method.Baked`; or "found", true, where the file was there already.
 
     Raises
     ------
@@ -92,11 +92,12 @@ def run_job(job: BakeJob[Any], console: Console) -> dict[str, Any]:
     """
     from ..tasks.methods.bake import bake
 
-    if job.light.environment is None:
+    is_map_set = job.settings.KIND in STORED
+    if is_map_set and job.light.environment is None:
         _check_world()
     baked = console.steps(bake(job))
     console.say(f"{baked.path}: {baked.told}")
-    return {"map_set": str(baked.path), **baked.figures}
+    return {"map_set" if is_map_set else "baked_inputs": str(baked.path), **baked.figures}
 
 
 def _check_world() -> None:

@@ -3,7 +3,10 @@
 import argparse
 from typing import Any
 
-from ..settings.baked_inputs import BakedInputsSettings
+from ..core.options import to_plain
+from ..job import BakeJob
+from ..settings.baked_inputs import BakedInputsSettings, ObjectInputsSettings
+from .bake import run_job
 from .console import Console
 from .options import add_options, add_output, given
 
@@ -23,17 +26,13 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     Returns
     -------
     dict
-        "baked_inputs", the path of the file; "pictures", the number of them.
+        See `run_job`: "baked_inputs", and "pictures", the number of them.
 
     Raises
     ------
     RsibrError
         See `tasks.baked_inputs.bake_inputs`.
     """
-    from ..tasks.baked_inputs import bake_inputs
-
-    settings = given(arguments, BakedInputsSettings)
-    baked = console.steps(bake_inputs(arguments.object, settings, arguments.output, arguments.force))
-    count = len(baked.pictures)
-    console.say(f"{arguments.output}: {count} {'picture' if count == 1 else 'pictures'}")
-    return {"baked_inputs": str(arguments.output), "pictures": count}
+    pictures = to_plain(given(arguments, BakedInputsSettings))
+    settings = ObjectInputsSettings(object=arguments.object, **pictures)
+    return run_job(BakeJob(settings, str(arguments.output), force=arguments.force), console)

@@ -56,7 +56,7 @@ def _result(asked: dict[str, Any], told: Outlet) -> dict[str, Any]:
             result = _baked(job, told)
             times = {"seconds": time.monotonic() - started, "processor": time.process_time() - processor}
             if asked["picture"] or not result["found"]:
-                result["picture"] = _picture(Path(job.output))
+                result["picture"] = _picture(job)
         except (RsibrError, OSError, MemoryError, ModuleNotFoundError) as error:
             return {"ok": False, "error": sentence_of(error, "rsibr batch"), "try_again": may_pass(error)}
     return result | times | {"warnings": list(dict.fromkeys(warnings))}
@@ -87,8 +87,8 @@ def _baked(job: BakeJob[Any], told: Outlet) -> dict[str, Any]:
             return {"ok": True, "told": end.value.told, "found": "found" in end.value.figures}
 
 
-def _picture(path: Path) -> str:
-    """A picture of a map set, as PNG in base 64."""
-    from ..tasks.batch.pictures import map_set_png
+def _picture(job: BakeJob[Any]) -> str:
+    """A picture of what a job has made, as PNG in base 64."""
+    from ..tasks.batch.pictures import png_of_output
 
-    return base64.b64encode(map_set_png(path)).decode("ascii")
+    return base64.b64encode(png_of_output(Path(job.output), job.settings.KIND)).decode("ascii")

@@ -1,8 +1,10 @@
 """How inputs of materials are baked that no image says."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from ..core.options import Options, option
+from .method import MethodSettings
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,3 +30,14 @@ class BakedInputsSettings(Options):
         draft=1,
         final=16,
     )
+
+
+@dataclass(frozen=True, kw_only=True)
+class ObjectInputsSettings(BakedInputsSettings, MethodSettings):
+    """The same, of an object: what a job has baked."""
+
+    KIND: ClassVar = "inputs"
+    LABEL: ClassVar = "Textures of materials"
+    SUMMARY: ClassVar = "What no image says of an object's materials, in pictures for previews"
+
+    object: str = option(label="Object", help="Name of the object, in the open file")

@@ -1,5 +1,7 @@
 """Baking what of an object's materials only Cycles can evaluate."""
 
+import hashlib
+import json
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -7,19 +9,21 @@ from typing import Any
 from ..core.conventions import Array
 from ..core.errors import SceneError
 from ..core.materials.packing import Picture, pictures_of
+from ..core.options import declared_options
 from ..core.progress import Progress, Steps
 from ..core.warned import warn
 from ..files.atomic import check_target
 from ..files.baked_inputs import BakedInputs, write_baked_inputs
+from ..files.map_set_header import Recipe
 from ..files.memory import check_memory
-from ..host.bake_dependence import view_dependence
+from ..host.bake_dependence import content_for_bakes, view_dependence
 from ..host.baked_inputs import baked_picture, layout_of
+from ..host.materials import check_saved
 from ..host.principled import principled
 from ..host.scenes import find_object
-from ..settings.baked_inputs import BakedInputsSettings
-
-TEXEL_BYTES = 60
-"""Bytes of memory for a texel while it is baked, and what Cycles needs to do so."""
+from ..host.version import software
+from ..settings.baked_inputs import BakedInputsSettings, ObjectInputsSettings
+from .methods.inputs import TEXEL_BYTES
 
 
 def bake_inputs(name: str, settings: BakedInputsSettings, output: Path, force: bool) -> Steps[BakedInputs]:
@@ -57,11 +61,8 @@ def bake_inputs(name: str, settings: BakedInputsSettings, output: Path, force: b
         Of the remarks of `BakedInputs`.
     """
     check_target(output, force, (".exr",))
-    item = find_object(name)
-    wanted = wanted_pictures(item)
+    item, wanted = object_to_bake(name)
     count = sum(map(len, wanted.values()))
-    if not count:
-        raise SceneError(f"No material of {name} has an input that needs a bake: use its images as they are.")
     check_memory(TEXEL_BYTES * settings.size**2 * count, str(output), (settings.size, settings.size))
     yield Progress(0, count + 1, f"looking at the UV map of {name}")
     layout = layout_of(item, set(wanted), settings.size)
@@ -78,6 +79,21 @@ def bake_inputs(name: str, settings: BakedInputsSettings, output: Path, force: b
     baked = BakedInputs(made, layout.uv_map, layout.corners, remarks)
     write_baked_inputs(output, baked, force)
     return baked
+
+
+def object_to_bake(name: str) -> tuple[Any, dict[int, tuple[Picture, ...]]]:
+    """An object of the open file, and what has to be baked of it: see `wanted_pictures`.
+
+    Raises
+    ------
+    SceneError
+        There is no such object, or nothing has to be baked of it.
+    """
+    item = find_object(name)
+    wanted = wanted_pictures(item)
+    if not wanted:
+        raise SceneError(f"No material of {name} has an input that needs a bake: use its images as they are.")
+    return item, wanted
 
 
 def wanted_pictures(item: Any) -> dict[int, tuple[Picture, ...]]:
@@ -100,6 +116,46 @@ def wanted_pictures(item: Any) -> dict[int, tuple[Picture, ...]]:
             with suppress(SceneError, RecursionError):
                 wanted[slot] = pictures_of(principled(material))
     return {slot: pictures for slot, pictures in wanted.items() if pictures}
+
+
+def inputs_recipe(
+    item: Any, wanted: dict[int, tuple[Picture, ...]], settings: BakedInputsSettings, depsgraph: Any
+) -> Recipe:
+    """The recipe of an object's baked inputs, the same for copies of an object.
+
+    Parameters
+    ----------
+    item : bpy.types.Object
+    wanted : dict of int to tuple of Picture
+        See `wanted_pictures`.
+    settings : BakedInputsSettings
+    depsgraph : bpy.types.Depsgraph
+        Evaluated, and holding `item`.
+
+    Raises
+    ------
+    SceneError
+        An image of its materials is not saved, or they are too long to follow.
+    """
+    for slot in wanted:
+        check_saved(item.material_slots[slot].material)
+    try:
+        content = content_for_bakes(item, wanted, depsgraph)
+    except RecursionError as error:
+        raise SceneError(
+            f"The materials of {item.name} have chains of nodes that are too long to follow: bake them to "
+            f"images."
+        ) from error
+    content["pictures"] = [[slot, pictures] for slot, pictures in wanted.items()]
+    return Recipe(
+        kind=ObjectInputsSettings.KIND,
+        settings={each.name: getattr(settings, each.name) for each in declared_options(BakedInputsSettings)},
+        clamp=None,
+        light="",
+        material=hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest(),
+        files=[],
+        software=software(),
+    )
 
 
 def _view_remarks(item: Any, slots: dict[int, tuple[Picture, ...]]) -> tuple[str, ...]:

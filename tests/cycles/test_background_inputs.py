@@ -10,8 +10,8 @@ from pathlib import Path
 import bpy
 import pytest
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.tasks.baked_inputs import bake_inputs
-from rsibr.rsibr_addon.tasks.queue.input_bakes import input_bake_of, inputs_settings
+from rsibr.rsibr_addon.tasks.methods.bake import bake
+from rsibr.rsibr_addon.tasks.queue.input_bakes import input_bake_of, input_job, inputs_settings
 from rsibr.tests.cycles.test_background_bake import CHILD, linked, modified
 from rsibr.tests.open_file import open_file_state
 
@@ -28,16 +28,16 @@ def test_the_written_scene_gives_the_same_inputs(
     make(tmp_path)
     item, theirs, ours = bpy.context.object, tmp_path / "theirs.exr", tmp_path / "ours.exr"
     before = open_file_state()
-    bake = input_bake_of(bpy.context.scene, item, theirs)
+    sent = input_bake_of(bpy.context.scene, item, theirs)
     assert open_file_state() == before
     child = subprocess.run(
-        [sys.executable, "-c", CHILD, *bake.command[1:]],
-        env={**os.environ, **bake.variables},
+        [sys.executable, "-c", CHILD, *sent.command[1:]],
+        env={**os.environ, **sent.variables},
         capture_output=True,
         text=True,
         check=False,
     )
-    bake.tidy()
+    sent.tidy()
     assert child.returncode == 0, child.stdout + child.stderr
-    drain(bake_inputs(item.name, settings, ours, force=False))
+    drain(bake(input_job(item, ours)))
     assert theirs.read_bytes() == ours.read_bytes()

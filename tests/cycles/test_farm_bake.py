@@ -1,5 +1,6 @@
 """A bake of the open scene that other machines do is the bake of the open file."""
 
+import json
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -8,10 +9,16 @@ import bpy
 import pytest
 import rsibr
 from rsibr.rsibr_addon.command_line.main import run
+from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.settings.baked_inputs import BakedInputsSettings
+from rsibr.rsibr_addon.tasks.farm import send
 from rsibr.rsibr_addon.tasks.light import environments
+from rsibr.rsibr_addon.tasks.methods.bake import bake
 from rsibr.rsibr_addon.tasks.queue.bake_request import request_for
+from rsibr.rsibr_addon.tasks.queue.input_bakes import input_job
 from rsibr.tests.bake_jobs import run_job
 from rsibr.tests.cycles.test_background_bake import HEIGHT, linked, second_scene
+from rsibr.tests.flamenco_stub import manager
 
 WORKER = [
     sys.executable,
@@ -30,6 +37,56 @@ def _registered(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     rsibr.register()
     yield
     rsibr.unregister()
+
+
+@pytest.fixture
+def sent_inputs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The job of the inputs of a material of a library, whose bake here is beside it, as ours.exr."""
+    settings = BakedInputsSettings(size=16, samples=1)
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.queue.input_bakes.inputs_settings", lambda: settings)
+    (tmp_path / "studio").mkdir()
+    linked(tmp_path / "studio")
+    item, job = bpy.context.object, tmp_path / "inputs.json"
+    drain(bake(input_job(item, tmp_path / "ours.exr")))
+    job.write_text(input_job(item, tmp_path / "theirs.exr").to_json())
+    return job
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:Material .* depends on the view")
+def test_sent_materials_give_the_same_textures(sent_inputs: Path, tmp_path: Path) -> None:
+    assert run(["submit", str(sent_inputs), "--openjd", str(tmp_path / "bundle")]) == 0
+    (tmp_path / "studio").rename(tmp_path / "gone")
+    [batch] = map(str, (tmp_path / "bundle" / "inputs").glob("*.json"))
+    command = ["batch", batch, "--output", str(tmp_path)]
+    for which in (["--part", "open-inputs"], ["--part", "open-inputs"], ["--page"]):
+        assert run([*command, *which]) == 0
+    assert (tmp_path / "theirs.exr").read_bytes() == (tmp_path / "ours.exr").read_bytes()
+    [page] = tmp_path.glob("*-batch/index.html")
+    assert "data:image/png;base64,iVBOR" in page.read_text()
+
+
+@pytest.mark.filterwarnings("ignore:Material .* depends on the view")
+def test_textures_come_back_from_a_farm(
+    sent_inputs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(send, "LOOK_SECONDS", 0.0)
+    monkeypatch.setattr(send, "STEP_SECONDS", 0.0)
+    (tmp_path / "shared").mkdir()
+    with manager(tmp_path / "shared") as farm:
+        command = ["submit", str(sent_inputs), "--flamenco", farm.url, "--wait", "--json"]
+        for there in (None, b"mine"):
+            if there:
+                (tmp_path / "theirs.exr").write_bytes(there)
+            assert run(command) == 0
+            told = json.loads(capfd.readouterr().out.splitlines()[-1])["warnings"]
+            # What is there already stays, and that is told
+            found = (tmp_path / "theirs.exr").read_bytes()
+            assert found == (there or (tmp_path / "ours.exr").read_bytes())
+            assert any("theirs.exr exists, and holds something else" in each for each in told) == bool(there)
+        assert not farm.refused
+        assert [job["settings"]["parts"] for job in farm.jobs] == 2 * ["open-inputs"]
+        assert len(list(farm.shared.iterdir())) == 1
 
 
 @pytest.mark.slow

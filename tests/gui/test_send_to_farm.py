@@ -14,7 +14,7 @@ def wake_loopback():
         fcntl.ioctl(plug, SIOCSIFFLAGS, struct.pack("16sh14x", b"lo", UP))
 
 class Manager(http.server.BaseHTTPRequestHandler):
-    settings, tasks, held = None, {}, True
+    jobs, held = [], True
 
     def do_GET(self):
         path = self.path.removeprefix("/api/v3/")
@@ -23,22 +23,26 @@ class Manager(http.server.BaseHTTPRequestHandler):
             self.answer({"etag": "1", "settings": [{"key": key} for key in keys]})
         elif path.startswith("configuration/shared-storage/users/"):
             self.answer({"location": "/job/shared"})
-        elif path == "jobs/1":
-            self.answer({"id": "1", "status": Manager.status})
-        elif path == "jobs/1/tasks":
-            self.answer({"tasks": [{"id": n, "name": n, "status": s} for n, s in Manager.tasks.items()]})
         elif path.endswith("/logtail"):
             self.answer("no such program")
+        elif path.endswith("/tasks"):
+            tasks = self.job(path)["tasks"].items()
+            self.answer({"tasks": [{"id": name, "name": name, "status": status} for name, status in tasks]})
+        elif path.startswith("jobs/"):
+            self.answer({"id": path.split("/")[1], "status": self.job(path)["status"]})
 
     def do_POST(self):
         body = json.loads(self.rfile.read(int(self.headers["Content-Length"])))
         if self.path.endswith("setstatus"):
-            Manager.status = "canceled"
+            self.job(self.path.removeprefix("/api/v3/"))["status"] = "canceled"
             return self.answer({})
-        Manager.settings, Manager.status = body["settings"], "active"
-        Manager.tasks = {name: "active" for name in body["settings"]["parts"].split()} | {"page": "queued"}
-        threading.Thread(target=work, daemon=True).start()
-        self.answer({"id": "1", "status": "queued"})
+        tasks = {name: "active" for name in body["settings"]["parts"].split()} | {"page": "queued"}
+        Manager.jobs.append({"settings": body["settings"], "status": "active", "tasks": tasks})
+        threading.Thread(target=work, args=(Manager.jobs[-1],), daemon=True).start()
+        self.answer({"id": str(len(Manager.jobs) - 1), "status": "queued"})
+
+    def job(self, path):
+        return Manager.jobs[int(path.split("/")[1])]
 
     def answer(self, plain):
         self.send_response(200)
@@ -48,22 +52,28 @@ class Manager(http.server.BaseHTTPRequestHandler):
     def log_message(self, *told):
         pass
 
-def work():
+def work(job):
     # What the job type has a worker do
-    folder = Manager.settings["folder"]
-    batch = [f"{folder}/inputs/{Manager.settings['batch']}.json", "--output", f"{folder}/maps"]
-    for name in list(Manager.tasks):
+    folder, tasks = job["settings"]["folder"], job["tasks"]
+    batch = [f"{folder}/inputs/{job['settings']['batch']}.json", "--output", f"{folder}/maps"]
+    for name in list(tasks):
         while Manager.held:
             time.sleep(0.05)
         which = ["--page"] if name == "page" else ["--part", name]
         program = [bpy.app.binary_path, "--background", "--disable-autoexec", "--command", "rsibr"]
         done = subprocess.run([*program, "batch", *batch, *which], capture_output=True)
-        Manager.tasks[name] = "failed" if done.returncode else "completed"
-    failed = "failed" in Manager.tasks.values()
-    Manager.status = "failed" if failed else "completed"
+        tasks[name] = "failed" if done.returncode else "completed"
+    job["status"] = "failed" if "failed" in tasks.values() else "completed"
+
+def started():
+    wake_loopback()
+    os.makedirs("/job/shared", exist_ok=True)
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Manager)
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    return server
 """
 
-WAY = """
+SEND = """
 def send():
     with bpy.context.temp_override(window=window(), area=view(), region=region(view())):
         return list(bpy.ops.rsibr.send_to_farm("INVOKE_DEFAULT"))
@@ -79,11 +89,11 @@ def picture(name):
         yield from drawn()
     xshot.save(xshot.grab(), f"/job/{name}.png")
 
+"""
+
+WAY = """
 def scenario(told):
-    wake_loopback()
-    os.makedirs("/job/shared", exist_ok=True)
-    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Manager)
-    threading.Thread(target=server.serve_forever, daemon=True).start()
+    server = started()
     preferences = bpy.context.preferences
     farm = preferences.addons[ROOT].preferences
     chosen, cube = settings(), bpy.context.object
@@ -102,7 +112,7 @@ def scenario(told):
     yield from done(said("baking world-radiance-views"))
     yield from picture("farm-baking")
     bpy.ops.rsibr.cancel_bake(number=len(session().bakes.bakes) - 1)
-    yield from done(lambda: Manager.status == "canceled")
+    yield from done(lambda: Manager.jobs[-1]["status"] == "canceled")
 
     # Sent again, it comes and shades the object; a bake here goes on beside it
     Manager.held = False
@@ -126,7 +136,7 @@ def scenario(told):
 
 
 def test_a_bake_that_is_sent_comes_back_and_shades(told: Callable[[str], dict]) -> None:
-    assert told(PRELUDE + MANAGER + WAY) == {
+    assert told(PRELUDE + MANAGER + SEND + WAY) == {
         "without a farm": False,
         "offline": False,
         "state": ["done", ""],
@@ -134,4 +144,44 @@ def test_a_bake_that_is_sent_comes_back_and_shades(told: Callable[[str], dict]) 
         "again": ["FINISHED"],
         "waits": False,
         "away": True,
+    }
+
+
+TEXTURES = """
+def scenario(told):
+    server, cube, inputs = started(), bpy.data.objects["Cube"], session().previews.inputs
+    bare(view())
+    bpy.context.preferences.system.use_online_access = True
+    preferences = bpy.context.preferences.addons[ROOT].preferences
+    preferences.farm_manager, preferences.bake_inputs = f"127.0.0.1:{server.server_port}", False
+    preferences.inputs.size = 32
+    tree = cube.active_material.node_tree
+    noise = tree.nodes.new("ShaderNodeTexNoise").outputs["Color"]
+    tree.links.new(noise, tree.nodes["Principled BSDF"].inputs["Base Color"])
+    chosen = settings()
+    chosen.kind = "kernel_pyramid"
+    Manager.held = False
+    sidebar()
+    yield from drawn()
+    sidebar()[1].active_panel_category = "RSIBR"
+    send()
+    told["sent"] = len(session().bakes.bakes)
+    yield from done()
+    told["bakes"] = [[str(each.state), each.message] for each in session().bakes.bakes]
+    while cube.session_uid not in inputs._shown:
+        yield from drawn()
+    told["lacks"] = inputs.lacks(cube)
+    yield from picture("farm-textures")
+    told["again"] = send()
+    told["waits"] = session().bakes.busy
+"""
+
+
+def test_textures_of_materials_that_are_sent_come_back_and_show(told: Callable[[str], dict]) -> None:
+    assert told(PRELUDE + MANAGER + SEND + TEXTURES) == {
+        "sent": 2,
+        "bakes": [["done", ""], ["done", ""]],
+        "lacks": False,
+        "again": ["FINISHED"],
+        "waits": False,
     }

@@ -1,4 +1,4 @@
-"""Small pictures of map sets, for a batch's page."""
+"""Small pictures of map sets and of baked inputs, for a batch's page."""
 
 from functools import cache
 from pathlib import Path
@@ -8,9 +8,11 @@ import numpy as np
 from ...core.geometry.directions import reflect
 from ...core.light.transfer_curve import srgb_from_linear
 from ...core.pictures.sphere import SpherePixels, sphere_pixels
+from ...files.baked_inputs import read_baked_inputs
 from ...files.kinds.registry import STORED
 from ...files.map_set import read_map_set
 from ...files.png import png_of
+from ...settings.baked_inputs import ObjectInputsSettings
 from ..report.pictures import BRIGHTEST
 
 SIZE = 64
@@ -18,6 +20,26 @@ SIZE = 64
 
 VIEW_DIR = (0.0, -1.0, 0.0)
 """From the sphere to the eye."""
+
+
+def png_of_output(path: Path, kind: str) -> bytes:
+    """What a job of a kind has made, as a PNG; raises what reading it does."""
+    return inputs_png(path) if kind == ObjectInputsSettings.KIND else map_set_png(path)
+
+
+def inputs_png(path: Path) -> bytes:
+    """The first picture of a file of baked inputs.
+
+    Raises
+    ------
+    InputFileError
+        See `files.baked_inputs.read_baked_inputs`.
+    """
+    texels = next(iter(read_baked_inputs(path).pictures.values()))[::-1]
+    step = max(1, len(texels) // SIZE)
+    shown = srgb_from_linear(np.clip(texels[::step, ::step], 0.0, 1.0))
+    opaque = np.pad(shown, ((0, 0), (0, 0), (0, 1)), constant_values=1.0)
+    return png_of(np.rint(255.0 * opaque).astype(np.uint8))
 
 
 def map_set_png(path: Path) -> bytes:

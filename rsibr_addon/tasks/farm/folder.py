@@ -21,14 +21,15 @@ from ...files.outputs import make_folder
 from ...files.pictures import split_layer
 from ...files.reading import opened
 from ...job import BakeJob, read_job
+from ...settings.baked_inputs import ObjectInputsSettings
 from ..batch.bake_list import HERE, bake_list_text
 from ..batch.bakes import BatchBake, Opened
 from ..batch.description import read_batch
 from ..batch.faults import fault_of
 from ..light.environments import environment_file
-from ..methods.bake import METHODS
+from ..methods.bake import METHODS, recipe_for
 from ..methods.method import Sources
-from ..methods.recipe import recipe_hash, recipe_of, with_files_named
+from ..methods.recipe import recipe_hash, with_files_named
 
 INPUTS, MAPS = "inputs", "maps"
 """Folders within the farm's folder."""
@@ -228,7 +229,7 @@ def _with_texts(job: BakeJob[Any], replaced: dict[str, str]) -> BakeJob[Any]:
 
 def _identity(bake: BatchBake) -> str:
     try:
-        return recipe_hash(recipe_of(bake.job, METHODS[bake.job.settings.KIND].sources(bake.job.settings)))
+        return recipe_hash(recipe_for(bake.job))
     except (InputFileError, RangeError, SceneError) as error:
         if not fault_of(bake):
             warn(f"{bake.title} will fail: {error}")
@@ -271,14 +272,17 @@ def _read_job(path: Path) -> BakeJob[Any] | None:
     if not isinstance(job, BakeJob):
         raise InputFileError(
             f"{path} is the job of rsibr {job.arguments[0]}, which a farm does not do: send a batch, or the "
-            f"job of a map set."
+            f"job of a bake."
         )
     return job
 
 
 def _bake_of(job: BakeJob[Any]) -> BatchBake:
     environment = job.light.environment
-    light = "world" if environment is None else split_layer(environment)[0].stem
+    if job.settings.KIND == ObjectInputsSettings.KIND:
+        light = Path(_open_path()).stem or "scene"
+    else:
+        light = "world" if environment is None else split_layer(environment)[0].stem
     material = METHODS[job.settings.KIND].material(job.settings)
     return BatchBake(
         light, material, replace(job, output=Path(job.output).name, force=False, if_missing=True)

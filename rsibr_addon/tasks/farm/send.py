@@ -5,6 +5,7 @@ import time
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from filecmp import cmp
 from pathlib import Path
 
 from ...core.errors import FarmError, MapSetError, NotNowError, OutputFileError
@@ -13,6 +14,7 @@ from ...core.warned import warn
 from ...files.atomic import written_aside
 from ...files.map_set import read_map_set, read_map_set_header
 from ...files.outputs import make_folder
+from ...settings.baked_inputs import ObjectInputsSettings
 from ..batch.bakes import BatchBake, parts_of
 from ..batch.notes import Failure, batch_folder
 from ..batch.run import UNKNOWN, kept_result
@@ -221,18 +223,25 @@ def fetch(sent: Sent, folder: Path) -> Steps[None]:
     RsibrWarning
         A map set that is there already was made with other settings.
     """
-    outputs, page = [Path(bake.job.output) for bake in sent.bakes], sent.folder / "index.html"
-    files = [path for path in (*outputs, *([page] if len(outputs) > 1 else ())) if path.is_file()]
-    for done, path in enumerate(files):
-        yield Progress(done, len(files), f"fetching {path.name}")
+    made = [bake for bake in sent.bakes if Path(bake.job.output).is_file()]
+    for done, bake in enumerate(made):
+        path = Path(bake.job.output)
+        yield Progress(done, len(made), f"fetching {path.name}")
         target = folder / path.relative_to(sent.maps)
-        replaced = path == page or _is_damaged(target)
-        if target.exists() and not replaced:
-            _warn_unless_same(path, target)
-            continue
-        make_folder(target.parent)
-        with written_aside(target, force=replaced) as aside:
-            shutil.copyfile(path, aside)
+        damaged = _is_damaged(target)
+        if target.exists() and not damaged:
+            _warn_unless_same(bake, target)
+        else:
+            _copy(path, target, damaged)
+    page = sent.folder / "index.html"
+    if len(sent.bakes) > 1 and page.is_file():
+        _copy(page, folder / page.relative_to(sent.maps), force=True)
+
+
+def _copy(path: Path, target: Path, force: bool) -> None:
+    make_folder(target.parent)
+    with written_aside(target, force) as aside:
+        shutil.copyfile(path, aside)
 
 
 def _is_damaged(there: Path) -> bool:
@@ -246,7 +255,12 @@ def _is_damaged(there: Path) -> bool:
     return False
 
 
-def _warn_unless_same(made: Path, there: Path) -> None:
+def _warn_unless_same(bake: BatchBake, there: Path) -> None:
+    made = Path(bake.job.output)
+    if bake.job.settings.KIND == ObjectInputsSettings.KIND:
+        if not cmp(made, there, shallow=False):
+            warn(f"{there} exists, and holds something else than {made}: remove it to have that.")
+        return
     try:
         check_made_by(there, read_map_set_header(made)["recipe"])
     except OutputFileError as error:

@@ -1,4 +1,4 @@
-"""Making map sets, by any method."""
+"""Making map sets and baked inputs, by any method."""
 
 import time
 from contextlib import ExitStack
@@ -13,18 +13,19 @@ from ...files.map_set import check_map_set_target
 from ...files.map_set_header import Recipe
 from ...files.work_folder import clear_parts, held_work_folder, work_folder_beside
 from ...job import BakeJob
+from ...settings.baked_inputs import ObjectInputsSettings
 from .method import Baked, Method
 from .recipe import check_made_by, recipe_of
 
-METHODS = LazyTable[Method](__package__, "METHOD", STORED)
-"""Kind of map sets -> how it is made."""
+METHODS = LazyTable[Method](__package__, "METHOD", (*STORED, ObjectInputsSettings.KIND))
+"""Kind of map sets, or that of baked inputs -> how it is made."""
 
 WAIT_SECONDS = 0.3
 """Between two looks whether another process is done."""
 
 
 def bake(job: BakeJob[Any]) -> Steps[Baked]:
-    """Make a map set, unless it is there and may be kept.
+    """Do a job, unless its output is there and may be kept.
 
     Of two processes that make the same file one works. The other waits until it is done, or has died.
 
@@ -47,7 +48,7 @@ def bake(job: BakeJob[Any]) -> Steps[Baked]:
     keeps = not job.force and (job.if_missing or folder.is_dir())
     if not (keeps and output.exists()):
         check_map_set_target(output, job.force)
-    recipe = recipe_of(job, method.sources(job.settings))
+    recipe = recipe_for(job)
     if keeps and output.exists() and not folder.is_dir():
         return _found(output, recipe)
     with ExitStack() as stack:
@@ -64,6 +65,18 @@ def bake(job: BakeJob[Any]) -> Steps[Baked]:
                 return _found(output, recipe)
             raise
     return baked
+
+
+def recipe_for(job: BakeJob[Any]) -> Recipe:
+    """The recipe of a job, by its method.
+
+    Raises
+    ------
+    InputFileError, SceneError, RangeError
+        See `recipe_of` and `Method.sources`.
+    """
+    method = METHODS[job.settings.KIND]
+    return method.recipe(job) if method.recipe else recipe_of(job, method.sources(job.settings))
 
 
 def _found(output: Path, recipe: Recipe) -> Baked:

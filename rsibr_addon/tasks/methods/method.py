@@ -138,12 +138,15 @@ class Method:
         Settings to the material's name in words; empty where a map set holds light alone.
     sources : callable
         Settings to their `Sources`. Raises RangeError where the settings describe no material.
+    recipe : callable or None
+        A `BakeJob` to its `Recipe`; None for what follows from its light and its `Sources`.
     """
 
     bake: Callable[[BakeJob[Any], Recipe], Steps[Baked]]
     cost: Callable[[Any], Cost]
     material: Callable[[Any], str] = lambda settings: ""
     sources: Callable[[Any], Sources] = lambda settings: Sources()
+    recipe: Callable[[BakeJob[Any]], Recipe] | None = None
 
 
 def read_light(job: BakeJob[Any]) -> Steps[Environment]:

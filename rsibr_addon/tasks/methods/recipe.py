@@ -11,6 +11,7 @@ from ...core.brdf.cycles_presets import PRESETS
 from ...core.brdf.spec import MATERIAL
 from ...core.errors import MapSetError, OutputFileError
 from ...core.options import declared_options, to_plain
+from ...files.baked_inputs import is_whole
 from ...files.digests import digest
 from ...files.kinds.registry import STORED
 from ...files.map_set import read_map_set_header
@@ -19,6 +20,7 @@ from ...files.map_set_header import Recipe
 from ...files.pictures import split_layer
 from ...files.version import rsibr
 from ...job import BakeJob
+from ...settings.baked_inputs import ObjectInputsSettings
 from ...settings.light import Light
 from ...settings.method import MethodSettings
 from ..light.environments import environment_file
@@ -137,14 +139,20 @@ def with_files_named(settings: dict[str, Any], names: Mapping[str, str]) -> dict
     return {option: named(value) for option, value in settings.items()}
 
 
-def check_made_by(path: Path, recipe: Recipe) -> None:
-    """Refuse a file that is no map set of a recipe.
+def check_made_by(path: Path, wanted: Recipe) -> None:
+    """Refuse a file that was not made by a recipe; one of baked inputs, which states none, if it is damaged.
 
     Raises
     ------
     OutputFileError
         Says what differs, or that the file does not tell.
     """
+    if wanted["kind"] == ObjectInputsSettings.KIND:
+        if not is_whole(path):
+            raise OutputFileError(
+                f"{path} exists, but holds no baked inputs: give another name, or --force to replace it."
+            )
+        return
     try:
         header = read_map_set_header(path)
     except MapSetError as error:
@@ -156,7 +164,7 @@ def check_made_by(path: Path, recipe: Recipe) -> None:
             f"{path} exists, and does not tell the settings it was made with, as files of older versions do "
             f"not: give another name, or --force to replace it."
         )
-    if differences := "; ".join(_differences(header["recipe"], recipe)):
+    if differences := "; ".join(_differences(header["recipe"], wanted)):
         raise OutputFileError(
             f"{path} exists, made with other settings ({differences}): give another name, or --force to "
             f"replace it."

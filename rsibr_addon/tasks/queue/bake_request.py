@@ -244,7 +244,7 @@ def bake_of(
     title = f"{shaded}: {request.title}"
     job = request.job(output)
     bake = in_background(title, job, scene, items, output, request.needs_file, ObjectBake, farm)
-    bake.settings, bake.elsewhere = request.shown, farm is not None
+    bake.settings = request.shown
     return bake
 
 
@@ -370,6 +370,7 @@ def in_background(
         # What a Blender leaves that is ended while it starts goes with the folder
         variables={ORIGINAL: open_file(), "TMPDIR": str(folder)},
         items=[item.session_uid for item in items],
+        elsewhere=farm is not None,
         reads=reads,
     )
 

@@ -1,21 +1,18 @@
 """Bakes of objects' inputs in the background: which file an object needs today, and the job that makes it."""
 
-import hashlib
-import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ...core.options import to_plain
 from ...files.output_paths import HASH_LETTERS
-from ...host.bake_dependence import content_for_bakes
 from ...host.bake_settings import baked_folder, chosen_inputs_settings
-from ...host.materials import check_saved
 from ...host.option_properties import options_of
-from ...host.version import software
-from ...job import CommandJob
-from ...settings.baked_inputs import BakedInputsSettings
-from ..baked_inputs import wanted_pictures
+from ...job import BakeJob
+from ...settings.baked_inputs import BakedInputsSettings, ObjectInputsSettings
+from ..baked_inputs import inputs_recipe, wanted_pictures
+from ..methods.recipe import recipe_hash
+from .background import Farm
 from .bake_request import ObjectBake, in_background
 
 
@@ -47,28 +44,33 @@ def inputs_file(item: Any, depsgraph: Any) -> Path | None:
     Raises
     ------
     SceneError
-        An image of its materials is not saved.
+        An image of its materials is not saved, or they are too long to follow.
     OutputFileError
         The bakes' folder cannot be made.
     """
     wanted = wanted_pictures(item)
     if not wanted:
         return None
-    materials = {slot: item.material_slots[slot].material for slot in wanted}
-    for material in materials.values():
-        check_saved(material)
-    content = {
-        **content_for_bakes(item, wanted, depsgraph),
-        "pictures": [[slot, pictures] for slot, pictures in wanted.items()],
-        "settings": to_plain(inputs_settings()),
-        "software": software(),
-    }
-    letters = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:HASH_LETTERS]
+    letters = recipe_hash(inputs_recipe(item, wanted, inputs_settings(), depsgraph))[:HASH_LETTERS]
     return baked_folder() / f"inputs-{letters}.exr"  # without names, as copies share it
 
 
-def input_bake_of(scene: Any, item: Any, output: Path) -> InputBake:
-    """Make everything ready that a background Blender needs to bake an object's inputs.
+def input_job(item: Any, output: Path) -> BakeJob[ObjectInputsSettings]:
+    """The job that bakes an object's inputs. It replaces a file that is there now: a whole one would be used.
+
+    Parameters
+    ----------
+    item : bpy.types.Object
+    output : Path
+        See `inputs_file`.
+    """
+    settings = ObjectInputsSettings(object=item.name, **to_plain(inputs_settings()))
+    damaged = output.exists()
+    return BakeJob(settings, str(output), force=damaged, if_missing=not damaged)
+
+
+def input_bake_of(scene: Any, item: Any, output: Path, farm: Farm | None = None) -> InputBake:
+    """Make everything ready to bake an object's inputs in a background Blender, or on a farm.
 
     Parameters
     ----------
@@ -76,6 +78,7 @@ def input_bake_of(scene: Any, item: Any, output: Path) -> InputBake:
     item : bpy.types.Object
     output : Path
         See `inputs_file`.
+    farm : Farm, optional
 
     Raises
     ------
@@ -84,7 +87,7 @@ def input_bake_of(scene: Any, item: Any, output: Path) -> InputBake:
     OutputFileError
         The open file cannot be copied.
     """
-    chosen = to_plain(inputs_settings())
-    options = [text for name, value in chosen.items() for text in (f"--{name}", str(value))]
-    job = CommandJob(("inputs", item.name, *options, "--output", str(output), "--force"))
-    return in_background(f"{item.name}: materials", job, scene, [item], output, True, InputBake)
+    if farm is not None:
+        output.unlink(missing_ok=True)  # it is damaged, and what a farm has made replaces no other file
+    job, title = input_job(item, output), f"{item.name}: materials"
+    return in_background(title, job, scene, [item], output, True, InputBake, farm)

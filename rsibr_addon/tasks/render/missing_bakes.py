@@ -9,8 +9,8 @@ from ...files.baked_inputs import is_whole
 from ...host.bake_settings import SHAPED, bakes_inputs_by_itself
 from ...host.render_views import scenes_of_ours
 from ...host.scenes import evaluated
-from ..baked_inputs import bake_inputs
-from ..queue.input_bakes import inputs_file, inputs_settings
+from ..methods.bake import bake
+from ..queue.input_bakes import input_job, inputs_file
 from ..queue.world_bakes import bake_world
 
 
@@ -45,8 +45,8 @@ def _baked_inputs(scene: Any) -> Steps[list[tuple[Any, Path]]]:
         try:
             path = inputs_file(item, depsgraph)
             if path is not None and bakes_inputs_by_itself() and not is_whole(path):
-                yield from bake_inputs(item.name, inputs_settings(), path, force=True)
-        except (SceneError, RecursionError):  # which the picture's messages tell
+                yield from bake(input_job(item, path))
+        except SceneError:  # which the picture's messages tell
             continue
         if path is not None:
             found.append((item, path))

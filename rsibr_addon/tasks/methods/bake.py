@@ -81,7 +81,8 @@ def recipe_for(job: BakeJob[Any]) -> Recipe:
 
 def _found(output: Path, recipe: Recipe) -> Baked:
     check_made_by(output, recipe)
-    return Baked(output, "is there already, made with these settings", {"found": True})
+    known = ", made with these settings" if recipe["kind"] in STORED else ""
+    return Baked(output, f"is there already{known}", {"found": True})
 
 
 def _hold(folder: Path, output: Path, stack: ExitStack) -> Steps[None]:

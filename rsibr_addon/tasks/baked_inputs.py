@@ -3,6 +3,7 @@
 import hashlib
 import json
 from contextlib import suppress
+from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
 
@@ -17,10 +18,11 @@ from ..files.baked_inputs import BakedInputs, write_baked_inputs
 from ..files.map_set_header import Recipe
 from ..files.memory import check_memory
 from ..host.bake_dependence import content_for_bakes, view_dependence
+from ..host.bake_settings import SHAPED
 from ..host.baked_inputs import baked_picture, layout_of
 from ..host.materials import check_saved
 from ..host.principled import principled
-from ..host.scenes import find_object
+from ..host.scenes import find_object, find_scene
 from ..host.version import software
 from ..settings.baked_inputs import BakedInputsSettings, ObjectInputsSettings
 from .methods.inputs import TEXEL_BYTES
@@ -94,6 +96,27 @@ def object_to_bake(name: str) -> tuple[Any, dict[int, tuple[Picture, ...]]]:
     if not wanted:
         raise SceneError(f"No material of {name} has an input that needs a bake: use its images as they are.")
     return item, wanted
+
+
+def objects_to_bake(pattern: str) -> list[str]:
+    """Names of the scene's objects of which something has to be baked.
+
+    Parameters
+    ----------
+    pattern : str
+        What they are called, with the signs of `fnmatch`; an object that has these in its name comes first.
+
+    Raises
+    ------
+    SceneError
+        There are none.
+    """
+    items = {item.name: item for item in find_scene(None).objects if item.type in SHAPED}
+    meant = [pattern] if pattern in items else [name for name in items if fnmatchcase(name, pattern)]
+    names = [name for name in meant if wanted_pictures(items[name])]
+    if not names:
+        raise SceneError(f"No object {pattern} of the scene needs a bake of its materials: correct the name.")
+    return names
 
 
 def wanted_pictures(item: Any) -> dict[int, tuple[Picture, ...]]:

@@ -1,6 +1,7 @@
 """A bake of the open scene that other machines do is the bake of the open file."""
 
 import json
+import re
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -9,9 +10,14 @@ import bpy
 import pytest
 import rsibr
 from rsibr.rsibr_addon.command_line.main import run
+from rsibr.rsibr_addon.core.errors import RsibrError
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.settings.baked_inputs import BakedInputsSettings
+from rsibr.rsibr_addon.files.output_paths import portable_name
+from rsibr.rsibr_addon.job import BakeJob
+from rsibr.rsibr_addon.settings.baked_inputs import BakedInputsSettings, ObjectInputsSettings
+from rsibr.rsibr_addon.tasks.batch.bakes import parts_of
 from rsibr.rsibr_addon.tasks.farm import send
+from rsibr.rsibr_addon.tasks.farm.folder import bakes_to_send
 from rsibr.rsibr_addon.tasks.light import environments
 from rsibr.rsibr_addon.tasks.methods.bake import bake
 from rsibr.rsibr_addon.tasks.queue.bake_request import request_for
@@ -87,6 +93,32 @@ def test_textures_come_back_from_a_farm(
         assert not farm.refused
         assert [job["settings"]["parts"] for job in farm.jobs] == 2 * ["open-inputs"]
         assert len(list(farm.shared.iterdir())) == 1
+
+
+def test_a_pattern_sends_all_objects_that_need_a_bake(tmp_path: Path) -> None:
+    bpy.ops.wm.read_homefile(use_factory_startup=True)
+    cube = bpy.context.object
+    copy, plain = cube.copy(), cube.copy()
+    copy.name, plain.name = "Cup: old", "Cup: plain"
+    plain.data = plain.data.copy()
+    plain.data.materials[0] = plain.data.materials[0].copy()
+    for each in (copy, plain):
+        bpy.context.collection.objects.link(each)
+    tree = cube.active_material.node_tree
+    noise = tree.nodes.new("ShaderNodeTexNoise").outputs["Color"]
+    tree.links.new(noise, tree.nodes["Principled BSDF"].inputs["Base Color"])
+    job, outputs = tmp_path / "cups.json", "{object}.exr"
+    for name, wanted in (("*", ["Cube", "Cup: old"]), ("Cup*", ["Cup: old"])):
+        job.write_text(BakeJob(ObjectInputsSettings(object=name), str(tmp_path / outputs)).to_json())
+        _, folder, bakes = bakes_to_send(job)
+        assert folder == tmp_path
+        assert [each.job.settings.object for each in bakes] == wanted
+        assert [each.job.output for each in bakes] == [f"{portable_name(name)}.exr" for name in wanted]
+        assert list(parts_of(bakes)) == ["scene-inputs"]
+    for name, output, told in (("Mug*", outputs, "No object Mug*"), ("*", "one.exr", "tell objects apart")):
+        job.write_text(BakeJob(ObjectInputsSettings(object=name), output).to_json())
+        with pytest.raises(RsibrError, match=re.escape(told)):
+            bakes_to_send(job)
 
 
 @pytest.mark.slow

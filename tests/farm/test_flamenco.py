@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import NotNowError
 from rsibr.rsibr_addon.files.map_set import read_map_set
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
@@ -153,6 +154,24 @@ def test_a_worker_that_is_ended_leaves_its_capture_to_the_other(farm: Farm, tmp_
     assert before.items() <= after.items()
     assert told(watched)["ok"]
     read_map_set(tmp_path / "dawn-chrome.rsibr.exr")
+
+
+@pytest.mark.needs("bpy", "cycles")
+def test_textures_of_an_object_s_materials_come_back(farm: Farm, tmp_path: Path) -> None:
+    import bpy
+
+    bpy.ops.wm.read_homefile(use_factory_startup=True)
+    tree = bpy.context.object.active_material.node_tree
+    noise = tree.nodes.new("ShaderNodeTexNoise").outputs["Color"]
+    tree.links.new(noise, tree.nodes["Principled BSDF"].inputs["Base Color"])
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "studio.blend"))
+    settings = {"object": "Cube", "size": 16, "samples": 1}
+    job = {"format": 2, "kind": "inputs", "settings": settings, "output": "theirs.exr"}
+    Path("cube.json").write_text(json.dumps(job))
+    words = ["submit", "cube.json", "--flamenco", farm.manager.url, "--program", "{rsibr}", "--wait"]
+    assert run(words) == 0
+    assert run(["inputs", "Cube", "--size", "16", "--samples", "1", "-o", "ours.exr"]) == 0
+    assert Path("theirs.exr").read_bytes() == Path("ours.exr").read_bytes()
 
 
 def _has_children(process: int) -> bool:

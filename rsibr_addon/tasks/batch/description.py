@@ -146,7 +146,7 @@ def _with_files_beside(given: dict[str, Any], kind: str, folder: Path) -> dict[s
 
 def _environments(text: str, folder: Path) -> Sequence[str]:
     """What a text names: pictures beside the batch, all that a pattern finds, or one of Blender's own."""
-    if _is_pattern(text):
+    if is_pattern(text):
         # Map sets may lie beside environments, and are none
         return [str(path) for path in _files(text, folder) if not path.name.endswith(".rsibr.exr")]
     is_file = split_layer(folder / text)[0].is_file() or Path(split_layer(text)[0]).suffix
@@ -157,12 +157,12 @@ def _materials(text: str, folder: Path) -> Sequence[str]:
     """What a text names: materials in files beside the batch, all that a pattern finds, or itself."""
     blend = _BLEND.fullmatch(text)
     if blend is None:
-        if _is_pattern(text):
+        if is_pattern(text):
             return [str(path) for path in _files(text, folder)]
         if Path(text).suffix.lower() in MEASURED_FORMATS and "path=" not in text:
             return [str(folder / text)]
         return [_PATH.sub(lambda found: f"path={folder / found[1]}", text)]
-    files = _files(blend[1], folder) if _is_pattern(blend[1]) else [folder / blend[1]]
+    files = _files(blend[1], folder) if is_pattern(blend[1]) else [folder / blend[1]]
     names = {file: _names(file, blend[2]) for file in files}
     if not any(names.values()):
         raise InputFileError(f"No material is called {text}: correct the batch.")
@@ -171,7 +171,7 @@ def _materials(text: str, folder: Path) -> Sequence[str]:
 
 def _names(file: Path, pattern: str) -> list[str]:
     """The materials of a file of Blender that a pattern means; a name with its signs comes first."""
-    if not _is_pattern(pattern):
+    if not is_pattern(pattern):
         return [pattern]
     from ...host.materials import names_in
 
@@ -179,7 +179,8 @@ def _names(file: Path, pattern: str) -> list[str]:
     return [pattern] if pattern in names else [name for name in names if fnmatchcase(name, pattern)]
 
 
-def _is_pattern(text: str) -> bool:
+def is_pattern(text: str) -> bool:
+    """Whether a text has signs that stand for others: all that fit are meant."""
     return any(sign in text for sign in "*?[")
 
 

@@ -24,7 +24,7 @@ from ...job import BakeJob, read_job
 from ...settings.baked_inputs import ObjectInputsSettings
 from ..batch.bake_list import HERE, bake_list_text
 from ..batch.bakes import BatchBake, Opened
-from ..batch.description import read_batch
+from ..batch.description import is_pattern, read_batch
 from ..batch.faults import fault_of
 from ..light.environments import environment_file
 from ..methods.bake import METHODS, recipe_for
@@ -33,6 +33,9 @@ from ..methods.recipe import recipe_hash, with_files_named
 
 INPUTS, MAPS = "inputs", "maps"
 """Folders within the farm's folder."""
+
+OBJECT = "{object}"
+"""What stands for an object's name in the output of a job whose object is a pattern."""
 
 
 def bakes_to_send(path: Path) -> tuple[str, Path, list[BatchBake]]:
@@ -55,12 +58,15 @@ def bakes_to_send(path: Path) -> tuple[str, Path, list[BatchBake]]:
     Raises
     ------
     InputFileError
-        See `read_batch`; or an output lies outside the batch's folder.
+        See `read_batch`; or an output lies outside the batch's folder, or is that of several objects.
+    SceneError
+        A job's pattern means no object.
     """
     job = _read_job(path)
     if job is not None:
-        bake = _bake_of(job)
-        return bake.title, Path(job.output).parent, [bake]
+        bakes = [_bake_of(each) for each in _jobs_of(job)]
+        title = bakes[0].title if len(bakes) == 1 else path.stem
+        return title, Path(job.output).parent, bakes
     bakes = []
     for each in read_batch(path):
         output = os.path.relpath(each.job.output, path.parent)
@@ -275,6 +281,24 @@ def _read_job(path: Path) -> BakeJob[Any] | None:
             f"job of a bake."
         )
     return job
+
+
+def _jobs_of(job: BakeJob[Any]) -> list[BakeJob[Any]]:
+    """The job, or one for each object that its pattern means."""
+    if job.settings.KIND != ObjectInputsSettings.KIND or not is_pattern(job.settings.object):
+        return [job]
+    from ..baked_inputs import objects_to_bake
+
+    jobs: dict[str, BakeJob[Any]] = {}
+    for name in objects_to_bake(job.settings.object):
+        output = job.output.replace(OBJECT, portable_name(name))
+        if output in jobs:
+            raise InputFileError(
+                f"{output} is the output of {jobs[output].settings.object} and of {name}: tell objects "
+                f"apart by {OBJECT} in it."
+            )
+        jobs[output] = replace(job, output=output, settings=replace(job.settings, object=name))
+    return list(jobs.values())
 
 
 def _bake_of(job: BakeJob[Any]) -> BatchBake:

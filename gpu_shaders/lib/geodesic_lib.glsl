@@ -1,6 +1,6 @@
 // Twin of rsibr_addon/core/geometry/geodesic.py. The sphere comes as a texture (see
-// device/kinds/radiance_views.py): row 0 holds the vertices, row 1 the centres of the icosahedron's
-// triangles, row 2 + k the triangles of subdivision level k as three vertex indices.
+// device/kinds/radiance_views.py): row 0 holds the vertices, row 1 a vector for each of the first level's
+// triangles, those of the icosahedron or of any set of views, row 2 + k the triangles of subdivision level k as three vertex indices.
 
 vec3 geodesic_vertex(sampler2D sphere, int index)
 {
@@ -30,7 +30,9 @@ ivec3 find_triangle(sampler2D sphere, int last_level, vec3 view_dir)
 {
   int found = 0;
   float nearest = -2.0;
-  for (int i = 0; i < 20; i++) {
+  // One level alone has as many triangles as the texture has columns
+  int count = (last_level > 0) ? 20 : textureSize(sphere, 0).x;
+  for (int i = 0; i < count; i++) {
     float cosine = dot(view_dir, geodesic_centre(sphere, i));
     if (cosine > nearest) {
       nearest = cosine;
@@ -70,5 +72,6 @@ vec3 barycentric_weights(vec3 view_dir, vec3 a, vec3 b, vec3 c)
                     spherical_excess(view_dir, c, a),
                     spherical_excess(view_dir, a, b));
   areas = max(areas, 0.0);
-  return areas / (areas.x + areas.y + areas.z);
+  float total = areas.x + areas.y + areas.z;
+  return (total > 0.0) ? areas / total : vec3(1.0 / 3.0);
 }

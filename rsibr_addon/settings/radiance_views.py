@@ -45,6 +45,17 @@ class RadianceViewsSettings(MethodSettings):
         },
         final=42,
     )
+    view_file: str | None = option(
+        None,
+        label="View File",
+        help="Directions from which the material is captured, whatever the number of views says, each from "
+        "it to the camera: three numbers a line, or a JSON list of such",
+        none="evenly spread",
+        none_as="",
+        subtype="FILE_PATH",
+        advanced=True,
+        metavar="FILE",
+    )
     size: int = option(
         256,
         label="Size",

@@ -15,7 +15,7 @@ INTERPOLATED = 0.005
 
 
 def errors_of(views: RadianceViews) -> dict[Warping, float]:
-    left_out = LeftOut(len(views.diffuse), views.size, views.albedo)
+    left_out = LeftOut(views.sphere, views.size, views.albedo)
     for view, (diffuse, glossy) in enumerate(zip(views.diffuse, views.glossy, strict=True)):
         left_out.add(view, diffuse, glossy)
     return left_out.errors()

@@ -7,6 +7,7 @@ import pytest
 from rsibr.rsibr_addon.core.geometry import geodesic
 from rsibr.rsibr_addon.core.geometry.directions import dot, normalize
 from rsibr.rsibr_addon.core.geometry.geodesic import VERTEX_COUNTS, geodesic_sphere
+from rsibr.rsibr_addon.core.geometry.view_sphere import view_sphere
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.kinds.radiance_views import _geodesic_texels
 from rsibr.tests.glsl.evaluation import Samplers, evaluate
@@ -116,5 +117,23 @@ def test_find_triangle(count: int) -> None:
     # A direction on an edge may fall to either side, by what rounding makes of a triple product.
     assert np.all(beyond_edges > -1e-6)
     clear = beyond_edges > 1e-6
+    assert np.count_nonzero(clear) > 0.98 * COUNT
+    np.testing.assert_array_equal(found[clear], geodesic.find_triangle(sphere, view_dir)[clear])
+
+
+@pytest.mark.parametrize("count", [40, 3])
+def test_find_triangle_between_any_views(count: int) -> None:
+    """Triangles of a hull; and three views that are each alone."""
+    sphere = view_sphere(np.random.default_rng(5).normal(size=(count, 3)))
+    view_dir = unit_vectors(1)
+    found = evaluate(
+        "geodesic_lib.glsl",
+        "result_0.xyz = vec3(find_triangle(sphere, 0, in_0.xyz));",
+        [view_dir],
+        samplers={"sphere": ("FLOAT_2D", buffers.texture(_geodesic_texels(sphere)))},
+    )[:, 0, :3].astype(int)
+    reach = np.sort(view_dir @ sphere.centres.T, axis=1)
+    # Two facets are told apart by single precision
+    clear = reach[:, -1] - reach[:, -2] > 1e-6 * reach[:, -1]
     assert np.count_nonzero(clear) > 0.98 * COUNT
     np.testing.assert_array_equal(found[clear], geodesic.find_triangle(sphere, view_dir)[clear])

@@ -17,9 +17,9 @@ VERTEX_COUNTS = (12, 42, 162)
 """Possible numbers of views: the icosahedron, once and twice subdivided."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class GeodesicSphere:
-    """A subdivided icosahedron.
+    """A subdivided icosahedron, or other triangles of the sphere: see `view_sphere`.
 
     Attributes
     ----------
@@ -29,16 +29,19 @@ class GeodesicSphere:
         Triangles of each subdivision level, counter-clockwise seen from outside; the children of
         triangle i of one level are 4 i .. 4 i + 3 of the next: at its corners in order, and in
         its middle. The last level's triangles are the sphere's own.
+    centres : ndarray, shape (F, 3)
+        A vector for each triangle of the first level: a direction lies in that whose vector has the greatest
+        scalar product with it. Those of the icosahedron point to its triangles' middles.
     """
 
     vertices: Array
     levels: tuple[Indices, ...]
+    centres: Array
 
     @property
-    def centres(self) -> Array:
-        """Vectors of equal length towards the middles of the icosahedron's 20 triangles, shape (20, 3)."""
-        centres: Array = self.vertices[self.levels[0]].sum(axis=1)
-        return centres
+    def surrounds(self) -> bool:
+        """Whether there are triangles between the vertices, and not each vertex alone."""
+        return bool(self.triangles[0, 0] != self.triangles[0, 1])
 
     @property
     def triangles(self) -> Indices:
@@ -107,9 +110,10 @@ def geodesic_sphere(vertex_count: int) -> GeodesicSphere:
     while len(vertices) < vertex_count:
         vertices, triangles = _subdivide(vertices, triangles)
         levels.append(triangles)
-    for array in (vertices, *levels):
+    centres = vertices[levels[0]].sum(axis=1)
+    for array in (vertices, *levels, centres):
         array.setflags(write=False)
-    return GeodesicSphere(vertices, tuple(levels))
+    return GeodesicSphere(vertices, tuple(levels), centres)
 
 
 def find_triangle(sphere: GeodesicSphere, view_dir: ArrayLike) -> Indices:
@@ -182,7 +186,8 @@ def barycentric_weights(view_dir: ArrayLike, corners: ArrayLike) -> Array:
     Returns
     -------
     ndarray, shape (..., 3), float64
-        In [0, 1], sum 1: the areas of the triangles opposite each corner, over their sum.
+        In [0, 1], sum 1: the areas of the triangles opposite each corner, over their sum; equal in a triangle
+        of one corner three times.
 
     Notes
     -----
@@ -202,5 +207,6 @@ def barycentric_weights(view_dir: ArrayLike, corners: ArrayLike) -> Array:
         axis=-1,
     )
     areas = np.maximum(areas, 0.0)
-    weights: Array = areas / areas.sum(axis=-1, keepdims=True)
+    total = areas.sum(axis=-1, keepdims=True)
+    weights: Array = np.divide(areas, total, out=np.full(areas.shape, 1.0 / 3.0), where=total > 0.0)
     return weights

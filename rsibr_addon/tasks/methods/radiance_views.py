@@ -12,17 +12,20 @@ from ...core.brdf.spec import brdf_from_spec, is_model
 from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.errors import InputFileError
-from ...core.geometry.geodesic import geodesic_sphere
+from ...core.geometry.geodesic import GeodesicSphere, geodesic_sphere
+from ...core.geometry.view_sphere import view_sphere
 from ...core.kinds.radiance_views.exact import bytes_needed, ring_count
 from ...core.kinds.radiance_views.left_out import LeftOut
 from ...core.options import to_plain
 from ...core.progress import Progress, Steps, drain
+from ...core.warned import warn
 from ...files.atomic import written_aside
 from ...files.exr import read_parts, write_parts
 from ...files.exr_part import Part
 from ...files.kinds.radiance_views import LEFT_OUT
 from ...files.map_set_data import ENVIRONMENT, MapsInTurn
 from ...files.map_set_header import Origin, Recipe, make_header
+from ...files.view_directions import read_view_dirs
 from ...files.work_folder import kept_parts, work_folder_beside
 from ...job import BakeJob
 from ...settings.radiance_views import RENDERING, RadianceViewsSettings
@@ -60,22 +63,27 @@ def material(settings: RadianceViewsSettings) -> str:
 
 def sources(settings: RadianceViewsSettings) -> Sources:
     """See `Method`."""
+    files = () if settings.view_file is None else (settings.view_file,)
     if is_model(settings.material):
-        return Sources(measured_files(partial(brdf_from_spec, settings.material)))
-    return Sources(material=settings.material)
+        return Sources((*measured_files(partial(brdf_from_spec, settings.material)), *files))
+    return Sources(files, settings.material)
 
 
 def cost(settings: RadianceViewsSettings) -> Cost:
     """See `Method`; measured on a sphere in Blender's `forest`."""
-    texels = settings.views * settings.size**2
+    try:
+        views = len(_sphere(settings).vertices)
+    except InputFileError:  # which the bake tells
+        views = settings.views
+    texels = views * settings.size**2
     maps = 2 * texels * RGB
     if is_model(settings.material):
         alpha = narrowest_alpha(brdf_from_spec(settings.material, lambda name, path: Lambert(kd=0.5)))
         rings = ring_count(settings.size, ENVIRONMENT_ROWS, alpha)
-        integrating = 0.2 * rings * settings.views / TOGETHER + 4e-5 * texels
+        integrating = 0.2 * rings * views / TOGETHER + 4e-5 * texels
         memory = bytes_needed(ENVIRONMENT_ROWS, TOGETHER, settings.size, alpha)
         return Cost(integrating, memory, STORED * maps)
-    rendering = settings.views * (0.5 + 1.5 * settings.denoise) + 2.5e-6 * texels * settings.samples
+    rendering = views * (0.5 + 1.5 * settings.denoise) + 2.5e-6 * texels * settings.samples
     albedo = 4.0
     return cost_in_blender(albedo + rendering, 2 * maps + 8 * ENVIRONMENT_MEMORY, STORED * maps)
 
@@ -103,28 +111,45 @@ def bake(job: BakeJob[RadianceViewsSettings], recipe: Recipe) -> Steps[Baked]:
     one view is in memory.
     """
     asked = job.settings
+    sphere = _sphere(asked)
+    count = len(sphere.vertices)
     # Its own steps would be of another total than the views
-    yield Progress(0, asked.views, "reading the environment")
+    yield Progress(0, count, "reading the environment")
     light = drain(read_light(job))
-    captured = _captured(asked, light)
+    if not sphere.surrounds:
+        warn(
+            f"The views of {asked.view_file} do not surround the object, so none are blended and the nearest "
+            "is shown: give views from all sides."
+        )
+    captured = _captured(asked, light, sphere.vertices)
     captured.check_memory(job.output)
     folder = work_folder_beside(Path(job.output))
     with kept_parts(folder, {**recipe}):
-        paths = [folder / f"view{view:03d}.exr" for view in range(asked.views)]
+        paths = [folder / f"view{view:03d}.exr" for view in range(count)]
         missing = [view for view, path in enumerate(paths) if not _is_finished(path)]
         yield from captured.capture(missing, partial(_keep_view, paths))
         software = software_of(job, measured=not is_model(asked.material))
-        path = drain(written(job, recipe, _map_set(captured, asked, light, paths, software)))
-    figures = {"views": asked.views, "size": asked.size}
-    return Baked(path, f"{asked.views} views of {asked.size}x{asked.size}", figures)
+        path = drain(written(job, recipe, _map_set(captured, asked, light, sphere, paths, software)))
+    figures = {"views": count, "size": asked.size}
+    told = "1 view" if count == 1 else f"{count} views"
+    return Baked(path, f"{told} of {asked.size}x{asked.size}", figures)
 
 
-def _captured(settings: RadianceViewsSettings, light: Environment) -> "ViewsByModel | ViewsByCycles":
+def _sphere(settings: RadianceViewsSettings) -> GeodesicSphere:
+    """The directions of the views."""
+    if settings.view_file is None:
+        return geodesic_sphere(settings.views)
+    return view_sphere(read_view_dirs(settings.view_file))
+
+
+def _captured(
+    settings: RadianceViewsSettings, light: Environment, view_dirs: Array
+) -> "ViewsByModel | ViewsByCycles":
     if is_model(settings.material):
-        return ViewsByModel(settings, light)
+        return ViewsByModel(settings, light, view_dirs)
     from .views_by_cycles import ViewsByCycles
 
-    return ViewsByCycles(settings, light)
+    return ViewsByCycles(settings, light, view_dirs)
 
 
 def _keep_view(paths: Sequence[Path], view: int, diffuse: Array, glossy: Array, noise: float) -> None:
@@ -147,6 +172,7 @@ def _map_set(
     captured: "ViewsByModel | ViewsByCycles",
     settings: RadianceViewsSettings,
     light: Environment,
+    sphere: GeodesicSphere,
     paths: list[Path],
     software: str,
 ) -> MapsInTurn:
@@ -154,9 +180,9 @@ def _map_set(
     shapes = {ENVIRONMENT: light.radiance.shape[:2], ALBEDO: albedo.shape[:2]}
     parts: list[dict[str, Any]] = [{"name": name, "role": name} for name in shapes]
     variance = 0.0
-    left_out = LeftOut(len(paths), settings.size, albedo)
+    left_out = LeftOut(sphere, settings.size, albedo)
     for view, path in enumerate(paths):
-        view_dir = geodesic_sphere(settings.views).vertices[view].tolist()
+        view_dir = sphere.vertices[view].tolist()
         finished = read_parts(path)
         for part in finished:
             name = f"view{view:03d}.{part.name}"
@@ -172,7 +198,8 @@ def _map_set(
         for path in paths:
             yield from (part.side_by_side("RGB") for part in read_parts(path))
 
-    untold = ("material", *(RENDERING if is_model(settings.material) else ()))
+    untold = ["material", "view_file" if settings.view_file is None else "views"]
+    untold += RENDERING if is_model(settings.material) else ()
     stated = {name: value for name, value in to_plain(settings).items() if name not in untold}
     origin = Origin(light, stated, software, captured.material, errors)
     header = make_header("sphere_map", (settings.size, settings.size), parts, origin)

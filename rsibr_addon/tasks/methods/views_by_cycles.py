@@ -7,7 +7,6 @@ from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.errors import SceneError
 from ...core.geometry.camera import Camera
-from ...core.geometry.geodesic import geodesic_sphere
 from ...core.maps.sphere_map import fill_rim
 from ...core.progress import Progress, Steps
 from ...core.warned import warn
@@ -38,12 +37,12 @@ class ViewsByCycles:
         The material depends on more than normal and view.
     """
 
-    def __init__(self, settings: RadianceViewsSettings, light: Environment) -> None:
-        self._settings, self._environment = settings, light
+    def __init__(self, settings: RadianceViewsSettings, light: Environment, view_dirs: Array) -> None:
+        self._settings, self._environment, self._view_dirs = settings, light, view_dirs
         # All of them at once: a seed that is out of range is found before the first view is rendered
         self._renders = [
             RenderSettings(settings.size, settings.samples, settings.denoise, settings.seed + view)
-            for view in range(settings.views)
+            for view in range(len(view_dirs))
         ]
         with temporary_scene():
             material = load_material(settings.material)
@@ -54,7 +53,6 @@ class ViewsByCycles:
                 f"No radiance map can hold {settings.material}, so it is captured as it looks on a sphere: "
                 f"{'; '.join(reasons)}."
             )
-        self._view_dirs = geodesic_sphere(settings.views).vertices
         self.material = {
             "spec": lasting_spec(settings.material),
             "name": material_name(settings.material),
@@ -78,7 +76,8 @@ class ViewsByCycles:
             Cycles did not deliver; the material was changed meanwhile.
         """
         for view in numbers:
-            yield Progress(view, self._settings.views, f"rendering view {view + 1} of {self._settings.views}")
+            count = len(self._view_dirs)
+            yield Progress(view, count, f"rendering view {view + 1} of {count}")
             seen = self._render(view)
             diffuse, glossy = (fill_rim(part, seen.coverage) for part in (seen.diffuse, seen.glossy))
             keep(view, diffuse, glossy, seen.noise)

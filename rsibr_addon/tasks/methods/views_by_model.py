@@ -10,7 +10,6 @@ from ...core.brdf.lobe_width import narrowest_alpha
 from ...core.brdf.model import Brdf
 from ...core.conventions import Array
 from ...core.environment import Environment
-from ...core.geometry.geodesic import geodesic_sphere
 from ...core.kinds.radiance_views.exact import (
     bytes_needed,
     exact_maps,
@@ -40,6 +39,8 @@ class ViewsByModel:
     ----------
     settings : RadianceViewsSettings
     light : Environment
+    view_dirs : ndarray, shape (V, 3)
+        Unit vectors from the object to the camera.
 
     Attributes
     ----------
@@ -57,8 +58,8 @@ class ViewsByModel:
         Likewise; or the light is too coarse for a lobe.
     """
 
-    def __init__(self, settings: RadianceViewsSettings, light: Environment) -> None:
-        self._settings, self._radiance = settings, light.radiance
+    def __init__(self, settings: RadianceViewsSettings, light: Environment, view_dirs: Array) -> None:
+        self._settings, self._radiance, self._view_dirs = settings, light.radiance, view_dirs
         brdf = brdf_from_spec(settings.material)
         self._parts, self._alpha = parts_of(brdf), narrowest_alpha(brdf)
         height, width = light.radiance.shape[:2]
@@ -76,13 +77,15 @@ class ViewsByModel:
 
     def capture(self, numbers: Sequence[int], keep: KeepView) -> Steps[None]:
         """Integrate some of the views."""
-        view_dirs, size = geodesic_sphere(self._settings.views).vertices, self._settings.size
+        size = self._settings.size
         for first in range(0, len(numbers), TOGETHER):
             together = numbers[first : first + TOGETHER]
             maps = []
             for part in self._parts:
                 black = [np.zeros((size, size, 3), np.float32)] * len(together)
-                seen = exact_maps(part, self._radiance, list(view_dirs[together]), size) if part else None
+                seen = (
+                    exact_maps(part, self._radiance, list(self._view_dirs[together]), size) if part else None
+                )
                 maps.append(black if seen is None else (yield from seen))
             for view, diffuse, glossy in zip(together, *maps, strict=True):
                 keep(view, diffuse, glossy, 0.0)

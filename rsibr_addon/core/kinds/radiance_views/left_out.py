@@ -4,7 +4,7 @@ import numpy as np
 
 from ...conventions import Array, texel_centres
 from ...geometry.directions import camera_frame
-from ...geometry.geodesic import geodesic_sphere
+from ...geometry.geodesic import GeodesicSphere
 from ...geometry.reflection_warp import TRUSTED_COSINE, Warp, confidence, source_cosine, source_uv
 from ...maps import sphere_map
 from ...resample import bilinear
@@ -20,21 +20,25 @@ INSIDE = 0.98
 class LeftOut:
     """Captured views, each predicted from its neighbours as if it had not been captured.
 
-    Views are added one after another, so that one at a time need be in memory. All neighbours of a view are
-    about equally far from it, so that their weights are equal, and confidences alone make their shares.
+    Views are added one after another, so that one at a time need be in memory. All neighbours of a view count
+    as equally far from it, as about they are on a geodesic sphere: confidences alone make their shares.
 
     Parameters
     ----------
-    count, size : int
-        Number of views; width and height of each in texels.
+    sphere : GeodesicSphere
+        The views' directions.
+    size : int
+        Width and height of each in texels.
     albedo : ndarray, shape (2, M, 3)
         See `RadianceViews.albedo`.
     """
 
-    def __init__(self, count: int, size: int, albedo: Array) -> None:
-        sphere = geodesic_sphere(count)
+    def __init__(self, sphere: GeodesicSphere, size: int, albedo: Array) -> None:
+        count = len(sphere.vertices)
+        self._surrounds = sphere.surrounds
         self._dirs, self._frames = sphere.vertices, camera_frame(sphere.vertices)
         edges = np.concatenate([sphere.triangles[:, pair] for pair in ((0, 1), (1, 2), (2, 0))])
+        edges = np.unique(edges[edges[:, 0] != edges[:, 1]], axis=0)
         self._neighbours = [edges[edges[:, 0] == view, 1] for view in range(count)]
         centres = texel_centres(size, size).reshape(-1, 2)
         inside = np.flatnonzero(np.linalg.norm(2.0 * centres - 1.0, axis=-1) < INSIDE)
@@ -63,7 +67,12 @@ class LeftOut:
                 self._carry(view, other, warp, normal, diffuse, glossy)
 
     def errors(self) -> dict[Warping, float]:
-        """Relative root-mean-square error over the texels of all views, by warp; 0 where all is black."""
+        """Relative root-mean-square error over the texels of all views, by warp; 0 where all is black.
+
+        Empty for directions without triangles between them.
+        """
+        if not self._surrounds:
+            return {}
         power = float(np.sum(self._true**2))
         cosine = self._normal[:, 2]
         found = {}

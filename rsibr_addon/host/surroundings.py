@@ -101,14 +101,12 @@ def surroundings_of(
         raise SceneError(
             f"There is nothing to see in scene {source.name}: add a world, or lamps and objects."
         )
-    if point is None and subject:
-        with temporary_copy(source) as scene_at_frame:
-            _go_to(scene_at_frame, when)
-            middle = centre_of(scene_at_frame.view_layers[layer.name], source.objects[subject])
-    elif point is None:
-        middle = np.array(source.cursor.location)
-    else:
+    if point is not None:
         middle = np.array(point)
+    elif subject:
+        middle = _centre_at(source, layer, find_object(source, subject), when)
+    else:
+        middle = np.array(source.cursor.location)
     return Surroundings(source.name, layer.name, when, subject, tuple(middle.tolist()))
 
 
@@ -206,6 +204,18 @@ def stand_in(scene: bpy.types.Scene, around: Surroundings, item: bpy.types.Objec
     if around.subject:
         subject = find_object(find_scene(around.scene), around.subject)
         take_place_of(subject, item, [lamp for lamp in scene.objects if TWIN_OF in lamp])
+
+
+def _centre_at(
+    scene: bpy.types.Scene, layer: bpy.types.ViewLayer, subject: bpy.types.Object, frame: float
+) -> Array:
+    # A copy's evaluation may write into the memory of the artist's simulations: none where none is needed
+    if frame == scene.frame_current_final:
+        layer.update()
+        return centre_of(layer, subject)
+    with temporary_copy(scene) as scene_at_frame:
+        _go_to(scene_at_frame, frame)
+        return centre_of(scene_at_frame.view_layers[layer.name], subject)
 
 
 def _go_to(scene: bpy.types.Scene, frame: float) -> None:

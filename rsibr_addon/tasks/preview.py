@@ -7,13 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from ..core.brdf.lobe_width import narrowest_alpha
+from ..core.brdf.lobe_width import is_resolved, narrowest_alpha
 from ..core.conventions import Array
 from ..core.errors import MapSetError, RangeError
 from ..core.geometry.camera import Camera
 from ..core.geometry.directions import turn_about_z
 from ..core.geometry.lit_sphere import lit_spheres
-from ..core.kinds.radiance_views.exact import is_resolved
 from ..core.progress import Progress, Steps
 from ..core.warned import warn
 from ..device.drawing import GpuMapSet

@@ -2,13 +2,12 @@
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.brdf.lobe_width import narrowest_alpha
+from rsibr.rsibr_addon.core.brdf.lobe_width import is_resolved, narrowest_alpha
 from rsibr.rsibr_addon.core.brdf.spec import brdf_from_spec
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.geometry.geodesic import geodesic_sphere
 from rsibr.rsibr_addon.core.kinds.radiance_views.exact import (
     exact_maps,
-    is_resolved,
     parts_of,
     ring_count,
 )

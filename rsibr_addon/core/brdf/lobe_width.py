@@ -1,6 +1,6 @@
 """How narrow a reflectance's lobes are: as its models state it, or from their values where they do not."""
 
-from math import log, sqrt
+from math import log, pi, sqrt
 
 import numpy as np
 
@@ -30,6 +30,11 @@ def narrowest_alpha(brdf: Brdf) -> float:
         of directions, is twice as wide in these; and of models without either, see `measured_alpha`.
     """
     return max(min(_alpha(uncoated(layer)) for layer in brdf.layers), NARROWEST)
+
+
+def is_resolved(alpha: float, height: int) -> bool:
+    """Whether the sum over texels of light of so many rows is good for a lobe, two texels wide at least."""
+    return alpha >= pi / height
 
 
 def _alpha(layer: Brdf) -> float:

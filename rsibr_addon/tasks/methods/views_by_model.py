@@ -6,14 +6,13 @@ import numpy as np
 
 from ...core.brdf.albedo import directional_albedo
 from ...core.brdf.gallery import gallery_name
-from ...core.brdf.lobe_width import narrowest_alpha
+from ...core.brdf.lobe_width import is_resolved, narrowest_alpha
 from ...core.brdf.model import Brdf
 from ...core.conventions import Array
 from ...core.environment import Environment
 from ...core.kinds.radiance_views.exact import (
     bytes_needed,
     exact_maps,
-    is_resolved,
     parts_of,
 )
 from ...core.progress import Steps

@@ -80,11 +80,6 @@ def ring_count(size: int, height: int, alpha: float) -> int:
     return max(LEAST_RINGS, min(max(2 * size, ceil(pi / alpha)), height))
 
 
-def is_resolved(alpha: float, height: int) -> bool:
-    """Whether the sum over texels of light of so many rows is good for a lobe, two texels wide at least."""
-    return alpha >= pi / height
-
-
 def _mean_map(sphere: LitSphere, size: int) -> Array:
     centres = texel_centres(size, size).reshape(-1, 2)
     radius = np.linalg.norm(2.0 * centres - 1.0, axis=-1)

@@ -83,7 +83,10 @@ class _Runs:
     """
 
     def __init__(self, texel: Indices, other: Indices, solid_angle: Array) -> None:
-        self._texel, self._weight = texel, solid_angle
+        # Without gaps they need not be gathered
+        whole = np.array_equal(texel, np.arange(len(texel)))
+        self._texel = slice(len(texel)) if whole else texel
+        self._weight = solid_angle
         first = np.flatnonzero(np.diff(other, prepend=-1))
         self._first = first if 2 * len(first) < len(other) else None
         self.other = other if self._first is None else other[first]

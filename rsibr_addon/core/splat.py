@@ -6,8 +6,8 @@ is divided exactly among the texels beneath, by the parts of the parallelogram t
 is larger than those beneath is quartered until it is not. All of it goes somewhere, so power is kept to the
 last digits in all maps.
 
-Where the planes between the axes mirror both maps, texel by texel, one octant is divided for all eight: the
-others' shares are the same, of mirrored texels.
+Where quarter turns about z and mirrors take texels of both maps to texels, one sector of sixteen is divided for
+all: the others' shares are the same, of turned or mirrored texels.
 """
 
 import itertools
@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from .conventions import Array, Indices
 from .geometry.directions import dot
-from .maps.representation import Octants, Representation
+from .maps.representation import WORLD, Representation, Sectors
 from .parallelograms import parts_beyond
 from .threads import in_order
 from .ties import TIE
@@ -142,24 +142,24 @@ class Splat:
             Radiance.
         source : Representation
         """
-        images: Octants = [((1, 1, 1), image)]
-        if self._target.has_mirrored_texels(self._width):
-            images = source.octants(image)
-        sheets, height, width = images[0][1].shape[:3]
+        sectors: Sectors = [(WORLD, image)]
+        if self._target.has_sectors(self._width):
+            sectors = source.sectors(image)
+        sheets, height, width = sectors[0][1].shape[:3]
         solid_angle = source.texel_solid_angle(image.shape[2])
         corners = itertools.product(range(sheets), range(0, height, TILE), range(0, width, TILE))
-        for of_images in in_order(partial(self._of_tile, source, solid_angle, images), corners):
-            for number, got, power in of_images:
+        for of_sectors in in_order(partial(self._of_tile, source, solid_angle, sectors), corners):
+            for number, got, power in of_sectors:
                 self.solid_angle[number] += got
                 for sums, values in zip(self.power, power, strict=True):
                     sums[number] += values
 
     def _of_tile(
-        self, source: Representation, solid_angle: Array, images: Octants, corner: tuple[int, int, int]
+        self, source: Representation, solid_angle: Array, sectors: Sectors, corner: tuple[int, int, int]
     ) -> list[Sums]:
-        """Sums over the texels of a tile, in each of several mirror images."""
+        """Sums over the texels of a tile of the first sector, and of those in its place in the others."""
         sheet, row, column = corner
-        radiance = [image[sheet, row : row + TILE, column : column + TILE] for _, image in images]
+        radiance = [image[sheet, row : row + TILE, column : column + TILE] for _, image in sectors]
         texels = _tile_of(source, solid_angle, corner, radiance[0].shape[:2])
         shares = [_Runs(*share) for share in self._of_grids(source, texels, DEEPEST)]
         number, places = _numbered([runs.other for runs in shares], self._counts.size)
@@ -172,12 +172,14 @@ class Splat:
 
         got = total(runs.solid_angle() for runs in shares)
         others = [number]
-        if len(images) > 1:
-            signs = np.array([signs for signs, _ in images[1:]])
-            others.extend(self._target.mirrored_texels(number, self._width, signs))
+        if len(sectors) > 1:
+            matrices = np.array([matrix for matrix, _ in sectors[1:]])
+            others.extend(self._target.turned_texels(number, self._width, matrices))
         made = []
-        for other, of_image in zip(others, radiance, strict=True):
-            channels = np.moveaxis(of_image, -1, 0).astype(np.float64, order="C").reshape(len(self.power), -1)
+        for other, of_sector in zip(others, radiance, strict=True):
+            channels = (
+                np.moveaxis(of_sector, -1, 0).astype(np.float64, order="C").reshape(len(self.power), -1)
+            )
             power = [total(runs.power(channel) for runs in shares) for channel in channels]
             made.append((other, got, np.stack(power)))
         return made

@@ -1,7 +1,6 @@
 """Any map from any other: what is kept, and means over areas against brute force."""
 
 import dataclasses
-import itertools
 
 import numpy as np
 import pytest
@@ -134,42 +133,42 @@ def test_a_sun_is_laid_where_it_stands() -> None:
 @pytest.mark.parametrize(
     ("name", "size", "width"), [("cube_map", 16, 128), ("octahedral", 24, 104), ("equirect", 24, 104)]
 )
-def test_one_octant_is_divided_for_all(name: str, size: int, width: int) -> None:
+def test_one_sector_is_divided_for_all(name: str, size: int, width: int) -> None:
     source, target = representation("equirect"), representation(name)
     image = sky(source, width)
-    octants, whole = (
+    sectors, whole = (
         splat.Splat(some, size, 3) for some in (target, dataclasses.replace(target, symmetric=False))
     )
-    for each in (octants, whole):
+    for each in (sectors, whole):
         each.lay_down(image, source)
-    # An octahedral map is bent where two of its octants meet: which neighbours a texel's edges there are
-    # known from depends on the octant
+    # An octahedral map is bent where its octants meet: which neighbours a texel's edges there are known from
+    # depends on the sector
     apart = np.ones(target.shape(size), dtype=bool)
     if name == "octahedral":
         apart[:, size // 2 - 1 : size // 2 + 1] = apart[..., size // 2 - 1 : size // 2 + 1] = False
     apart = apart.ravel()
-    np.testing.assert_allclose(octants.solid_angle[apart], whole.solid_angle[apart], rtol=1e-11)
-    np.testing.assert_allclose(octants.power[:, apart], whole.power[:, apart], rtol=1e-11)
-    np.testing.assert_allclose(octants.power.sum(axis=1), whole.power.sum(axis=1), rtol=1e-12)
+    np.testing.assert_allclose(sectors.solid_angle[apart], whole.solid_angle[apart], rtol=1e-11)
+    np.testing.assert_allclose(sectors.power[:, apart], whole.power[:, apart], rtol=1e-11)
+    np.testing.assert_allclose(sectors.power.sum(axis=1), whole.power.sum(axis=1), rtol=1e-12)
 
 
 @pytest.mark.parametrize("name", ["cube_map", "octahedral", "equirect"])
-@pytest.mark.parametrize("signs", list(itertools.product((1, -1), repeat=3)))
-def test_texels_are_mirrored_as_their_directions(name: str, signs: tuple[int, int, int]) -> None:
+def test_texels_turn_as_their_directions(name: str) -> None:
     some = representation(name)
     direction = some.texel_directions(12).reshape(-1, 3)
-    (mirrored,) = some.mirrored_texels(np.arange(len(direction)), 12, np.array([signs]))
-    np.testing.assert_allclose(direction[mirrored], direction * signs, atol=1e-14)
+    matrices = np.array([matrix for matrix, _ in representation("equirect").sectors(np.empty((1, 4, 8, 1)))])
+    turned = some.turned_texels(np.arange(len(direction)), 12, matrices)
+    np.testing.assert_allclose(direction[turned], direction @ matrices.mT, atol=1e-14)
 
 
-def test_octants_of_an_equirect_map_are_mirrored_views() -> None:
+def test_sectors_of_an_equirect_map_are_turned_views() -> None:
     some = representation("equirect")
-    direction = some.texel_directions(12)
-    octants = some.octants(direction)
-    assert len(octants) == len({signs for signs, _ in octants}) == 8
-    for signs, octant in octants:
-        assert np.shares_memory(octant, direction)
-        np.testing.assert_allclose(octant, octants[0][1] * signs, atol=1e-14)
+    direction = some.texel_directions(24)
+    sectors = some.sectors(direction)
+    assert len(sectors) == len({matrix.tobytes() for matrix, _ in sectors}) == 16
+    for matrix, view in sectors:
+        assert np.shares_memory(view, direction)
+        np.testing.assert_allclose(view, sectors[0][1] @ matrix.T, atol=1e-14)
 
 
 def test_blocks_do_not_show(monkeypatch: pytest.MonkeyPatch) -> None:

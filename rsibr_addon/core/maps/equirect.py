@@ -48,34 +48,31 @@ def texel_solid_angle(width: int, height: int) -> Array:
     return np.broadcast_to((bands * 2.0 * np.pi / width)[:, None], (height, width))
 
 
-def octants(image: Array) -> list[tuple[tuple[int, int, int], Array]]:
-    """Views of a map's eight octants, each in the order of the first one's mirrored texels.
+def sectors(image: Array) -> list[tuple[Array, Array]]:
+    """Views of a map's sixteen sectors, each an eighth of the horizon below or above it.
 
     Parameters
     ----------
     image : ndarray, shape (..., height, width, channels)
-        The width is a multiple of 4.
+        The width is a multiple of 8.
 
     Returns
     -------
-    list of ((int, int, int), ndarray)
-        The signs of x, y and z that take the first octant there, and the view.
+    list of (ndarray, ndarray)
+        The matrix, shape (3, 3), that takes directions of the first sector there, and the view, in the order
+        of the first one's texels.
     """
-    height, width = image.shape[-3] // 2, image.shape[-2] // 4
-    first, second, third, fourth = (
-        image[..., start : start + width, :] for start in range(0, 4 * width, width)
-    )
-    columns = [
-        ((1, 1), first),
-        ((-1, 1), second[..., ::-1, :]),
-        ((-1, -1), third),
-        ((1, -1), fourth[..., ::-1, :]),
-    ]
-    return [
-        ((*signs, sign), rows)
-        for signs, quarter in columns
-        for sign, rows in ((1, quarter[..., :height, :, :]), (-1, quarter[..., : height - 1 : -1, :, :]))
-    ]
+    height, width = image.shape[-3] // 2, image.shape[-2] // 8
+    found = []
+    for number in range(8):
+        # The first, turned by quarters as columns go; every second one is mirrored
+        cosine, sine = ((1, 0), (0, -1), (-1, 0), (0, 1))[(number + 1) // 2 % 4]
+        side = -1 if number % 2 else 1
+        eighth = image[..., number * width : (number + 1) * width, :][..., ::side, :]
+        for up, view in ((1, eighth[..., :height, :, :]), (-1, eighth[..., : height - 1 : -1, :, :])):
+            matrix = np.array([[cosine, -side * sine, 0], [sine, side * cosine, 0], [0, 0, up]])
+            found.append((matrix, view))
+    return found
 
 
 def wrap(columns: Indices, rows: Indices, width: int, height: int) -> tuple[Indices, Indices]:

@@ -38,9 +38,9 @@ AHEAD = FRONT * (1.0, 1.0, -1.0)
 DirectionFromUv = Callable[[ArrayLike, Indices], Array]
 DirectionOfGrid = Callable[[Array, Array], Array]
 UvFromDirection = Callable[[ArrayLike], tuple[Array, Indices]]
-Octants = Sequence[tuple[ArrayLike, Array]]
-"""For each octant the signs of the axes, shape (3,), that take the first one there, and its texels, shape
-(sheets, rows, columns, channels), in the order of the first one's."""
+Sectors = Sequence[tuple[Array, Array]]
+"""For each sector of a map the matrix, shape (3, 3), that takes directions of the first one there, and its
+texels, shape (sheets, rows, columns, channels), in the order of the first one's."""
 
 WrapSheets = Callable[[Indices, Indices, Indices, int, int], tuple[Indices, Indices, Indices]]
 
@@ -66,12 +66,13 @@ class Representation:
     blind_angle : float
         Half-angle of the cone about its own -z that the map does not show [rad].
     symmetric : bool
-        Whether the planes between the world's axes mirror a map of even size onto itself, texel by texel.
+        Whether quarter turns about the world's z, and mirrors along its axes, take texels to texels, where a
+        sheet's width is a multiple of 4.
     own_grid : callable, optional
         The module's directions of a grid, in the map's own axes, where that is faster than point by point.
         They go on beyond the map's edges.
-    own_octants : callable, optional
-        The module's views of a map's eight octants, where they are grids.
+    own_sectors : callable, optional
+        The module's views of a map's sectors, which these take to each other, where sectors are grids.
     own_direction, own_uv, solid_angle, wrap_sheets : callable
         The module's four functions with their parameters filled in, in the map's own axes.
     """
@@ -89,7 +90,7 @@ class Representation:
     blind_angle: float = 0.0
     symmetric: bool = False
     own_grid: DirectionOfGrid | None = None
-    own_octants: Callable[[Array], Octants] | None = None
+    own_sectors: Callable[[Array], Sectors] | None = None
 
     def shape(self, size: int) -> tuple[int, int, int]:
         """The shape of a map, without its channels.
@@ -151,28 +152,23 @@ class Representation:
         direction = self.own_grid(u, v)
         return direction if self.frame is WORLD else direction @ self.frame.T
 
-    def octants(self, image: Array) -> Octants:
-        """The octants of a map between the axes, where they are grids of mirrored texels.
+    def sectors(self, image: Array) -> Sectors:
+        """The sectors of a map, or the whole map alone, where it has none.
 
         Parameters
         ----------
         image : ndarray, shape (sheets, height, width, channels)
-
-        Returns
-        -------
-        sequence of ((3,) array_like, ndarray)
-            Eight views as `Octants`; else the whole map alone, with signs of 1.
         """
-        if self.own_octants is None or image.shape[2] % 4:
-            return [((1, 1, 1), image)]
-        return self.own_octants(image)
+        if self.own_sectors is None or image.shape[2] % 8:
+            return [(WORLD, image)]
+        return self.own_sectors(image)
 
-    def has_mirrored_texels(self, size: int) -> bool:
-        """Whether planes between the axes mirror a map, `size` texels wide, texel by texel."""
-        return self.symmetric and size % 2 == 0
+    def has_sectors(self, size: int) -> bool:
+        """Whether a map, `size` texels wide, has `turned_texels`."""
+        return self.symmetric and size % 4 == 0
 
-    def mirrored_texels(self, texel: Indices, size: int, signs: Array) -> Indices:
-        """Texels to those with directions of other signs, in maps that have these.
+    def turned_texels(self, texel: Indices, size: int, matrices: Array) -> Indices:
+        """Where texels come to lie when a `symmetric` map is turned or mirrored.
 
         Parameters
         ----------
@@ -180,21 +176,21 @@ class Representation:
             Numbers of texels, sheet by sheet and row by row.
         size : int
             Width of a sheet in texels.
-        signs : ndarray, shape (images, 3)
-            Of the axes of the world, 1 or -1.
+        matrices : ndarray, shape (turns, 3, 3)
+            New directions from old ones.
 
         Returns
         -------
-        ndarray of int, shape (images, N)
+        ndarray of int, shape (turns, N)
         """
         _, height, width = shape = self.shape(size)
         sheet, row, column = np.unravel_index(texel, shape)
         centre = np.stack([(column + 0.5) / width, (row + 0.5) / height], axis=-1)
         # Texels' centres meet
-        uv, on = self.uv_from_direction(self.direction_from_uv(centre, sheet) * signs[:, None])
+        uv, on = self.uv_from_direction(self.direction_from_uv(centre, sheet) @ matrices.mT)
         columns, rows = np.moveaxis(np.floor(uv * (width, height)).astype(np.intp), -1, 0)
-        mirrored: Indices = (on * height + rows) * width + columns
-        return mirrored
+        turned: Indices = (on * height + rows) * width + columns
+        return turned
 
     def uv_from_direction(self, direction: ArrayLike) -> tuple[Array, Indices]:
         """The inverse of `direction_from_uv`; directions in the blind spot are taken to its edge."""
@@ -306,7 +302,7 @@ def _equirect() -> Representation:
         aspect=2,
         symmetric=True,
         own_grid=equirect.direction_of_grid,
-        own_octants=equirect.octants,
+        own_sectors=equirect.sectors,
     )
 
 

@@ -6,8 +6,8 @@ is divided exactly among the texels beneath, by the parts of the parallelogram t
 is larger than those beneath is quartered until it is not. All of it goes somewhere, so power is kept to the
 last digits in all maps.
 
-Where quarter turns about z and mirrors take texels of both maps to texels, one sector of sixteen is divided for
-all: the others' shares are the same, of turned or mirrored texels.
+Where quarter turns about z and mirrors take texels of both maps to texels, one sector of sixteen is divided
+for all: the others' shares are the same, of turned or mirrored texels.
 """
 
 import itertools

@@ -3,6 +3,7 @@
 from . import bake_kinds, export
 from .accept import RSIBR_OT_accept
 from .add_materials import RSIBR_OT_add_materials
+from .add_probe import RSIBR_OT_add_probe
 from .apply_quality import RSIBR_OT_apply_quality
 from .assemble_faces import RSIBR_OT_assemble_faces
 from .assign import RSIBR_OT_assign
@@ -41,6 +42,7 @@ CLASSES: tuple[type, ...] = (
     RSIBR_OT_lift_painting,
     *bake_kinds.CLASSES,
     RSIBR_OT_add_materials,
+    RSIBR_OT_add_probe,
     RSIBR_OT_fit_lobes,
     RSIBR_OT_apply_quality,
     RSIBR_OT_bake,

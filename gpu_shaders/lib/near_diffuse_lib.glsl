@@ -1,7 +1,7 @@
 // Twin of rsibr_addon/core/kinds/mip_chain/near_diffuse.py.
 #include "lib/directions_lib.glsl"
 #include "lib/mip_chain_lib.glsl"
-#include "lib/near_room_lib.glsl"
+#include "lib/probes_lib.glsl"
 
 const int COSINE_LOBES = 14;
 
@@ -18,15 +18,14 @@ vec4 cosine_lobe(vec3 normal, int number)
   return vec4(camera_frame(normal) * local, share / count);
 }
 
-// Irradiance over pi, at a place relative to where the map was captured.
-vec3 near_diffuse(
-    sampler2D atlas, float level, vec3 position, vec3 normal, float room, vec3 half_size, vec3 middle)
+// Irradiance over pi, at a point in world coordinates.
+vec3 near_diffuse(sampler2D atlas, float bottom, float level, Place place, vec3 position, vec3 normal)
 {
   vec3 light = vec3(0.0);
   for (int number = 0; number < COSINE_LOBES; number++) {
     vec4 lobe = cosine_lobe(normal, number);
-    vec3 direction = near_direction(position, lobe.xyz, room, half_size, middle);
-    light += lobe.w * glossy_radiance(atlas, direction, level, false);
+    vec3 direction = near_direction(place, position, lobe.xyz);
+    light += lobe.w * glossy_radiance(atlas, bottom, direction, level, false);
   }
   return light;
 }

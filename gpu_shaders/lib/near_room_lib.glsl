@@ -12,19 +12,26 @@ vec3 near_direction(vec3 position, vec3 direction, float room, vec3 half_size, v
   vec3 start = (position - middle) / half_size;
   vec3 ray = direction / half_size;
   float along;
-  bool inside;
   if (room == BOX) {
     vec3 size = max(abs(ray), 1e-20);
     vec3 far = (1.0 - start * sign(ray)) / size;
     along = min(far.x, min(far.y, far.z));
-    inside = all(lessThan(abs(start), vec3(1.0)));
   }
   else {
     float a = dot(ray, ray);
     float b = dot(start, ray);
     float c = dot(start, start) - 1.0;
     along = (sqrt(max(b * b - a * c, 0.0)) - b) / a;
-    inside = c < 0.0;
   }
-  return (inside && along > 0.0) ? normalize(position + along * direction) : direction;
+  return normalize(position + max(along, 1e-6) * direction);
+}
+
+// How far a place, relative to the middle, is from a room: 0 inside.
+float outside_distance(vec3 place, float room, vec3 half_size)
+{
+  if (room == BOX) {
+    return length(max(abs(place) - half_size, 0.0));
+  }
+  float size = length(place / half_size);
+  return length(place) * max(1.0 - 1.0 / max(size, 1e-20), 0.0);
 }

@@ -109,6 +109,8 @@ class Option:
         "COLOR", "FILE_PATH" or, of degrees, "ANGLE": how Blender shows it.
     once : bool
         Whether it tells of the files at hand alone, so that Blender forgets it.
+    adds : str
+        Operator of Blender's that adds to a text which lists several things; empty for none.
     stored : str
         Name of the property that files of Blender hold; empty for the field's.
     materials : Materials or None
@@ -139,6 +141,7 @@ class Option:
     metavar: str = ""
     subtype: str = ""
     once: bool = False
+    adds: str = ""
     stored: str = ""
     materials: Materials | None = None
     models: tuple[type, ...] = ()

@@ -12,6 +12,10 @@ from ..core.kinds.mip_chain.shading import MipLook
 from ..core.options import Choice, option
 from .comparison import ExactComparison, cycles_material_option, option_of_look, samples_option
 from .method import MethodSettings
+from .probes import ADD_PROBE, ProbeOptions, probes_from_text
+
+HIGHEST = 16000
+"""Rows of texels that the chains of all probes may take: graphics cards have 16384."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -21,7 +25,10 @@ class MipChainSettings(MethodSettings):
     KIND: ClassVar = "mip_chain"
     LABEL: ClassVar = "Mip Chain"
     SUMMARY: ClassVar = "Light alone, for any roughness: as game engines use it"
-    REMARK: ClassVar = "A mip chain holds light alone: choose colours in Look."
+    REMARK: ClassVar = (
+        "A mip chain holds light alone: choose colours in Look. A rough rim before a sun is too "
+        "bright: choose Own Materials or a Lobe Stack for those."
+    )
 
     filter: str = option(
         "ggx",
@@ -66,6 +73,18 @@ class MipChainSettings(MethodSettings):
         metavar="N0,N1,...",
         advanced=True,
     )
+    probes: str | None = option(
+        None,
+        label="Probes",
+        help="Light of rooms, for the points in them; between rooms it is blended, and beyond them it is the "
+        "light of the bake: box:light=hall.exr,size=6/5/3,middle=0/0/1.5,at=1/0/1.5,blend=0.5;sphere:... in "
+        "world coordinates",
+        none="none",
+        none_as="",
+        metavar="ROOM:KEY=VALUE,...;...",
+        adds=ADD_PROBE,
+        advanced=True,
+    )
     degree: int = option(
         2,
         label="Degree",
@@ -80,6 +99,12 @@ class MipChainSettings(MethodSettings):
     def __post_init__(self) -> None:
         super().__post_init__()
         check_size(self.size, 1)
+        largest = HIGHEST // (2 * (1 + len(self.rooms)))
+        if self.rooms and self.size > largest:
+            raise RangeError(
+                f"{len(self.rooms)} probes of {self.size} texels do not fit into a texture: choose a size of "
+                f"at most {2 ** (largest.bit_length() - 1)}."
+            )
         if self.exponents is not None:
             if self.filter != "phong":
                 raise RangeError(
@@ -93,6 +118,11 @@ class MipChainSettings(MethodSettings):
             raise RangeError(f"The filter {self.filter} knows no roughness: leave it out, or choose ggx.")
         check_size(self.size, len(self.roughness))
         check_roughness(self.roughness)
+
+    @property
+    def rooms(self) -> tuple[ProbeOptions, ...]:
+        """The probes."""
+        return probes_from_text(self.probes or "")
 
     @property
     def roughnesses(self) -> tuple[float, ...]:

@@ -96,7 +96,10 @@ def _draw_options(
         if each.option.models:
             draw_model(column, chosen, each)
         else:
-            column.prop(chosen, property_name(each), text=_label(each))
+            row = column.row()
+            row.prop(chosen, property_name(each), text=_label(each))
+            if each.option.adds:
+                row.operator(each.option.adds, text="", icon="ADD")
 
 
 def _label(declared: Declared) -> str:

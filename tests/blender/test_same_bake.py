@@ -30,6 +30,7 @@ TEXTS = {
     "brdf": "ggx:alpha=0.4,f0=0.5",
     "diffuse": "lambert:kd=0.2",
     "emission": "2/1/0.5",
+    "probes": "box:light=fit.json,size=4/4/4",
 }
 TEXTS |= {"specular": "phong:n=9,ks=0.1", "coat": "fresnel:eta=1.4", "retro": "phong:n=20,ks=0.1"}
 TEXTS |= {"refraction": "clear:eta=1.3", "weights": "fresnel:eta=1.4"}

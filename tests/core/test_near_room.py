@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.geometry.directions import normalize
-from rsibr.rsibr_addon.core.geometry.near_room import Room, near_direction
+from rsibr.rsibr_addon.core.geometry.near_room import Room, near_direction, outside_distance
 
 RNG = np.random.default_rng(97)
 HALF, MIDDLE = np.array([2.0, 1.5, 1.0]), np.array([0.3, -0.2, 0.1])
@@ -32,8 +32,33 @@ def test_from_where_it_was_captured_a_map_is_as_it_is(room: Room) -> None:
 
 
 @pytest.mark.parametrize("room", Room)
-def test_outside_the_room_and_far_away_directions_stay(room: Room) -> None:
-    outside = near_direction(MIDDLE + 3.0 * HALF, DIRECTIONS, room, HALF, MIDDLE)
-    np.testing.assert_allclose(outside, DIRECTIONS, atol=1e-15)
+def test_far_away_directions_stay(room: Room) -> None:
     far = near_direction(INSIDE, DIRECTIONS, room, 1e6 * HALF, MIDDLE)
     np.testing.assert_allclose(far, DIRECTIONS, atol=4e-6)
+
+
+NEAR = [Room.BOX, Room.SPHERE]
+
+
+@pytest.mark.parametrize("room", NEAR)
+def test_light_does_not_jump_where_one_leaves_the_room(room: Room) -> None:
+    on_wall = DIRECTIONS / HALF
+    on_wall = np.abs(on_wall).max(axis=1) if room is Room.BOX else np.linalg.norm(on_wall, axis=1)
+    wall, rays = DIRECTIONS / on_wall[:, None], np.roll(DIRECTIONS, 7, axis=0)
+    just_in, just_out = (
+        near_direction(MIDDLE + share * wall, rays, room, HALF, MIDDLE) for share in (1.0 - 1e-7, 1.0 + 1e-7)
+    )
+    # But for rays along the wall, which meet it anywhere
+    steep = np.abs(np.sum((just_in - just_out) ** 2, axis=1)) < 1e-8
+    assert np.mean(steep) > 0.95
+
+
+@pytest.mark.parametrize("room", NEAR)
+def test_the_way_out_of_a_room(room: Room) -> None:
+    assert np.all(outside_distance(INSIDE - MIDDLE, room, HALF) == 0.0)
+    along_x = outside_distance([2.5, 0.0, 0.0], room, HALF)
+    assert along_x == pytest.approx(0.5)
+    corner = outside_distance(HALF + [0.3, 0.4, 0.0], room, HALF)
+    assert corner == pytest.approx(0.5) or room is Room.SPHERE
+    at_once = outside_distance(np.zeros(3), room, HALF)
+    assert at_once == 0.0

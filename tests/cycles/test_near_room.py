@@ -22,6 +22,7 @@ from rsibr.rsibr_addon.host.rendering import configure_cycles, render_passes
 from rsibr.rsibr_addon.host.spheres import add_sphere
 from rsibr.rsibr_addon.settings.environment import SceneLight
 from rsibr.rsibr_addon.tasks.light.scene import illuminate_from_scene
+from rsibr.tests.cycles import joined_rooms
 from rsibr.tests.cycles.test_reflection_tables import shader
 
 pytestmark = [pytest.mark.needs("cycles"), pytest.mark.slow]
@@ -94,3 +95,12 @@ def test_a_ball_in_a_room_is_a_third_as_wrong_as_in_distant_light(
         return float(np.sqrt(np.mean((shown - reference)[inside] ** 2)))
 
     assert error(near) < error(replace(near, room=Room.DISTANT)) / 3.0
+
+
+def test_a_ball_in_a_door_is_nearest_to_the_truth_from_both_rooms_probes(tmp_path: Path) -> None:
+    joined_rooms.add_rooms()
+    chain = joined_rooms.rooms_chain(tmp_path, 32, 0.5)
+    mirror, look = shader("Glossy", Roughness=0.0), MipLook(f0=(1.0,) * 3, kd=(0.0,) * 3)
+    error = joined_rooms.errors(chain, mirror, look, (-0.5, 0.0, 0.5), 12, 16)
+    assert error["blended"] < 0.75 * error["nearest"]
+    assert error["nearest"] < 0.75 * error["one"]

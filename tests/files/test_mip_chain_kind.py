@@ -1,17 +1,22 @@
 """Map sets of mip chains: what is written comes back, and everything else is named."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import OpenEXR
 import pytest
 from rsibr.rsibr_addon.core.environment import Environment
-from rsibr.rsibr_addon.core.errors import MapSetError
+from rsibr.rsibr_addon.core.errors import MapSetError, RsibrWarning
+from rsibr.rsibr_addon.core.geometry.near_room import Room
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
+from rsibr.rsibr_addon.core.kinds.mip_chain.probes import Place, Probe
 from rsibr.rsibr_addon.files.kinds.mip_chain import from_map_set, to_map_set
 from rsibr.rsibr_addon.files.map_set import read_map_set, write_map_set
 from rsibr.rsibr_addon.files.map_set_data import MapSet
 from rsibr.rsibr_addon.files.map_set_header import Origin
+from rsibr.rsibr_addon.files.textures import Up
+from rsibr.rsibr_addon.tasks.export.format import textures_of
 
 RNG = np.random.default_rng(41)
 
@@ -38,6 +43,24 @@ def test_a_chain_comes_back_bit_by_bit(tmp_path: Path, roughness: tuple[float, .
     for mip, expected in zip(back.mips, chain.mips, strict=True):
         assert mip.dtype == np.float32
         np.testing.assert_array_equal(mip, expected)
+
+
+def test_probes_come_back(tmp_path: Path) -> None:
+    places = (
+        Place((0.5, 0.25, -1.0), Room.BOX, (4.0, 5.0, 3.0), (1.0, 2.0, 3.0), 0.75),
+        Place((0.0, 0.0, 0.0), Room.SPHERE, (1.0, 1.0, 1.0), (9.0, 0.0, 0.0), 2.0),
+    )
+    probes = tuple(Probe(place, make_chain().mips) for place in places)
+    path = tmp_path / "a.rsibr.exr"
+    write_map_set(path, make_map_set(replace(make_chain(), probes=probes)))
+    map_set = read_map_set(path, "mip_chain")
+    back = from_map_set(path, map_set).probes
+    assert [each.place for each in back] == list(places)
+    for found, expected in zip(back, probes, strict=True):
+        for mip, there in zip(found.mips, expected.mips, strict=True):
+            np.testing.assert_array_equal(mip, there)
+    with pytest.warns(RsibrWarning, match="bake a mip chain of each"):
+        textures_of(path, map_set, Up.Z)
 
 
 def test_others_find_the_faces_in_opengl_s_order(tmp_path: Path) -> None:
@@ -74,6 +97,20 @@ def test_what_is_no_mip_chain_is_named(tmp_path: Path) -> None:
     assert "do not ascend" in refusal(lambda maps, header, parts: parts["mip02"].update(roughness=0.1))
     assert "laid out as octahedral" in refusal(lambda maps, header, parts: header.update(layout="octahedral"))
     strip = np.ones((6, 2, 3), np.float32)
+    place = {"room": "box", "size": [1.0] * 3, "middle": [0.0] * 3, "captured_at": [0.0] * 3, "blend": 1.0}
+
+    def with_probe(mip: int, **fields: object):
+        def change(maps, header, parts) -> None:
+            maps["probe01-mip00"] = maps["mip00"]
+            header["parts"].append(
+                {"name": "probe01-mip00", "role": "probe", "probe": 1, "mip": mip} | fields
+            )
+
+        return change
+
+    assert "probe 1, or its place" in refusal(with_probe(0))
+    assert "probe 1, or its place" in refusal(with_probe(1, place=place))
+    assert "same sizes" in refusal(with_probe(0, place=place))
     assert "Mip 1 must have the shape" in refusal(lambda maps, header, parts: maps.update(mip01=strip))
     assert "2 coefficients are not those of any degree" in refusal(
         lambda maps, header, parts: maps.update(harmonics=strip[:1])

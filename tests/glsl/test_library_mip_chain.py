@@ -163,8 +163,8 @@ TWINS = {
     },
     "near_diffuse": Twin(
         "near_diffuse_lib.glsl",
-        "vec3 half_size = vec3(2.0, 1.5, 1.0), middle = vec3(0.25, 0.0, -0.25);"
-        "result_0.xyz = near_diffuse(atlas, 1.5, in_0.xyz, in_1.xyz, BOX, half_size, middle);",
+        "Place place = Place(vec3(0.0), BOX, vec3(2.0, 1.5, 1.0), vec3(0.25, 0.0, -0.25), 1.0);"
+        "result_0.xyz = near_diffuse(atlas, 0.0, 1.5, place, in_0.xyz, in_1.xyz);",
         in_a_room,
         diffuse_in_a_room,
         # As of glossy radiance, of places 1e-5 off
@@ -208,7 +208,7 @@ def test_twin(name: str) -> None:
 def test_mip_radiance(borders: Borders, mip: int) -> None:
     clamped = str(borders is Borders.CLAMPED).lower()
     direction = unit_vectors(25, np.concatenate([CORNERS, EDGES]))
-    code = f"result_0.rgb = mip_radiance(atlas, {mip}, cube_place(in_0.xyz), {clamped});"
+    code = f"result_0.rgb = mip_radiance(atlas, 0.0, {mip}, cube_place(in_0.xyz), {clamped});"
     found = evaluate("mip_chain_lib.glsl", code, [direction], samplers=atlas())[:, 0, :3]
     expected = glossy_radiance(CHAIN, direction, float(mip), borders)
     # Weights of texels may be rounded to 8 bits, both ways: 2 / 512 of differences up to 1.
@@ -218,7 +218,7 @@ def test_mip_radiance(borders: Borders, mip: int) -> None:
 @pytest.mark.parametrize("level", [0.0, 0.25, 2.7, 4.0])
 def test_glossy_radiance(level: float) -> None:
     direction = unit_vectors(26, np.concatenate([CORNERS, EDGES]))
-    code = f"result_0.rgb = glossy_radiance(atlas, in_0.xyz, {level}, false);"
+    code = f"result_0.rgb = glossy_radiance(atlas, 0.0, in_0.xyz, {level}, false);"
     found = evaluate("mip_chain_lib.glsl", code, [direction], samplers=atlas())[:, 0, :3]
     assert np.abs(found - glossy_radiance(CHAIN, direction, level, Borders.SEAMLESS)).max() < 5e-3
 
@@ -229,7 +229,7 @@ def test_glossy_mean(level: float) -> None:
     rng = np.random.default_rng(29)
     size = 10.0 ** rng.uniform(-3.0, 0.3, (COUNT, 1))
     across, up = (single(size * rng.normal(size=(COUNT, 3))) for _ in range(2))
-    code = f"result_0.rgb = glossy_mean(atlas, in_0.xyz, in_1.xyz, in_2.xyz, {level}, 4.0, false);"
+    code = f"result_0.rgb = glossy_mean(atlas, 0.0, in_0.xyz, in_1.xyz, in_2.xyz, {level}, 4.0, false);"
     found = evaluate("mip_chain_lib.glsl", code, [direction, across, up], samplers=atlas())[:, 0, :3]
     corners = parallelogram(direction, across, up)
     expected = glossy_mean(CHAIN, direction, corners, level, Borders.SEAMLESS)

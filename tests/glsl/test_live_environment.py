@@ -1,5 +1,7 @@
 """Changing light on the GPU against its reference in numpy: harmonics, mips, and the pictures they make."""
 
+from dataclasses import replace
+
 import gpu
 import numpy as np
 import pytest
@@ -7,6 +9,7 @@ from rsibr.rsibr_addon.core.conventions import Array
 from rsibr.rsibr_addon.core.errors import RangeError
 from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_coefficients
 from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.geometry.near_room import Room
 from rsibr.rsibr_addon.core.kinds.live_environment import chain_of_faces, harmonics_of_faces
 from rsibr.rsibr_addon.core.kinds.mip_chain.shading import MipLook
 from rsibr.rsibr_addon.core.kinds.mip_chain.texture_space import box_halved, tent_halved
@@ -118,6 +121,22 @@ def test_a_picture_is_that_of_the_uploaded_chain(across_borders: bool, blur: dic
     assert pictures[0][..., :3].max() > 0.1
     # The same lookups, of texels and coefficients that differ by roundings.
     assert np.abs(pictures[0] - pictures[1]).max() < 1e-5
+
+
+def test_in_a_room_light_is_seen_from_where_it_was_rendered() -> None:
+    ensure_context()
+    faces = smooth_faces(32)
+    live, at = GpuLiveEnvironment(32), (0.5, -0.4, 0.3)
+    show(live, faces)
+    live.captured_at = at
+    room = MipLook(f0=(1.0,) * 3, kd=(0.0,) * 3, room=Room.BOX, room_size=(5.0, 4.4, 4.0))
+    camera, uploaded = Camera((1.0, -0.7, 0.4)), GpuMipChain(reference(faces, True))
+    found = PreviewRenderer(live).draw(*SPHERE, camera, SIZE, room)
+    expected = PreviewRenderer(uploaded).draw(*SPHERE, camera, SIZE, replace(room, captured_at=at))
+    # As of pictures, above
+    assert np.abs(found - expected).max() < 1e-5
+    elsewhere = PreviewRenderer(uploaded).draw(*SPHERE, camera, SIZE, room)
+    assert np.abs(elsewhere - expected).max() > 0.01
 
 
 def test_black_at_first_and_bad_requests() -> None:

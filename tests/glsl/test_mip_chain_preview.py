@@ -11,6 +11,7 @@ from rsibr.rsibr_addon.core.geometry.directions import reflect
 from rsibr.rsibr_addon.core.geometry.near_room import Room
 from rsibr.rsibr_addon.core.kinds.live_environment import chain_of_faces
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
+from rsibr.rsibr_addon.core.kinds.mip_chain.probes import Place, Probe
 from rsibr.rsibr_addon.core.kinds.mip_chain.shading import Borders, MipLook, mip_chain_radiance
 from rsibr.rsibr_addon.core.kinds.mip_chain.texture_space import box_halved, filtered_mips, tent_halved
 from rsibr.rsibr_addon.core.light.lamps import directions_in_cap
@@ -168,6 +169,33 @@ def test_diffuse_light_in_a_room_shifts_too(room: Room) -> None:
     found = PreviewRenderer(GpuMipChain(chain)).draw(*SPHERE, camera, SIZE, look)[..., :3]
     # As of mirrors, above
     assert np.abs(found - expected)[inside].max() < 6e-3 * expected.max()
+
+
+def test_a_ball_between_two_rooms_is_lit_by_both() -> None:
+    ensure_context()
+    rng = np.random.default_rng(8)
+    directions = representation("cube_map").texel_directions(32)
+
+    def light() -> MipChain:
+        turned = directions @ np.linalg.qr(rng.normal(size=(3, 3)))[0]
+        return chain_of_faces(np.float32(0.5 + 0.4 * np.sin(2.0 * turned)), tent_halved)
+
+    # The ball reaches out of both, where the world's light begins
+    hall = Place((1.0, 0.2, 0.1), Room.BOX, (4.0, 1.5, 4.0), (2.2, 0.0, 0.0), 0.7)
+    cellar = Place((-1.0, 0.0, 0.2), Room.SPHERE, (3.0, 4.0, 1.6), (-1.3, 0.0, 0.0), 0.9)
+    probes = tuple(Probe(place, light().mips) for place in (hall, cellar))
+    chain = replace(light(), probes=probes)
+    look = MipLook(f0=(0.4, 0.6, 0.8), kd=(0.9, 0.5, 0.1), mip=1.4)
+    camera = Camera((0.3, -0.9, 0.4))
+
+    def of_reference(normal: np.ndarray, view_dir: np.ndarray, footprint: np.ndarray) -> np.ndarray:
+        return mip_chain_radiance(chain, normal, view_dir, look, footprint, position=normal)
+
+    expected, inside = reference_pixels(camera, of_reference)
+    found = PreviewRenderer(GpuMipChain(chain)).draw(*SPHERE, camera, SIZE, look)[..., :3]
+    # As of mirrors, above; beyond a room, rays along its walls may leave it elsewhere
+    assert np.quantile(np.abs(found - expected)[inside], 0.98) < 6e-3 * expected.max()
+    assert expected[inside].std() > 0.02
 
 
 def test_a_chain_that_does_not_say_how_blurred_it_is() -> None:

@@ -11,6 +11,9 @@ import numpy as np
 from ..conventions import Array, ArrayLike
 from .directions import normalize
 
+LEAST_WAY = 1e-6
+"""The shortest way of a ray, so that one from the point of capture has a direction."""
+
 
 class Room(StrEnum):
     """What stands for the surroundings.
@@ -43,8 +46,9 @@ def near_direction(
     Returns
     -------
     ndarray, shape (..., 3), float64
-        Unit vectors from that point. They are `direction` in distant surroundings, and where the ray does not
-        meet the room from inside.
+        Unit vectors from that point. They are `direction` in distant surroundings. From outside, as through a
+        door, a ray is followed to where it leaves the room, or no farther than its start: so light does not
+        jump at the room's border.
 
     Notes
     -----
@@ -60,11 +64,36 @@ def near_direction(
     if room is Room.BOX:
         size = np.maximum(np.abs(ray), 1e-20)
         along = np.min((1.0 - start * np.sign(ray)) / size, axis=-1)
-        inside = np.all(np.abs(start) < 1.0, axis=-1)
     else:
         a, b, c = (np.sum(x * y, axis=-1) for x, y in ((ray, ray), (start, ray), (start, start)))
         along = (np.sqrt(np.maximum(b**2 - a * (c - 1.0), 0.0)) - b) / a
-        inside = c < 1.0
-    met = (inside & (along > 0.0))[..., None]
-    towards: Array = np.where(met, position + along[..., None] * direction, direction)
-    return normalize(towards)
+    return normalize(position + np.maximum(along, LEAST_WAY)[..., None] * direction)
+
+
+def outside_distance(place: ArrayLike, room: Room, half_size: ArrayLike) -> Array:
+    """How far places are from a room.
+
+    Parameters
+    ----------
+    place : array_like, shape (..., 3)
+        Relative to the room's middle.
+    room : Room
+        BOX or SPHERE.
+    half_size : array_like, shape (3,)
+        Half of the room's widths, above 0.
+
+    Returns
+    -------
+    ndarray, shape (...), float64
+        0 inside. Of an ellipsoid the way beyond it is measured along the line to its middle.
+
+    Notes
+    -----
+    GLSL twin: gpu_shaders/lib/near_room_lib.glsl, 1e-5.
+    """
+    place, half_size = np.asarray(place, np.float64), np.asarray(half_size, np.float64)
+    if room is Room.BOX:
+        beyond = np.maximum(np.abs(place) - half_size, 0.0)
+        return np.asarray(np.linalg.norm(beyond, axis=-1))
+    size = np.linalg.norm(place / half_size, axis=-1)
+    return np.asarray(np.linalg.norm(place, axis=-1) * np.maximum(1.0 - 1.0 / np.maximum(size, 1e-20), 0.0))

@@ -5,9 +5,12 @@ from, and harmonics; nothing is read back. A pass cannot read the texture that i
 halved from the atlas into another strip, and copied from there into the atlas with its borders.
 """
 
+from dataclasses import replace
+
 import gpu
 import numpy as np
 
+from ...core.geometry.near_room import Room
 from ...core.kinds.live_environment import FACE_COUNT, solid_angle_texels
 from ...core.kinds.mip_chain.chain import check_size
 from ...core.kinds.mip_chain.mip_lobes import MipLobes, texture_space_spread
@@ -41,6 +44,11 @@ class GpuLiveEnvironment:
     degree : int
         Degree of the harmonics of diffuse light: nine coefficients in the paper.
 
+    Attributes
+    ----------
+    captured_at : tuple of float
+        Where the faces are seen from, in world coordinates, which counts for looks with a room.
+
     Raises
     ------
     RangeError
@@ -56,6 +64,7 @@ class GpuLiveEnvironment:
     def __init__(self, size: int, across_borders: bool = True, degree: int = 2) -> None:
         check_size(size, 1)
         self.size = size
+        self.captured_at = (0.0, 0.0, 0.0)
         self._mip_count = size.bit_length()
         self.textures = ()
         self._halved = tent_shader() if across_borders else box_shader()
@@ -68,6 +77,7 @@ class GpuLiveEnvironment:
         self._harmonics = _Map(self._coefficients, 1)
         spread = texture_space_spread(size, tent_halved if across_borders else box_halved)
         self._lobes = MipLobes(self._mip_count, spread=spread)
+        self._no_places = _Map(1, 1)
         self._shading = buffers.KeptBlock()
         self._screen = screen_triangle(face_shader())
         self.filter()
@@ -104,12 +114,14 @@ class GpuLiveEnvironment:
 
     def draw(self, mesh: GpuMesh, draw: Draw, look: MipLook) -> None:
         """See `GpuMapSet.draw`. Reference: core/kinds/mip_chain/shading.py."""
+        look = look if look.room is Room.DISTANT else replace(look, captured_at=self.captured_at)
         shading = self._shading.filled(*look_fields(look, self._lobes))
         shader = mip_chain_shader()
         shader.bind()
         shader.uniform_block("look", shading)
         shader.uniform_sampler("atlas", self._atlas.texture)
         shader.uniform_sampler("harmonics", self._harmonics.texture)
+        shader.uniform_sampler("places", self._no_places.texture)
         mesh.draw(shader, draw)
 
     def _border(self, strip: "_Map", mip: int) -> None:

@@ -14,7 +14,7 @@ from ...core.kinds.mip_chain.texture_space import with_borders
 from ..buffers import with_alpha
 from ..drawing import Inputs, ProgramMapSet
 from ..textures import GpuTexture
-from .mip_chain_shaders import look_fields, mip_chain_shader
+from .mip_chain_shaders import look_fields, mip_chain_shader, place_rows
 
 
 class GpuMipChain(ProgramMapSet):
@@ -23,18 +23,25 @@ class GpuMipChain(ProgramMapSet):
     def __init__(self, chain: MipChain) -> None:
         self._atlas = GpuTexture("mip chain", atlas_texels(chain))
         self._harmonics = GpuTexture("harmonics", harmonics_texels(chain.harmonics))
-        self.textures = (self._atlas, self._harmonics)
-        self._lobes = chain.lobes
+        self._places = GpuTexture("rooms", place_texels(chain))
+        self.textures = (self._atlas, self._harmonics, self._places)
+        self._lobes, self._probes = chain.lobes, len(chain.probes)
 
     def inputs(self, look: MipLook) -> Inputs:
         """See `ProgramMapSet.inputs`. Reference: core/kinds/mip_chain/shading.py."""
-        textures = {"atlas": self._atlas, "harmonics": self._harmonics}
-        return Inputs(mip_chain_shader, look_fields(look, self._lobes), textures)
+        textures = {"atlas": self._atlas, "harmonics": self._harmonics, "places": self._places}
+        return Inputs(mip_chain_shader, look_fields(look, self._lobes, self._probes), textures)
 
 
 def harmonics_texels(harmonics: Array) -> Array:
     """The coefficients of irradiance as gpu_shaders/lib/irradiance_lib.glsl reads them, shape (1, n, 4)."""
     return with_alpha(irradiance_coefficients(harmonics)[None])
+
+
+def place_texels(chain: MipChain) -> Array:
+    """The probes' places as gpu_shaders/lib/probes_lib.glsl reads them, shape (n, 3, 4); zeros if none."""
+    rows = [place_rows(probe.place) for probe in chain.probes]
+    return np.array(rows or [np.zeros((3, 4))], dtype=np.float32)
 
 
 def atlas_texels(chain: MipChain) -> Array:
@@ -43,9 +50,11 @@ def atlas_texels(chain: MipChain) -> Array:
     Returns
     -------
     ndarray, shape (height, 6 * (size + 2), 4), float32
-        A row of six bordered faces for each mip, from the bottom up; alpha is 1.
+        A row of six bordered faces for each mip, from the bottom up, of the chain and then of each probe;
+        alpha is 1.
     """
-    rows = [with_borders(faces) for faces in chain.mips]
+    chains = chain.mips, *(probe.mips for probe in chain.probes)
+    rows = [with_borders(faces) for mips in chains for faces in mips]
     atlas = np.ones((sum(row.shape[1] for row in rows), 6 * rows[0].shape[1], 4), dtype=np.float32)
     bottom = 0
     for faces in rows:

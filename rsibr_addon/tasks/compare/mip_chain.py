@@ -68,7 +68,7 @@ def draw(
         truth: either.Pictures = either.ByModel(pictures)
     else:
         truth = yield from either.by_cycles(environment, mesh, cameras, settings)
-    ours = GpuMipChain(chain)
+    ours = GpuMipChain(replace(chain, probes=()))  # in its own light, as the truth is
     drawn = {MipWay(_lobe(look)): [picture(ours, look, mesh, camera, settings.size) for camera in cameras]}
     return either.beside(truth, drawn, _lobe(look), chain.size, settings)
 

@@ -1,5 +1,7 @@
 """An environment to a mip chain, in a map set."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from ...core.environment import Environment
@@ -9,17 +11,30 @@ from ...core.kinds.mip_chain.chain import MipChain
 from ...core.kinds.mip_chain.ggx import ggx_mips
 from ...core.kinds.mip_chain.mip_lobes import phong_spread, texture_space_spread
 from ...core.kinds.mip_chain.phong import phong_mips
+from ...core.kinds.mip_chain.probes import Probe
 from ...core.kinds.mip_chain.texture_space import box_halved, filtered_mips, tent_halved
 from ...core.maps.representation import representation
 from ...core.options import to_plain
 from ...core.progress import Progress, Steps
 from ...core.resample import resample
+from ...files.environments import read_environment
 from ...files.kinds.mip_chain import to_map_set
 from ...files.map_set_header import Origin, Recipe
 from ...files.memory import check_memory
 from ...job import BakeJob
 from ...settings.mip_chain import MipChainSettings
-from .method import RGB, STORED, Baked, Cost, Method, cost_in_blender, read_light, software_of, written
+from .method import (
+    RGB,
+    STORED,
+    Baked,
+    Cost,
+    Method,
+    Sources,
+    cost_in_blender,
+    read_light,
+    software_of,
+    written,
+)
 
 TEXTURE_SPACE = {"box": box_halved, "bordered": tent_halved}
 """Name of a filter that knows texels only -> how it halves a cube map."""
@@ -33,8 +48,9 @@ MIPS_OF_TEXEL = 16
 
 def cost(settings: MipChainSettings) -> Cost:
     """See `Method`; all mips together are a third more than the first."""
-    maps = 6 * settings.size**2 * RGB * 4 / 3
-    filtering = 0.5 if settings.filter in TEXTURE_SPACE else 1.0 + 5e-8 * maps
+    chains = 1 + len(settings.rooms)
+    maps = chains * 6 * settings.size**2 * RGB * 4 / 3
+    filtering = chains * 0.5 if settings.filter in TEXTURE_SPACE else 1.0 + 5e-8 * maps
     memory = BYTES_BESIDES + bytes_needed(1, 6 * settings.size**2) + maps
     return cost_in_blender(filtering, memory, STORED * maps)
 
@@ -47,33 +63,50 @@ def bake(job: BakeJob[MipChainSettings], recipe: Recipe) -> Steps[Baked]:
     RangeError
         A mip's lobe is narrower than the environment resolves, or the mips are too large for this machine's
         memory.
+    InputFileError
+        The picture of a probe cannot be used.
     """
     settings = job.settings
     texels = 6 * settings.size**2
-    needed = bytes_needed(1, texels) + MIPS_OF_TEXEL * texels
+    needed = bytes_needed(1, texels) + MIPS_OF_TEXEL * texels * (1 + len(settings.rooms))
     check_memory(needed, job.output, (settings.size, settings.size), BYTES_BESIDES, powers=True)
     light = yield from read_light(job)
     stated = to_plain(settings)
     for name, owner in (("roughness", "ggx"), ("exponents", "phong")):
         if settings.filter != owner:
             del stated[name]
-    if settings.filter in TEXTURE_SPACE:
-        yield Progress(1, 2, "filtering")
-        chain, largest = _texture_space(light, settings), ROUNDING
-    else:
-        chain, largest = yield from _with_lobes(light, settings)
+    chain, largest = yield from _chain(light, settings)
+    probes = []
+    for room in settings.rooms:
+        of_room, bound_there = yield from _chain(read_environment(room.light, job.light.clamp), settings)
+        probes.append(Probe(room.place, of_room.mips))
+        largest = max(largest, bound_there)
+    chain = replace(chain, probes=tuple(probes))
     bound = {"relative_to_peak": largest}
     map_set = to_map_set(chain, Origin(light, stated, software_of(job), {"filter": settings.filter}, bound))
     path = yield from written(job, recipe, map_set)
     return Baked(
         path,
         f"{settings.filter} mips from {settings.size}x{settings.size}",
-        {"filter": settings.filter, "size": settings.size, "mips": len(chain.mips)},
+        {
+            "filter": settings.filter,
+            "size": settings.size,
+            "mips": len(chain.mips),
+            "probes": len(chain.probes),
+        },
     )
 
 
+def _chain(light: Environment, settings: MipChainSettings) -> Steps[tuple[MipChain, float]]:
+    """The chain of a light, and its values' largest error over their mip's largest value."""
+    if settings.filter not in TEXTURE_SPACE:
+        return (yield from _with_lobes(light, settings))
+    yield Progress(1, 2, f"filtering {light.name}")
+    return _texture_space(light, settings), ROUNDING
+
+
 def _with_lobes(light: Environment, settings: MipChainSettings) -> Steps[tuple[MipChain, float]]:
-    """The chain, and its values' largest error over their mip's largest value."""
+    """See `_chain`."""
     roughness, spread = None, None
     if settings.filter == "ggx":
         roughness = settings.roughnesses
@@ -105,4 +138,9 @@ def _texture_space(light: Environment, settings: MipChainSettings) -> MipChain:
     return MipChain(mips, harmonics, spread=spread)
 
 
-METHOD = Method(bake, cost)
+def sources(settings: MipChainSettings) -> Sources:
+    """See `Method`."""
+    return Sources(tuple(room.light for room in settings.rooms))
+
+
+METHOD = Method(bake, cost, sources=sources)

@@ -96,6 +96,8 @@ class LiveLight:
         space = view.space
         reached = points_of(surface.item, view.depsgraph) @ surface.matrix[:3, :3].T + surface.matrix[:3, 3]
         centre = 0.5 * (reached.min(axis=0) + reached.max(axis=0))
+        x, y, z = centre.tolist()
+        self.gpu_map_set.captured_at = x, y, z
         nearest = np.maximum(near_distances(reached - centre), space.clip_start)
         with bare(space):
             for face in faces:

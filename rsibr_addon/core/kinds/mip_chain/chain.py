@@ -9,6 +9,7 @@ from ...errors import RangeError, ShapeError
 from ...filtering.irradiance import degree_of, turned_harmonics
 from ...maps import cube_map
 from .mip_lobes import MipLobes
+from .probes import Probe
 
 LARGEST = 1024
 """Width of the largest faces: to filter and upload such a chain takes some 1.5 GB."""
@@ -35,12 +36,14 @@ class MipChain:
     spread : tuple of float, or None
         1 less the mean cosine between the axis of each mip's lobe and its light, ascending in [0, 2]; None
         where it is not known, or follows from the roughness.
+    probes : tuple of Probe
+        Light of rooms, which counts in them instead.
 
     Raises
     ------
     ShapeError
-        The mips are not cube faces that halve in size, the coefficients are not those of a degree, or there
-        are not as many roughnesses or spreads as mips.
+        The mips are not cube faces that halve in size, the coefficients are not those of a degree, there
+        are not as many roughnesses or spreads as mips, or a probe has mips of other sizes.
     RangeError
         Roughnesses or spreads do not ascend within their range, there are too many coefficients, or a size is
         out of range: see `check_size`.
@@ -50,9 +53,13 @@ class MipChain:
     harmonics: Array
     roughness: tuple[float, ...] | None = None
     spread: tuple[float, ...] | None = None
+    probes: tuple[Probe, ...] = ()
 
     def __post_init__(self) -> None:
         check_size(self.size, len(self.mips))
+        for probe in self.probes:
+            if [faces.shape for faces in probe.mips] != [faces.shape for faces in self.mips]:
+                raise ShapeError("A probe needs mips of the same sizes as the chain that it belongs to.")
         for mip, faces in enumerate(self.mips):
             expected = (6, self.size >> mip, self.size >> mip, 3)
             if faces.shape != expected:
@@ -77,7 +84,7 @@ class MipChain:
         return int(self.mips[0].shape[1])
 
     def turned(self, rotation: Array) -> "MipChain":
-        """The same light in other axes.
+        """The same light in other axes, without probes.
 
         Parameters
         ----------
@@ -85,7 +92,7 @@ class MipChain:
             New directions from old ones; takes axes to axes.
         """
         mips = tuple(cube_map.turned(faces, rotation) for faces in self.mips)
-        return replace(self, mips=mips, harmonics=turned_harmonics(self.harmonics, rotation))
+        return replace(self, mips=mips, harmonics=turned_harmonics(self.harmonics, rotation), probes=())
 
     @property
     def lobes(self) -> MipLobes:

@@ -3,8 +3,9 @@
 Equation 8 of the paper in one pass: (1 - F) L_diffuse(normal) + F L_glossy(mirror direction).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
+from typing import Any
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from ...brdf.fresnel import fresnel_schlick
 from ...conventions import Array, ArrayLike
 from ...filtering.irradiance import irradiance_from_harmonics
 from ...geometry.directions import dot, reflect
-from ...geometry.near_room import Room, near_direction
+from ...geometry.near_room import Room
 from ...geometry.sides import seen_surface
 from ...maps import cube_map
 from ...maps.representation import representation
@@ -24,6 +25,7 @@ from ..look_options import antialiased_option, colour_option
 from .chain import MipChain
 from .mip_lobes import MipLobes
 from .near_diffuse import EXPONENT, cosine_lobes
+from .probes import Place, shares
 
 _CUBE = representation("cube_map")
 
@@ -37,6 +39,40 @@ class Borders(StrEnum):
 
     SEAMLESS = "seamless"
     CLAMPED = "clamped"
+
+
+ROOMS = {
+    Room.DISTANT: Choice("Distant", "far away, the same from everywhere"),
+    Room.BOX: Choice("Box", "a box along the axes, so that light shifts as one moves"),
+    Room.SPHERE: Choice("Sphere", "an ellipsoid, likewise"),
+}
+"""What stands for surroundings."""
+
+
+def room_size_option(**more: Any) -> Any:
+    """Widths of a room."""
+    return option(
+        (6.0, 6.0, 3.0),
+        label="Room Size",
+        help="Widths of the room along the axes",
+        least=1e-3,
+        most=1e6,
+        metavar="X,Y,Z",
+        **more,
+    )
+
+
+def room_middle_option(**more: Any) -> Any:
+    """Middle of a room."""
+    return option(
+        (0.0, 0.0, 0.0),
+        label="Room Middle",
+        help="Middle of the room, in world coordinates",
+        least=-1e6,
+        most=1e6,
+        metavar="X,Y,Z",
+        **more,
+    )
 
 
 @dataclass(frozen=True)
@@ -106,31 +142,11 @@ class MipLook(Options):
         Room.DISTANT,
         label="Room",
         help="What the surroundings are",
-        choices={
-            Room.DISTANT: Choice("Distant", "far away, the same from everywhere"),
-            Room.BOX: Choice("Box", "a box along the axes, so that light shifts as one moves"),
-            Room.SPHERE: Choice("Sphere", "an ellipsoid, likewise"),
-        },
+        choices=ROOMS,
         advanced=True,
     )
-    room_size: tuple[float, float, float] = option(
-        (6.0, 6.0, 3.0),
-        label="Room Size",
-        help="Widths of the room along the axes",
-        least=1e-3,
-        most=1e6,
-        advanced=True,
-        metavar="X,Y,Z",
-    )
-    room_middle: tuple[float, float, float] = option(
-        (0.0, 0.0, 0.0),
-        label="Room Middle",
-        help="Middle of the room, in world coordinates",
-        least=-1e6,
-        most=1e6,
-        advanced=True,
-        metavar="X,Y,Z",
-    )
+    room_size: tuple[float, float, float] = room_size_option(advanced=True)
+    room_middle: tuple[float, float, float] = room_middle_option(advanced=True)
     captured_at: tuple[float, float, float] = option(
         (0.0, 0.0, 0.0),
         label="Captured At",
@@ -142,14 +158,9 @@ class MipLook(Options):
     )
 
     @property
-    def half_size(self) -> Array:
-        """Half of the room's widths."""
-        return 0.5 * np.array(self.room_size)
-
-    @property
-    def middle(self) -> Array:
-        """The room's middle, relative to where the map was captured."""
-        return np.array(self.room_middle) - self.captured_at
+    def place(self) -> Place:
+        """Where the map was captured, and its room."""
+        return Place(self.captured_at, self.room, self.room_size, self.room_middle)
 
     def level(self, lobes: MipLobes) -> float:
         """The level of detail to look glossy light up at.
@@ -175,15 +186,21 @@ class MipLook(Options):
             return lobes.level_of_roughness(self.roughness)
         return min(self.mip, lobes.count - 1.0)
 
-    def diffuse_level(self, lobes: MipLobes) -> float:
+    def diffuse_level(self, lobes: MipLobes, has_probes: bool) -> float:
         """The level of detail to look up the lobes of `near_diffuse` at; 0 where they are not needed.
+
+        Parameters
+        ----------
+        lobes : MipLobes
+        has_probes : bool
+            Whether the chain has light of rooms.
 
         Raises
         ------
         RangeError
             See `MipLobes.level_of_exponent`.
         """
-        if self.room is Room.DISTANT or not any(self.kd):
+        if (self.room is Room.DISTANT and not has_probes) or not any(self.kd):
             return 0.0
         return lobes.level_of_exponent(EXPONENT)
 
@@ -204,7 +221,8 @@ def mip_chain_radiance(
     Parameters
     ----------
     position : array_like, shape (..., 3), optional
-        The points, in world coordinates; a look with a room needs them.
+        The points, in world coordinates; a look with a room and a chain with probes need them. Without them
+        there is neither.
 
     Raises
     ------
@@ -221,15 +239,23 @@ def mip_chain_radiance(
     fresnel = fresnel_schlick(cosine[..., None], look.f0)
     mirror_dir = reflect(view_dir, seen.mirror_normal)
     corners = footprint_or_point(mirror_footprint if look.antialiased else None, mirror_dir)
-    if position is None or look.room is Room.DISTANT:
-        diffuse = diffuse_radiance(chain, seen.normal, look.kd)
+    level, lights = look.level(chain.lobes), [(chain, look.place)]
+    of_lights: tuple[Array, ...] = (np.ones(()),)
+    if position is None:
+        position, lights = np.zeros(3), [(chain, replace(look.place, room=Room.DISTANT))]
     else:
-        start, room = np.asarray(position) - look.captured_at, (look.room, look.half_size, look.middle)
-        diffuse = near_diffuse_radiance(chain, start, seen.normal, look)
-        mirror_dir = near_direction(start, mirror_dir, *room)
-        corners = near_direction(start[..., None, :], corners, *room)
-    glossy = glossy_mean(chain, mirror_dir, corners, look.level(chain.lobes), look.borders)
-    shaded: Array = (1.0 - fresnel) * diffuse + fresnel * glossy
+        lights += [(replace(chain, mips=probe.mips), probe.place) for probe in chain.probes]
+        of_lights = shares([probe.place for probe in chain.probes], position)
+    shaded = np.zeros(normal.shape)
+    for (light, place), share in zip(lights, of_lights, strict=True):
+        if place.room is Room.DISTANT:
+            diffuse = diffuse_radiance(light, seen.normal, look.kd)
+        else:
+            diffuse = near_diffuse_radiance(light, place, position, seen.normal, look)
+        towards = place.near_direction(position, mirror_dir)
+        seen_there = place.near_direction(np.asarray(position)[..., None, :], corners)
+        glossy = glossy_mean(light, towards, seen_there, level, look.borders)
+        shaded += share[..., None] * ((1.0 - fresnel) * diffuse + fresnel * glossy)
     return shaded
 
 
@@ -254,14 +280,18 @@ def diffuse_radiance(chain: MipChain, normal: ArrayLike, kd: ArrayLike) -> Array
     return radiance
 
 
-def near_diffuse_radiance(chain: MipChain, position: Array, normal: Array, look: MipLook) -> Array:
+def near_diffuse_radiance(
+    chain: MipChain, place: Place, position: ArrayLike, normal: Array, look: MipLook
+) -> Array:
     """Light that a Lambertian surface reflects in a near room.
 
     Parameters
     ----------
     chain : MipChain
-    position, normal : ndarray, shape (..., 3)
-        Of the points, relative to where the map was captured; unit vectors.
+    place : Place
+        Where it was captured, and the room.
+    position, normal : array_like, shape (..., 3)
+        Of the points, in world coordinates; unit vectors.
     look : MipLook
 
     Returns
@@ -277,10 +307,10 @@ def near_diffuse_radiance(chain: MipChain, position: Array, normal: Array, look:
     -----
     GLSL twin: gpu_shaders/lib/near_diffuse_lib.glsl `near_diffuse`.
     """
-    level, room = look.diffuse_level(chain.lobes), (look.room, look.half_size, look.middle)
+    level = look.diffuse_level(chain.lobes, has_probes=True)
     light = np.zeros(normal.shape)
     for towards, share in cosine_lobes(normal):
-        direction = near_direction(position, towards, *room)
+        direction = place.near_direction(position, towards)
         light += share * glossy_radiance(chain, direction, level, Borders.SEAMLESS)
     return np.asarray(look.kd) * light
 

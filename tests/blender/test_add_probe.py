@@ -1,0 +1,49 @@
+"""The operator that adds the light of a room, and the rooms that objects stand for."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+import rsibr
+from rsibr.rsibr_addon.core.geometry.near_room import Room
+from rsibr.rsibr_addon.host.rooms import room_of
+from rsibr.rsibr_addon.settings.probes import probes_from_text
+
+
+@pytest.fixture(autouse=True)
+def registered() -> Iterator[None]:
+    rsibr.register()
+    yield
+    rsibr.unregister()
+
+
+def test_objects_stand_for_rooms() -> None:
+    bpy.ops.mesh.primitive_cube_add(size=2.0, location=(1.0, 2.0, 3.0), scale=(1.0, 2.0, 0.5))
+    bpy.context.view_layer.update()
+    assert room_of(bpy.context.object) == (Room.BOX, (2.0, 4.0, 1.0), (1.0, 2.0, 3.0))
+    for shape, room in (("CUBE", Room.BOX), ("SPHERE", Room.SPHERE)):
+        bpy.ops.object.empty_add(type=shape, radius=1.5, location=(0.0, -1.0, 0.0))
+        bpy.context.object.scale = (1.0, 1.0, 2.0)
+        bpy.context.view_layer.update()
+        found, size, middle = room_of(bpy.context.object)
+        assert found is room
+        np.testing.assert_allclose((size, middle), ((3.0, 3.0, 6.0), (0.0, -1.0, 0.0)), atol=1e-6)
+
+
+def test_probes_are_added_one_behind_the_other(tmp_path: Path) -> None:
+    hall = tmp_path / "hall.exr"
+    hall.touch()
+    bpy.context.scene.rsibr_bake.kind = "kernel_bank"
+    assert not bpy.ops.rsibr.add_probe.poll()
+    bpy.context.scene.rsibr_bake.kind = "mip_chain"
+    bpy.ops.rsibr.add_probe(light=str(hall), size=(4.0, 5.0, 3.0), at=(0.0, 0.0, 1.5))
+    bpy.ops.rsibr.add_probe(light=str(hall), room="sphere", middle=(9.0, 0.0, 0.1), blend=0.25)
+    first, second = probes_from_text(bpy.context.scene.rsibr_bake.mip_chain.probes)
+    assert (first.light, first.room, first.size, first.at) == (
+        str(hall), Room.BOX, (4.0, 5.0, 3.0), (0.0, 0.0, 1.5),
+    )  # fmt: skip
+    assert (second.room, second.middle, second.blend) == (Room.SPHERE, (9.0, 0.0, 0.1), 0.25)
+    with pytest.raises(RuntimeError, match="There is no file"):
+        bpy.ops.rsibr.add_probe(light=str(tmp_path / "none.exr"))

@@ -19,6 +19,7 @@ from rsibr.rsibr_addon.device.preview import PreviewRenderer
 from rsibr.rsibr_addon.files.kinds.kernel_pyramid import shipped_families
 from rsibr.rsibr_addon.files.kinds.registry import look_types
 from rsibr.rsibr_addon.files.map_set import write_map_set
+from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.host.display import displayed_colours
 from rsibr.rsibr_addon.host.meshes import TriangleMesh, load_mesh
 from rsibr.rsibr_addon.host.scenes import temporary_scene
@@ -140,8 +141,11 @@ def test_a_page_of_every_kind_is_the_preview(kind: str, tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_a_driver_with_a_coarse_grid_shows_the_same(tmp_path: Path) -> None:
-    """SwiftShader moves corners by up to 1/32 of a sample; a sun shows that by 1 %."""
-    source = light_file(tmp_path, "reflection_tables")
+    """SwiftShader moves corners by up to 1/32 of a sample; mirrored lamps of a texel show that."""
+    source = tmp_path / "lamps.exr"
+    radiance_of_lamps = np.full((16, 32, 3), 0.1, np.float32)
+    radiance_of_lamps[tuple(np.random.default_rng(4).integers(0, (16, 32), (20, 2)).T)] = 50.0
+    write_radiance(source, radiance_of_lamps)
     said = driven(page_of(source), SET_UP + "answer({pixels: encoded(first.pixels)});", driver=SWIFTSHADER)
     check_alike(radiance(said["pixels"]), preview(source))
 

@@ -1,4 +1,4 @@
-"""Textures, meshes and displays as a page unpacks them."""
+"""Textures and displays as a page unpacks them."""
 
 from functools import cache
 from typing import Any
@@ -7,24 +7,15 @@ import numpy as np
 
 from ....core.companded import companded
 from ....core.conventions import Array, Indices
-from ....core.errors import RangeError
 from ....core.half_floats import half_holds
-from ....core.maps.octahedral import uv_from_direction
 from ....core.pictures.display import table_radiance
 from ....device.textures import GpuTexture
 from ....files.packed_arrays import packed_floats, packed_integers
 from ....host.display import displayed_colours
-from ....host.meshes import TriangleMesh
 from ....host.scenes import temporary_scene
 
 EXACT = 2**14
 """Textures of at most so many numbers are not rounded, nor those whose alpha is not 1, which are no maps."""
-
-MOST_TRIANGLES = 1_000_000
-"""Of a mesh: some 12 MB."""
-
-DIGITS = 32767
-"""Largest number of coordinates, which lie in [-1, 1]."""
 
 
 def packed_texture(texture: GpuTexture, exact_from: int | None = None) -> tuple[dict[str, Any], float]:
@@ -76,38 +67,6 @@ def _smaller(codes: Indices) -> dict[str, Any]:
     }
     best = min(packed, key=lambda relative: len(packed[relative]["data"]))
     return {"codes": packed[best], "relative": best}
-
-
-def packed_mesh(mesh: TriangleMesh) -> dict[str, Any]:
-    """A mesh within the unit sphere.
-
-    Returns
-    -------
-    dict
-        "positions", and "normals" on an octahedral map, in steps of 1 / `DIGITS`, and "triangles", each a row
-        for each coordinate or corner. Where normals are the positions, as of a sphere, they are None.
-
-    Raises
-    ------
-    RangeError
-        It has too many triangles.
-    """
-    if len(mesh.triangles) > MOST_TRIANGLES:
-        raise RangeError(
-            f"{mesh.name} has {len(mesh.triangles):,} triangles, and a page takes {MOST_TRIANGLES:,} at "
-            f"most: decimate it."
-        )
-    is_ball = np.array_equal(mesh.positions, mesh.normals)
-    return {
-        "positions": _packed_rows(mesh.positions),
-        "normals": None if is_ball else _packed_rows(2.0 * uv_from_direction(mesh.normals) - 1.0),
-        "triangles": packed_integers(mesh.triangles.T, 32, along=(1,)),
-    }
-
-
-def _packed_rows(values: Array) -> dict[str, Any]:
-    """Numbers up to 1, a row for each column. Vertices often lie in lines: differences are alike, too."""
-    return packed_integers(np.rint(DIGITS * values.T).astype(np.int32), 16, along=(1, 1))
 
 
 @cache

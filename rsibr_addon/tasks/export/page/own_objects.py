@@ -16,7 +16,8 @@ from ....device.textures import GpuTexture
 from ....files.packed_arrays import packed_floats
 from ....files.png import png_of
 from ....host.textured_meshes import TexturedMesh
-from .contents import packed_mesh, packed_texture
+from .contents import packed_texture
+from .meshes import in_order_of_use, packed_mesh
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,13 +118,14 @@ def packed_objects(objects: Sequence[OwnObject], antialiased: bool) -> dict[str,
     }
 
 
-def _packed_mesh(mesh: TexturedMesh, ball: Ball, order: Indices) -> dict[str, Any]:
+def _packed_mesh(mesh: TexturedMesh, ball: Ball, by_slot: Indices) -> dict[str, Any]:
     """A mesh within the unit sphere, its triangles by slot, with what textures need."""
-    positions = (mesh.positions - ball.centre) / ball.radius
-    fitted = replace(mesh, positions=positions, triangles=mesh.triangles[order])
-    attributes = uv_attributes(mesh.uv)
+    order, triangles = in_order_of_use(mesh.triangles[by_slot])
+    positions = (mesh.positions[order] - ball.centre) / ball.radius
+    fitted = replace(mesh, positions=positions, normals=mesh.normals[order], triangles=triangles)
+    attributes = uv_attributes(mesh.uv[order])
     if mesh.tangents is not None:
-        attributes["tangent"] = mesh.tangents
+        attributes["tangent"] = mesh.tangents[order]
     return {**packed_mesh(fitted), **{name: packed_floats(values) for name, values in attributes.items()}}
 
 

@@ -4,7 +4,9 @@ It shades with the extension's own shaders (`sources.py`), from the same numbers
 """
 
 import json
+import re
 from collections.abc import Sequence
+from dataclasses import replace
 from html import escape
 from pathlib import Path
 from string import Template
@@ -21,16 +23,18 @@ from ....files.atomic import check_target, written_aside
 from ....files.kinds.environment import is_environment
 from ....files.kinds.registry import look_types
 from ....files.map_set_facts import in_words, told_errors, told_facts
+from ....files.packed_arrays import packed_bytes
 from ....host.meshes import TriangleMesh
 from ....settings.page import PageOptions
 from ...methods.kinds import KINDS, OpenedMapSet, open_map_set, opened_map_set
-from .contents import packed_display, packed_mesh, packed_texture
+from .contents import packed_display, packed_texture
+from .meshes import in_order_of_use, packed_mesh
 from .own_objects import OwnObject, packed_objects
 from .parameters import block_of, parameters
 from .sources import own_sources, page_sources
 
 FOLDER = Path(__file__).parent
-SCRIPTS = ("unpack.js", "camera.js", "picture.js", "panel.js", "main.js")
+SCRIPTS = ("unpack.js", "mesh.js", "camera.js", "picture.js", "panel.js", "main.js")
 """What the page runs, in this order."""
 
 FILL = 0.92
@@ -99,7 +103,7 @@ def export_page(
         objects, sliders = packed_objects(shown, look.antialiased), []
         programs |= own_sources(inputs.program.samplers)
     content = {
-        "programs": programs,
+        "programs": packed_bytes(json.dumps(programs).encode()),
         "parameters": sliders,
         "textures": textures,
         "split": _packed_split_sum(drawable, inputs),
@@ -118,17 +122,24 @@ def export_page(
         told=escape(sentence),
         style=(FOLDER / "page.css").read_text(encoding="utf-8"),
         content=json.dumps(content, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c"),
-        script="\n".join((FOLDER / name).read_text(encoding="utf-8") for name in SCRIPTS),
+        script="".join(_script(name) for name in SCRIPTS),
     )
     with written_aside(output, force) as aside:
         aside.write_text(text, encoding="utf-8", errors="replace")  # of names that are no UTF-8
     return [output]
 
 
+def _script(name: str) -> str:
+    """A script without comments and the spaces before lines, which a page has no room for."""
+    return re.sub(r"^ *(//.*)?\n?", "", (FOLDER / name).read_text(encoding="utf-8"), flags=re.MULTILINE)
+
+
 def _one_object(mesh: TriangleMesh, block: Array) -> dict[str, Any]:
     """A mesh within the unit sphere, of one material all over: see `packed_objects`."""
+    order, triangles = in_order_of_use(mesh.triangles)
+    used = replace(mesh, positions=mesh.positions[order], normals=mesh.normals[order], triangles=triangles)
     shown = {
-        "mesh": packed_mesh(mesh),
+        "mesh": packed_mesh(used),
         "model": np.eye(4).ravel().tolist(),
         "slots": [[0, mesh.triangles.size, 0]],
     }

@@ -26,7 +26,8 @@ class Picture {
   async load() {
     const { gl, content } = this;
     this.programs = {};
-    for (const [name, sources] of Object.entries(content.programs)) {
+    const programs = JSON.parse(new TextDecoder().decode(await inflated(content.programs)));
+    for (const [name, sources] of Object.entries(programs)) {
       if (name !== "translucent" || this.translucent) {
         this.programs[name] = this.built(name, sources);
       }
@@ -77,13 +78,14 @@ class Picture {
 
   async loadMesh(mesh) {
     const gl = this.gl;
+    const { corners, places, directions } = await unpackedMesh(mesh);
     const made = gl.createVertexArray();
     gl.bindVertexArray(made);
-    this.attribute(0, 3, gl.SHORT, transposed(await integers(mesh.positions, true)));
-    if (mesh.normals) {
-      this.attribute(1, 3, gl.FLOAT, directions(await integers(mesh.normals, true)));
+    this.attribute(0, 3, gl.SHORT, places);
+    if (directions) {
+      this.attribute(1, 3, gl.FLOAT, directions);
     } else {
-      this.attribute(1, 3, gl.SHORT, transposed(await integers(mesh.positions, true)));
+      this.attribute(1, 3, gl.SHORT, places);
     }
     for (const [place, name] of [[2, "tangent"], [3, "uv_a"], [4, "uv_b"]]) {
       gl.vertexAttrib4f(place, 0, 0, 0, 0);
@@ -91,7 +93,6 @@ class Picture {
         this.attribute(place, 4, gl.FLOAT, await floats(mesh[name]));
       }
     }
-    const corners = transposed(await integers(mesh.triangles, false));
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
     gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, corners, gl.STATIC_DRAW);
     return made;
@@ -342,26 +343,4 @@ class Picture {
     gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, pixels);
     return { width, height, pixels };
   }
-}
-
-// Unit vectors, one after the other, of a row for each coordinate on the octahedron.
-function directions(rows) {
-  const count = rows.length / 2;
-  const found = new Float32Array(3 * count);
-  for (let number = 0; number < count; number++) {
-    let [x, y] = [rows[number] / 32767, rows[count + number] / 32767];
-    const z = 1 - Math.abs(x) - Math.abs(y);
-    if (z < 0) {
-      [x, y] = [(x < 0 ? -1 : 1) * (1 - Math.abs(y)), (y < 0 ? -1 : 1) * (1 - Math.abs(x))];
-    }
-    const size = Math.hypot(x, y, z);
-    found.set([x / size, y / size, z / size], 3 * number);
-  }
-  return found;
-}
-
-// Corners or vertices one after the other, of a row for each of three coordinates.
-function transposed(rows) {
-  const count = rows.length / 3;
-  return rows.map((_, number) => rows[(number % 3) * count + Math.floor(number / 3)]);
 }

@@ -1,6 +1,6 @@
 // Arrays out of their JSON: files/packed_arrays.py, core/companded.py and core/antialiased/summed_area.py.
 
-const STEPS = 512;
+const STEPS = 256;
 
 async function inflated(text) {
   const stored = bytesOf(text);

@@ -56,6 +56,17 @@ class RadianceViewsSettings(MethodSettings):
         advanced=True,
         metavar="FILE",
     )
+    photographs: str | None = option(
+        None,
+        label="Photographs",
+        help="List of photographs of a ball of the material, taken in the environment, as JSON; the material "
+        "then is what they are called, and compared with",
+        none="capture the material",
+        none_as="",
+        subtype="FILE_PATH",
+        advanced=True,
+        metavar="LIST.json",
+    )
     size: int = option(
         256,
         label="Size",

@@ -87,7 +87,7 @@ def illuminate_from_ball(
     second = replace(brackets, times=brackets.second_times, times_file=None)
     told = ((brackets, settings.circle, 0.0), (second, settings.second_circle, settings.turn))
     for paths, (bracket, circle, turn) in zip(photographs, told, strict=False):
-        picture, found = yield from _picture(paths, bracket, circle, settings.clamp)
+        picture, found = yield from ball_picture(paths, circle, bracket, settings.clamp)
         distance = settings.distance or np.inf
         if settings.field_of_view is not None:
             longer = max(found[0].width, found[0].height)
@@ -103,7 +103,7 @@ def illuminate_from_ball(
 
 
 @dataclass(frozen=True)
-class _Outline:
+class Outline:
     """A ball found in a photograph of some size."""
 
     path: Path
@@ -113,15 +113,36 @@ class _Outline:
     orientation: Orientation
 
     def from_top_left(self) -> tuple[Path, tuple[float, float, float]]:
+        """Its photograph, and where it is there: see `Where`."""
         point = self.circle.x, self.height - self.circle.y
         x, y = self.orientation.stored_point(*point, self.width, self.height)
         return self.path, (x, y, self.circle.radius)
 
 
-def _picture(
-    photographs: Sequence[Path], bracket: BracketKnowledge, circle: Where, clamp: float | None
-) -> Steps[tuple[Array, list[_Outline]]]:
-    """Radiance in the square around the ball, and the outlines."""
+def ball_picture(
+    photographs: Sequence[Path],
+    circle: Where,
+    bracket: BracketKnowledge = BRACKETS,
+    clamp: float | None = None,
+) -> Steps[tuple[Array, list[Outline]]]:
+    """Radiance in the square that touches the ball's outline, and the outlines.
+
+    Parameters
+    ----------
+    photographs : sequence of Path
+        One, or several exposures from one side.
+    circle : (float, float, float) or None
+        The outline in each.
+    bracket : BracketKnowledge
+        What is known of the exposures.
+    clamp : float, optional
+        Greatest radiance; what is brighter becomes this.
+
+    Raises
+    ------
+    InputFileError, RangeError
+        See `illuminate_from_ball`.
+    """
     if len(photographs) == 1:
         known_times(photographs, bracket)  # refuses as many as a bracket has
         paths, times = list(photographs), [1.0]
@@ -136,7 +157,7 @@ def _picture(
         height, width = picture.shape[:2]
         orientation = Orientation() if holds_radiance(path) else orientation_of(path)
         outline = _circle(path, picture, circle, orientation)
-        outlines.append(_Outline(path, outline, width, height, orientation))
+        outlines.append(Outline(path, outline, width, height, orientation))
     circles = [outline.circle for outline in outlines]
     size = max(round(2.0 * circle.radius) for circle in circles)
     squares = [cut_ball(picture, circle, size) for picture, circle in zip(pictures, circles, strict=True)]

@@ -20,6 +20,7 @@ from ...core.options import to_plain
 from ...core.progress import Progress, Steps, drain
 from ...core.warned import warn
 from ...files.atomic import written_aside
+from ...files.ball_list import read_ball_list
 from ...files.exr import read_parts, write_parts
 from ...files.exr_part import Part
 from ...files.kinds.radiance_views import LEFT_OUT
@@ -45,6 +46,7 @@ from .method import (
     written,
 )
 from .views_by_model import TOGETHER, ViewsByModel
+from .views_by_photographs import ViewsByPhotographs
 
 if TYPE_CHECKING:
     from .views_by_cycles import ViewsByCycles
@@ -63,6 +65,8 @@ def material(settings: RadianceViewsSettings) -> str:
 
 def sources(settings: RadianceViewsSettings) -> Sources:
     """See `Method`."""
+    if settings.photographs is not None:
+        return Sources((settings.photographs, *_photographs_if_there(settings.photographs)))
     files = () if settings.view_file is None else (settings.view_file,)
     if is_model(settings.material):
         return Sources((*measured_files(partial(brdf_from_spec, settings.material)), *files))
@@ -77,6 +81,8 @@ def cost(settings: RadianceViewsSettings) -> Cost:
         views = settings.views
     texels = views * settings.size**2
     maps = 2 * texels * RGB
+    if settings.photographs is not None:
+        return Cost(4e-6 * texels, maps, STORED * maps)
     if is_model(settings.material):
         alpha = narrowest_alpha(brdf_from_spec(settings.material, lambda name, path: Lambert(kd=0.5)))
         rings = ring_count(settings.size, ENVIRONMENT_ROWS, alpha)
@@ -118,8 +124,8 @@ def bake(job: BakeJob[RadianceViewsSettings], recipe: Recipe) -> Steps[Baked]:
     light = drain(read_light(job))
     if not sphere.surrounds:
         warn(
-            f"The views of {asked.view_file} do not surround the object, so none are blended and the nearest "
-            "is shown: give views from all sides."
+            f"The views of {asked.photographs or asked.view_file} do not surround the object, so none are "
+            "blended and the nearest is shown: give views from all sides."
         )
     captured = _captured(asked, light, sphere.vertices)
     captured.check_memory(job.output)
@@ -128,23 +134,39 @@ def bake(job: BakeJob[RadianceViewsSettings], recipe: Recipe) -> Steps[Baked]:
         paths = [folder / f"view{view:03d}.exr" for view in range(count)]
         missing = [view for view, path in enumerate(paths) if not _is_finished(path)]
         yield from captured.capture(missing, partial(_keep_view, paths))
-        software = software_of(job, measured=not is_model(asked.material))
+        software = software_of(job, measured=_is_rendered(asked))
         path = drain(written(job, recipe, _map_set(captured, asked, light, sphere, paths, software)))
     figures = {"views": count, "size": asked.size}
     told = "1 view" if count == 1 else f"{count} views"
     return Baked(path, f"{told} of {asked.size}x{asked.size}", figures)
 
 
+def _is_rendered(settings: RadianceViewsSettings) -> bool:
+    return settings.photographs is None and not is_model(settings.material)
+
+
 def _sphere(settings: RadianceViewsSettings) -> GeodesicSphere:
     """The directions of the views."""
+    if settings.photographs is not None:
+        return view_sphere([each.view_dir for each in read_ball_list(settings.photographs)])
     if settings.view_file is None:
         return geodesic_sphere(settings.views)
     return view_sphere(read_view_dirs(settings.view_file))
 
 
+def _photographs_if_there(path: str) -> list[str]:
+    """The files that a list names; a bake tells what is wrong with the list."""
+    try:
+        return [str(each.path) for each in read_ball_list(path)]
+    except InputFileError:
+        return []
+
+
 def _captured(
     settings: RadianceViewsSettings, light: Environment, view_dirs: Array
-) -> "ViewsByModel | ViewsByCycles":
+) -> "ViewsByModel | ViewsByCycles | ViewsByPhotographs":
+    if settings.photographs is not None:
+        return ViewsByPhotographs(settings, read_ball_list(settings.photographs))
     if is_model(settings.material):
         return ViewsByModel(settings, light, view_dirs)
     from .views_by_cycles import ViewsByCycles
@@ -169,7 +191,7 @@ def _is_finished(path: Path) -> bool:
 
 
 def _map_set(
-    captured: "ViewsByModel | ViewsByCycles",
+    captured: "ViewsByModel | ViewsByCycles | ViewsByPhotographs",
     settings: RadianceViewsSettings,
     light: Environment,
     sphere: GeodesicSphere,
@@ -198,8 +220,9 @@ def _map_set(
         for path in paths:
             yield from (part.side_by_side("RGB") for part in read_parts(path))
 
-    untold = ["material", "view_file" if settings.view_file is None else "views"]
-    untold += RENDERING if is_model(settings.material) else ()
+    by_file = settings.view_file is not None or settings.photographs is not None
+    untold = ["material", "views" if by_file else "view_file"]
+    untold += () if _is_rendered(settings) else RENDERING
     stated = {name: value for name, value in to_plain(settings).items() if name not in untold}
     origin = Origin(light, stated, software, captured.material, errors)
     header = make_header("sphere_map", (settings.size, settings.size), parts, origin)

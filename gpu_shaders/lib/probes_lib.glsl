@@ -1,4 +1,4 @@
-// Twin of rsibr_addon/core/kinds/mip_chain/probes.py: where maps were captured, and what stands for their rooms.
+// Twin of rsibr_addon/core/kinds/mip_chain/probes.py: where maps were captured, and their rooms.
 #include "lib/near_room_lib.glsl"
 
 struct Place {

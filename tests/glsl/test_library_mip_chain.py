@@ -8,14 +8,16 @@ from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_from_harmonic
 from rsibr.rsibr_addon.core.filtering.radial_lobes import cosine_lobe
 from rsibr.rsibr_addon.core.filtering.zonal import zonal_coefficients
 from rsibr.rsibr_addon.core.geometry.directions import normalize
-from rsibr.rsibr_addon.core.geometry.near_room import Room, near_direction
+from rsibr.rsibr_addon.core.geometry.near_room import Room, near_direction, outside_distance
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
 from rsibr.rsibr_addon.core.kinds.mip_chain.near_diffuse import cosine_lobes
+from rsibr.rsibr_addon.core.kinds.mip_chain.probes import Place
 from rsibr.rsibr_addon.core.kinds.mip_chain.shading import Borders, glossy_mean, glossy_radiance
 from rsibr.rsibr_addon.core.kinds.mip_chain.texture_space import filtered_mips, tent_halved
 from rsibr.rsibr_addon.core.maps import cube_map
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.kinds.mip_chain import atlas_texels, harmonics_texels
+from rsibr.rsibr_addon.device.kinds.mip_chain_shaders import place_rows
 from rsibr.tests.glsl.evaluation import Samplers, evaluate
 from rsibr.tests.glsl.twins import COUNT, ULP, Twin, check, single, unit_vectors
 
@@ -48,6 +50,22 @@ def in_a_room() -> list[np.ndarray]:
     """Points in a room, none of them close to a wall, and directions."""
     inside = np.random.default_rng(30).uniform(-0.5, 0.5, (COUNT, 3)) * (2.0, 1.5, 1.0)
     return [single(inside + (0.25, 0.0, -0.25)), unit_vectors(31)]
+
+
+PLACES = (
+    Place((0.5, -0.25, 0.0), Room.BOX, (4.0, 3.0, 2.0), (0.25, 0.0, -0.25), 0.5),
+    Place((0.0, 0.25, 0.5), Room.SPHERE, (3.0, 2.0, 4.0), (-0.5, 0.0, 0.0), 1.0),
+)
+
+
+def places() -> Samplers:
+    rows = np.array([place_rows(place) for place in PLACES], dtype=np.float32)
+    return {"places": ("FLOAT_2D", buffers.texture(rows))}
+
+
+def about_a_room() -> list[np.ndarray]:
+    """Points within a room and around it."""
+    return [single(np.random.default_rng(33).uniform(-4.0, 4.0, (COUNT, 3)))]
 
 
 def lobes_of_a_cosine(normal: np.ndarray, number: np.ndarray) -> np.ndarray:
@@ -161,6 +179,39 @@ TWINS = {
         )
         for number, room in enumerate(Room)
     },
+    **{
+        f"outside_distance {room}": Twin(
+            "near_room_lib.glsl",
+            f"result_0.x = outside_distance(in_0.xyz, {number}.0, vec3(2.0, 1.5, 1.0));",
+            about_a_room,
+            lambda place, room=room: outside_distance(place, room, (2.0, 1.5, 1.0))[:, None],
+            # Lengths up to 7, of some roundings
+            7 * 8 * ULP,
+        )
+        for number, room in enumerate(Room)
+        if room is not Room.DISTANT
+    },
+    "probe_place": Twin(
+        "probes_lib.glsl",
+        "Place place = probe_place(places, int(in_0.x + 0.5));"
+        "result_0 = vec4(place.half_size, place.room); result_1 = vec4(place.middle, place.blend);"
+        "result_2 = vec4(place.captured_at, 0.0);",
+        lambda: [(np.arange(COUNT) % len(PLACES))[:, None].astype(np.float64)],
+        lambda number: np.array([*map(place_rows, PLACES)])[number[:, 0].astype(int)],
+        0.0,
+        results=3,
+        samplers=places,
+    ),
+    "probe_weight": Twin(
+        "probes_lib.glsl",
+        "result_0.xy = vec2(probe_weight(probe_place(places, 0), in_0.xyz),"
+        " probe_weight(probe_place(places, 1), in_0.xyz));",
+        about_a_room,
+        lambda position: np.stack([place.weight(position) for place in PLACES], axis=-1),
+        # Lengths up to 10, of some roundings, over the blend
+        10 * 8 * ULP / 0.5,
+        samplers=places,
+    ),
     "near_diffuse": Twin(
         "near_diffuse_lib.glsl",
         "Place place = Place(vec3(0.0), BOX, vec3(2.0, 1.5, 1.0), vec3(0.25, 0.0, -0.25), 1.0);"

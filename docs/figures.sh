@@ -98,8 +98,25 @@ miller1984() {
     sheet miller1984-horizon 2 0 {paper,faded}.exr
 }
 
+# A painted table, which stays in its world, and a matcap, which turns with the eye; docs/reflection-tables.md
+painted() {
+    for turn in 0 40 80; do
+        python "$docs/../.ci/painting.py" "painting-$turn.exr" "$turn"
+        rsibr bake reflection-tables --environment "painting-$turn.exr" --specular mirror:ks=0.9 \
+            --diffuse lambert:kd=0.1 -o "painted-$turn.rsibr.exr"
+        view=$(python -c "from math import *; a = radians($turn); print(f'{sin(a)},{-cos(a)},0.25')")
+        for table in painted matcap; do
+            turned=0
+            [ $table = painted ] || turned=$turn
+            rsibr preview "painted-$turned.rsibr.exr" --mesh monkey --view "$view" --size 128 --fill 0.9 \
+                --perspective 30 -o "$table-$turn.exr"
+        done
+    done
+    sheet painted 3 0 {painted,matcap}-{0,40,80}.exr
+}
+
 sections=("$@")
-[ $# -gt 0 ] || sections=(kautz2004 miller1984)
+[ $# -gt 0 ] || sections=(kautz2004 miller1984 painted)
 for section in "${sections[@]}"; do
     "$section"
 done

@@ -121,5 +121,8 @@ vec3 footprint_mean(sampler2D bordered,
   if (max(extent.x, extent.y) < SMALL) {
     return equirect_radiance(bordered, direction);
   }
-  return (averaging == QUADRILATERAL) ? strip_mean(table, unit, corners, box) : summed_mean(table, unit, corners);
+  if (averaging == QUADRILATERAL) {
+    return strip_mean(table, unit, corners, box);
+  }
+  return summed_mean(table, unit, corners);
 }

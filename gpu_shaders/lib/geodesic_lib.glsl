@@ -1,6 +1,7 @@
 // Twin of rsibr_addon/core/geometry/geodesic.py. The sphere comes as a texture (see
 // device/kinds/radiance_views.py): row 0 holds the vertices, row 1 a vector for each of the first level's
-// triangles, those of the icosahedron or of any set of views, row 2 + k the triangles of subdivision level k as three vertex indices.
+// triangles, those of the icosahedron or of any set of views, row 2 + k the triangles of
+// subdivision level k as three vertex indices.
 
 vec3 geodesic_vertex(sampler2D sphere, int index)
 {

@@ -3,5 +3,5 @@
 void main()
 {
   vec2 place = middle + size * (2.0 * map_uv - 1.0);
-  colour = vec4(scale * texture(picture, place).rgb, 1.0);
+  colour = vec4(scale * textureLod(picture, place, 0.0).rgb, 1.0);
 }

@@ -5,10 +5,11 @@ from dataclasses import dataclass
 from ..core.options import option
 from .drawing import ShownOptions
 from .light import Clamp
+from .matte import MatteOptions
 
 
 @dataclass(frozen=True, kw_only=True)
-class PageOptions(ShownOptions, Clamp):
+class PageOptions(ShownOptions, MatteOptions, Clamp):
     """What a web page shows, until somebody orbits and moves its sliders."""
 
 

@@ -57,15 +57,10 @@ class Matte:
         self, options: MatteOptions, environment: Environment | None, positions: Array, triangles: Indices
     ) -> None:
         self._options = options
-        self._picture: Array | None = None
-        self._light: Array | None = None
+        self._seen = light_behind(options, environment)
         self._floor: _Floor | None = None
-        if options.background == LIGHT:
-            self._light = blurred(_known(environment), options.background_blur)
-        elif options.background is not None:
-            self._picture = read_light(Path(options.background))
         if options.floor:
-            self._floor = _Floor(_known(environment), positions, triangles)
+            self._floor = _Floor(known_light(environment), positions, triangles)
 
     def under(self, picture: Array, camera: Camera, object_turn: Array, light_turn: Array) -> Array:
         """Put what is behind an object under its picture.
@@ -97,10 +92,10 @@ class Matte:
         return shaded
 
     def _background(self, camera: Camera, size: int, light_turn: Array) -> Array | None:
-        seen = self._picture
-        if self._light is not None:
+        seen = self._seen
+        if seen is not None and self._options.background == LIGHT:
             directions = backdrop_directions(camera, BACKDROP_SAMPLES * size) @ light_turn
-            seen = lookup(self._light[None], directions, _EQUIRECT)
+            seen = lookup(seen[None], directions, _EQUIRECT)
         return None if seen is None else fitted(2.0**self._options.background_exposure * seen, size)
 
 
@@ -128,7 +123,29 @@ class _Floor:
         return floor_share(camera, self._height, self._shadow[1], irradiance, size)
 
 
-def _known(environment: Environment | None) -> Array:
+def light_behind(options: MatteOptions, environment: Environment | None) -> Array | None:
+    """What the background shows, without its exposure; parameters and errors are those of `Matte`.
+
+    Returns
+    -------
+    ndarray, shape (height, width, 3), or None
+        A latitude-longitude map where the background is light; else a picture, row 0 at the bottom.
+    """
+    if options.background is None:
+        return None
+    if options.background == LIGHT:
+        return blurred(known_light(environment), options.background_blur)
+    return read_light(Path(options.background))
+
+
+def known_light(environment: Environment | None) -> Array:
+    """The radiance of a map set's light.
+
+    Raises
+    ------
+    MapSetError
+        The map set does not hold it.
+    """
     if environment is None:
         raise MapSetError(
             "The map set does not hold its light: choose a picture as the background, and no floor."

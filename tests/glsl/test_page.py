@@ -250,8 +250,10 @@ def test_the_operator_takes_the_materials_of_slots(tmp_path: Path, monkeypatch: 
     bake = ["bake", "kernel-pyramid", "--environment", environment, "--size", "32", "-o", str(light)]
     assert run(bake) == 0
     bpy.ops.rsibr.assign(filepath=str(light))
-    bpy.ops.rsibr.export_page(filepath=str(tmp_path / "plain.html"))
+    bpy.ops.rsibr.export_page(filepath=str(tmp_path / "plain.html"), background="light", floor=True)
     plain = content_of(tmp_path / "plain.html")
+    assert plain["matte"]["light"]["size"] == [258, 130, 0]
+    assert np.isclose(plain["matte"]["floor"]["height"], -np.sqrt(1.0 / 3.0))
     assert {"base_color", "roughness"} <= {each["name"] for each in plain["parameters"]}
     tree = cube.active_material.node_tree
     node = tree.nodes.new("ShaderNodeTexImage")

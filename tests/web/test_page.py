@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.command_line.main import run
+from rsibr.rsibr_addon.core.geometry.directions import turn_about_z
 from rsibr.rsibr_addon.core.kinds.kernel_bank.shading import BankLook
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.look import PrincipledLook
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.split_sum import split_families
@@ -15,7 +16,7 @@ from rsibr.rsibr_addon.core.kinds.mip_chain.shading import MipLook
 from rsibr.rsibr_addon.core.pictures.display import displayed, table_radiance
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.device.kinds.kernel_pyramid import GpuPyramid
-from rsibr.rsibr_addon.device.preview import PreviewRenderer
+from rsibr.rsibr_addon.device.preview import STILL, PreviewRenderer
 from rsibr.rsibr_addon.files.kinds.kernel_pyramid import shipped_families
 from rsibr.rsibr_addon.files.kinds.registry import look_types
 from rsibr.rsibr_addon.files.map_set import write_map_set
@@ -23,10 +24,13 @@ from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.host.display import displayed_colours
 from rsibr.rsibr_addon.host.meshes import TriangleMesh, load_mesh
 from rsibr.rsibr_addon.host.scenes import temporary_scene
+from rsibr.rsibr_addon.settings.matte import LIGHT
 from rsibr.rsibr_addon.settings.page import PageOptions
+from rsibr.rsibr_addon.tasks import matte
+from rsibr.rsibr_addon.tasks.export.page import matte as page_matte
 from rsibr.rsibr_addon.tasks.export.page.page import FILL, export_page
 from rsibr.rsibr_addon.tasks.methods.kinds import open_map_set
-from rsibr.tests.engine_light import sky_file
+from rsibr.tests.engine_light import sky, sky_file
 from rsibr.tests.mirror_capture import mirror_map_set
 from rsibr.tests.web.browser import SWIFTSHADER, driven
 
@@ -137,6 +141,42 @@ def test_a_page_of_every_kind_is_the_preview(kind: str, tmp_path: Path) -> None:
     look, mesh = LOOKS.get(kind), load_mesh("monkey" if kind == "kernel_pyramid" else "sphere")
     said = driven(page_of(source, look, mesh), SET_UP + "answer({pixels: encoded(first.pixels)});")
     check_alike(radiance(said["pixels"]), preview(source, look, mesh=mesh))
+
+
+MATTES = {
+    "light": {"background": LIGHT, "background_blur": 8.0, "background_exposure": -1.0, "floor": True},
+    "picture": {"background": "picture.exr", "background_exposure": 1.0, "floor": True},
+    "floor": {"floor": True},
+}
+"""What lies behind the objects."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("behind", MATTES)
+def test_what_lies_behind_is_that_of_the_preview(
+    behind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for module in (matte, page_matte):
+        monkeypatch.setattr(module, "LAMPS", 16)
+        monkeypatch.setattr(module, "SHADOW_SIZE", 128)
+    chosen = dict(MATTES[behind])
+    if behind == "picture":
+        chosen["background"] = str(tmp_path / "picture.exr")
+        write_radiance(Path(chosen["background"]), sky(150)[:, 40:240])  # wider than high, in no whole pixels
+    settings = PageOptions(view=VIEW, perspective=40.0, **chosen)
+    source, mesh, look = light_file(tmp_path, "mip_chain"), load_mesh("sphere"), MipLook(roughness=0.3)
+    (page,) = drain(export_page(source, tmp_path / "page.html", settings, mesh, look))
+    script = 'answer({first: encoded(first.pixels), lit: encoded((await set("turn", 60)).pixels)});'
+    said = driven(page, SET_UP + script)
+    opened = open_map_set(source)
+    renderer, positions = PreviewRenderer(opened.drawable()), FILL * mesh.positions
+    studio = matte.Matte(settings, opened.environment, positions, mesh.triangles)
+    for name, degrees in (("first", 0.0), ("lit", 60.0)):
+        camera, turns = settings.camera(VIEW), (STILL, turn_about_z(np.radians(degrees)))
+        alone = renderer.draw(positions, mesh.normals, mesh.triangles, camera, SIZE, look, *turns)
+        wanted, got = studio.under(alone, camera, *turns), radiance(said[name])
+        assert np.abs(wanted - alone).max() > 0.1
+        assert np.sqrt(np.mean((got - wanted) ** 2)) < 1e-3 * np.sqrt(np.mean(wanted**2))
 
 
 @pytest.mark.slow

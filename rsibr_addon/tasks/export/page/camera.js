@@ -58,9 +58,9 @@ class Camera {
     return { eye: [...moved, eye[3]], view: scaled };
   }
 
-  // Onto a tile of a picture, both in pixels.
-  projection(picture, tile) {
-    let [near, far] = [this.distance - 1.5, this.distance + 1.5];
+  // Onto a tile of a picture, both in pixels; of what is within `reach` of the middle.
+  projection(picture, tile, reach = 1.5) {
+    let [near, far] = [this.distance - reach, this.distance + reach];
     const least = Math.min(picture.width, picture.height);
     const stretch = [(least / tile.width) * this.zoom, (least / tile.height) * this.zoom];
     const shift = [

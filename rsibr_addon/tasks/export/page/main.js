@@ -26,6 +26,7 @@ class Page {
     this.picture = picture;
     this.camera = new Camera(content.view, content.angle, content.fill);
     this.exposure = content.exposure;
+    this.backgroundExposure = content.matte?.exposure ?? 0;
     this.display = content.display;
     this.blocks = content.materials.map((material) => new Float32Array(material.block));
     this.turn = 0;
@@ -76,6 +77,14 @@ class Page {
       panel.check(beside, false, (checked) => {
         this.beside = checked;
         document.querySelector("#sides").hidden = !checked;
+        moved();
+      });
+    }
+    if (this.content.matte?.light || this.content.matte?.picture) {
+      const behind = { name: "background_exposure", label: "Background", help: "How much brighter the background is, in stops" };
+      const most = Math.max(6, Math.abs(this.backgroundExposure));
+      panel.slider(behind, -most, most, this.backgroundExposure, (stops) => {
+        this.backgroundExposure = stops;
         moved();
       });
     }

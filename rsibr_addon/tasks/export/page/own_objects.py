@@ -60,6 +60,12 @@ class Ball:
         return matrix
 
 
+def world_positions(objects: Sequence[OwnObject]) -> Array:
+    """The vertices of objects in the world, shape (V, 3)."""
+    placed = [each.mesh.positions @ each.matrix[:3, :3].T + each.matrix[:3, 3] for each in objects]
+    return np.concatenate(placed)
+
+
 def packed_objects(objects: Sequence[OwnObject], antialiased: bool) -> dict[str, Any]:
     """What a page draws.
 
@@ -106,8 +112,7 @@ def packed_objects(objects: Sequence[OwnObject], antialiased: bool) -> dict[str,
         drawn.append(
             {"mesh": _packed_mesh(each.mesh, ball, order), "model": matrix.T.ravel().tolist(), "slots": slots}
         )
-    world = [each.mesh.positions @ each.matrix[:3, :3].T + each.matrix[:3, 3] for each in objects]
-    whole = Ball.around(np.concatenate(world))
+    whole = Ball.around(world_positions(objects))
     fit = [*whole.centre.tolist(), whole.radius]
     return {
         "objects": drawn,

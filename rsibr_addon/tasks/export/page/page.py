@@ -28,14 +28,18 @@ from ....host.meshes import TriangleMesh
 from ....settings.page import PageOptions
 from ...methods.kinds import KINDS, OpenedMapSet, open_map_set, opened_map_set
 from .contents import packed_display, packed_texture
+from .matte import packed_matte
 from .meshes import in_order_of_use, packed_mesh
-from .own_objects import OwnObject, packed_objects
+from .own_objects import OwnObject, packed_objects, world_positions
 from .parameters import block_of, parameters
-from .sources import own_sources, page_sources
+from .sources import matte_sources, own_sources, page_sources
 
 FOLDER = Path(__file__).parent
 SCRIPTS = ("unpack.js", "mesh.js", "camera.js", "picture.js", "panel.js", "main.js")
-"""What the page runs, in this order."""
+"""What a page runs, in this order."""
+
+MATTE_SCRIPT = "matte.js"
+"""What one runs before, if something lies behind its objects."""
 
 FILL = 0.92
 """Share of the frame's width that the object has at first, as in `rsibr preview --fill`."""
@@ -96,6 +100,8 @@ def export_page(
     title, sentence = _told(map_set, opened, error)
     camera = settings.camera(settings.view)
     programs = page_sources(inputs.program)
+    matte = packed_matte(settings, opened.environment, _positions(shown))
+    programs |= matte_sources() if matte else {}
     if isinstance(shown, TriangleMesh):
         objects = _one_object(shown, block_of(inputs))
         sliders = [] if KINDS[opened.kind].live else parameters(drawable, look)
@@ -108,6 +114,7 @@ def export_page(
         "textures": textures,
         "split": _packed_split_sum(drawable, inputs),
         **objects,
+        "matte": matte,
         "fill": FILL,
         "displays": {name: packed_display(name) for name in _view_transforms()},
         "display": settings.view_transform,
@@ -122,11 +129,18 @@ def export_page(
         told=escape(sentence),
         style=(FOLDER / "page.css").read_text(encoding="utf-8"),
         content=json.dumps(content, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c"),
-        script="".join(_script(name) for name in SCRIPTS),
+        script="".join(map(_script, (MATTE_SCRIPT, *SCRIPTS) if matte else SCRIPTS)),
     )
     with written_aside(output, force) as aside:
         aside.write_text(text, encoding="utf-8", errors="replace")  # of names that are no UTF-8
     return [output]
+
+
+def _positions(shown: TriangleMesh | Sequence[OwnObject]) -> Array:
+    """All vertices in the world, shape (V, 3)."""
+    if isinstance(shown, TriangleMesh):
+        return shown.positions
+    return world_positions(shown)
 
 
 def _script(name: str) -> str:

@@ -16,7 +16,7 @@ class Picture {
       throw new Missing("This page draws to float textures, which this device does not allow.");
     }
     this.translucent = content.materials.some((material) => !material.opaque);
-    const blends = !this.translucent || gl.getExtension("EXT_float_blend");
+    const blends = !(this.translucent || content.matte) || gl.getExtension("EXT_float_blend");
     this.format = floats && blends ? gl.RGBA32F : gl.RGBA16F;
     this.gl = gl;
     this.content = content;
@@ -62,18 +62,23 @@ class Picture {
       this.objects.push({ ...object, mesh: await this.loadMesh(object.mesh) });
     }
     this.buffers = ["DrawBlock", "LookBlock"].map((name, slot) => {
-      for (const program of [this.programs.surface, this.programs.translucent].filter(Boolean)) {
-        gl.uniformBlockBinding(program, gl.getUniformBlockIndex(program, name), slot);
+      for (const program of Object.values(this.programs)) {
+        const place = gl.getUniformBlockIndex(program, name);
+        if (place !== gl.INVALID_INDEX) {
+          gl.uniformBlockBinding(program, place, slot);
+        }
       }
       const buffer = gl.createBuffer();
       gl.bindBufferBase(gl.UNIFORM_BUFFER, slot, buffer);
       return buffer;
     });
     this.tile = this.target(TILE, TILE, true);
+    this.matte = content.matte && new Matte(this, content.matte);
     this.part = this.target(TILE, TILE, false);
     this.screen = gl.createVertexArray();
     gl.bindVertexArray(this.screen);
     this.attribute(0, 2, gl.FLOAT, new Float32Array([-1, -1, 3, -1, -1, 3]));
+    await this.matte?.load();
   }
 
   async loadMesh(mesh) {
@@ -246,12 +251,19 @@ class Picture {
     return found;
   }
 
-  draw({ camera, turn, blocks }, tile, samples) {
+  // Has draws go to the empty corner of a target.
+  aim({ framebuffer }, width, height) {
     const gl = this.gl;
-    gl.bindFramebuffer(gl.FRAMEBUFFER, this.tile.framebuffer);
-    gl.viewport(0, 0, tile.width * samples, tile.height * samples);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
+    gl.viewport(0, 0, width, height);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+  }
+
+  draw(page, tile, samples) {
+    const gl = this.gl;
+    const { camera, turn, blocks } = page;
+    this.aim(this.tile, tile.width * samples, tile.height * samples);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
     const half = { samples_in_half: ["uniform2fv", [tile.width * samples * 0.5, tile.height * samples * 0.5]] };
@@ -266,9 +278,10 @@ class Picture {
       gl.disable(gl.BLEND);
     }
     gl.disable(gl.DEPTH_TEST);
-    gl.bindFramebuffer(gl.FRAMEBUFFER, this.part.framebuffer);
-    gl.viewport(0, 0, tile.width, tile.height);
+    this.aim(this.part, tile.width, tile.height);
     this.pass("means", { samples: this.tile }, { per_axis: ["uniform1i", samples] });
+    const whole = this.matte ? this.matte.under(page, tile, samples) : this.part;
+    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, whole.framebuffer);
     gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, this.radiance.framebuffer);
     const left = tile.frame.left + tile.x;
     const [right, top] = [left + tile.width, tile.y + tile.height];
@@ -280,7 +293,7 @@ class Picture {
     const gl = this.gl;
     for (const { mesh, model, slots } of this.objects) {
       gl.bindVertexArray(mesh);
-      this.fill(0, this.drawBlock(camera, turn, tile, model));
+      this.fill(0, this.placed(camera, turn, tile, model));
       for (const [begin, end, material] of slots) {
         if (this.content.materials[material].opaque === (program === "surface")) {
           this.fill(1, blocks[material]);
@@ -291,13 +304,13 @@ class Picture {
     }
   }
 
-  // device/drawing.py `Draw.block`. The light turns by `turn`, so the map set sees the mesh turned back.
-  drawBlock(camera, turn, tile, model) {
+  // The light turns by `turn`, so the map set sees the mesh turned back.
+  placed(camera, turn, tile, model) {
     const back = turnedBy(-turn);
     const { eye, view } = camera.of(this.content.fit);
     const turned = [0, 1, 2].map((row) => back[row] * eye[0] + back[4 + row] * eye[1] + back[8 + row] * eye[2]);
     const projection = camera.projection(tile.frame, tile);
-    return new Float32Array([...model, ...view, ...projection, ...back, ...turned, eye[3], 1, 0, 0, 0]);
+    return drawBlock(model, view, projection, back, [...turned, eye[3]]);
   }
 
   fill(slot, values) {
@@ -315,8 +328,8 @@ class Picture {
       gl.bindTexture(texture.target, texture.made);
       gl.uniform1i(gl.getUniformLocation(program, sampler), unit);
     });
-    for (const [uniform, [setter, value]] of Object.entries(uniforms)) {
-      gl[setter](gl.getUniformLocation(program, uniform), value);
+    for (const [uniform, [setter, ...values]] of Object.entries(uniforms)) {
+      gl[setter](gl.getUniformLocation(program, uniform), ...values);
     }
   }
 
@@ -343,4 +356,9 @@ class Picture {
     gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, pixels);
     return { width, height, pixels };
   }
+}
+
+// device/drawing.py `Draw.block`
+function drawBlock(model, view, projection, turn, eye) {
+  return new Float32Array([...model, ...view, ...projection, ...turn, ...eye, 1, 0, 0, 0]);
 }

@@ -4,6 +4,8 @@ import re
 from collections.abc import Mapping
 from pathlib import Path
 
+from ....device.floor_shadow import floor_shadow_shader
+from ....device.matte_layer import caught_shadow_shader
 from ....device.own_materials import MOST_TEXTURES
 from ....device.shader_source import shader_source
 from ....device.shaders import DRAW_STRUCT, MeshProgram
@@ -30,7 +32,15 @@ _RADIANCE = "out vec4 radiance;\n"
 _SCREEN = "layout(location = 0) in vec2 position;\nout vec2 map_uv;\n"
 _MEANS = "uniform highp int per_axis;\nuniform sampler2D samples;\nout vec4 mean;\n"
 _DISPLAY = "uniform float scale;\nuniform sampler2D picture;\nuniform sampler3D display;\nout vec4 colour;\n"
-
+_LAYER = "uniform float {0};\nuniform sampler2D layer;\nout vec4 colour;\n"
+_BEHIND = {
+    "backdrop": "in vec2 map_uv;\nuniform mat4 environment_from_clip;\nuniform float scale;\n"
+    "uniform sampler2D environment;\nout vec4 colour;\n",
+    "picture_backdrop": "in vec2 map_uv;\nuniform vec2 size;\nuniform vec2 middle;\nuniform float scale;\n"
+    "uniform sampler2D picture;\nout vec4 colour;\n",
+    "matte_layer": _LAYER.format("on_nothing"),
+    "layer": _LAYER.format("scale"),
+}
 
 _CORNERS = "layout(location = 0) in vec3 position;\nlayout(location = 1) in vec3 normal;\n"
 _TEXTURED_CORNERS = (
@@ -56,22 +66,36 @@ def page_sources(program: MeshProgram) -> dict[str, tuple[str, str]]:
     dict of str to (str, str)
         "surface", which draws the mesh, "means" and "display" -> vertex and fragment shader.
     """
-    block = (
-        f"{program.struct}\nlayout(std140) uniform LookBlock {{ {program.block_type} {program.block}; }};\n"
-    )
     screen = _source(_SCREEN, "screen_vert.glsl")
     return {
-        "surface": (
-            _at_corners(_DRAW + _CORNERS, _SURFACE, "mesh_vert.glsl"),
-            _at_samples(
-                _DRAW + block + _samplers(program.samplers) + _RADIANCE,
-                _SURFACE,
-                f"{program.name}_frag.glsl",
-            ),
-        ),
+        "surface": _mesh_sources(program),
         "means": (screen, _source(_MEANS, "sample_means_frag.glsl")),
         "display": (screen, _source(_DISPLAY, "page_display_frag.glsl")),
     }
+
+
+def matte_sources() -> dict[str, tuple[str, str]]:
+    """The programs of what lies behind the objects, as `device` has them.
+
+    Returns
+    -------
+    dict of str to (str, str)
+        "backdrop", "picture_backdrop", "floor_shadow", "caught_shadow", "matte_layer" and "layer".
+    """
+    screen = _source(_SCREEN, "screen_vert.glsl")
+    meshes = {each.name: _mesh_sources(each) for each in (floor_shadow_shader, caught_shadow_shader)}
+    return meshes | {name: (screen, _source(text, f"{name}_frag.glsl")) for name, text in _BEHIND.items()}
+
+
+def _mesh_sources(program: MeshProgram) -> tuple[str, str]:
+    block = (
+        f"{program.struct}\nlayout(std140) uniform LookBlock {{ {program.block_type} {program.block}; }};\n"
+    )
+    fragment = _DRAW + block + _samplers(program.samplers) + _RADIANCE
+    return (
+        _at_corners(_DRAW + _CORNERS, _SURFACE, "mesh_vert.glsl"),
+        _at_samples(fragment, _SURFACE, f"{program.name}_frag.glsl"),
+    )
 
 
 def own_sources(samplers: Mapping[str, str]) -> dict[str, tuple[str, str]]:

@@ -24,7 +24,7 @@ def told_facts(header: dict[str, Any]) -> dict[str, str]:
     material = header["material"]
     named = material.get("name") or gallery_name(material.get("brdf", ""))
     return {
-        "Kind": in_words(header["kind"]),
+        "Kind": STORED[header["kind"]].settings.LABEL,
         "Light": in_words(Path(header["environment"]["name"]).stem),
         **({"Material": in_words(named)} if named else {}),
         "Maps": f"{len(header['parts'])}, {_size(header['size'])}",
@@ -33,11 +33,12 @@ def told_facts(header: dict[str, Any]) -> dict[str, str]:
 
 
 def told_errors(header: dict[str, Any]) -> dict[str, str]:
-    """The errors that its maker promises: the largest, where it states several."""
-    return {
+    """The errors that its maker promises: the largest, where it states several; or that there is none."""
+    stated = {
         in_words(f"error, {name}"): f"{max(value) if isinstance(value, list) else value:.2g}"
         for name, value in (header["error_bound"] or {}).items()
     }
+    return stated or {"Error": "none stated"}
 
 
 def told_making(header: dict[str, Any]) -> dict[str, str]:

@@ -126,14 +126,14 @@ def _draw_freshness(layout: bpy.types.UILayout, item: bpy.types.Object, width: i
 def _draw_messages(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     """Show what a preview of the active object leaves out or will leave out, and what went wrong."""
     item, running, chosen = context.object, session(), context.scene.rsibr_bake.kind
-    is_shown = running.previews.materials_of(item) is not None
+    inputs = running.previews.inputs
+    is_shown = running.previews.materials_of(item) is not None or inputs.shows_all(item)
     notes = running.material_notes.of_object(item, is_shown) if KINDS[chosen].own else []
     for note in notes:
         tell(layout, note, context.region.width, icon="INFO")
     for message in running.previews.messages(item):
         if message not in notes:
             tell(layout, message, context.region.width)
-    inputs = running.previews.inputs
     if inputs.lacks(item) and (inputs.is_refused(item) or not bakes_inputs_by_itself()):
         layout.operator("rsibr.bake_inputs")
     if running.previews.is_loading(item):

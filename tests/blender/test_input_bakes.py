@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 import pytest
 import rsibr
+from rsibr.rsibr_addon.core.at_once import AtOnce
 from rsibr.rsibr_addon.core.errors import DeviceError, SceneError
 from rsibr.rsibr_addon.device.textures import GpuTexture
 from rsibr.rsibr_addon.files.baked_inputs import BakedInputs, write_baked_inputs
@@ -223,6 +224,22 @@ def test_a_file_that_cannot_be_shown_is_read_once_and_told(
         assert not inputs.wish(cube, path)
         assert not inputs.is_busy
         inputs.forgive(cube)
+
+
+def test_a_render_reads_a_file_that_viewports_have_not_read_yet(
+    cube: bpy.types.Object, inputs: InputBakes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(GpuTexture, "upload", lambda *_: 0)
+    monkeypatch.setattr(GpuTexture, "is_whole", True)
+    path = tmp_path / "inputs-0123456789.exr"
+    assert not inputs.wish(cube, path)
+    write_flat(path)
+    render = InputBakes(AtOnce())
+    render.show_as(inputs)
+    assert render.upload()
+    assert not render.lacks(cube)
+    assert render.shows_all(cube)
+    assert not inputs.shows_all(cube)
 
 
 def test_what_kept_an_object_from_its_file_is_forgotten_once_it_is_gone(

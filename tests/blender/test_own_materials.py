@@ -17,7 +17,7 @@ from rsibr.rsibr_addon.host import input_nodes
 from rsibr.rsibr_addon.host.principled import principled
 from rsibr.rsibr_addon.host.surfaces import INPUTS
 from rsibr.rsibr_addon.tasks.viewport import own_materials
-from rsibr.rsibr_addon.tasks.viewport.baked_inputs import InputBakes
+from rsibr.rsibr_addon.tasks.viewport.baked_inputs import InputBakes, ShownInputs
 from rsibr.rsibr_addon.tasks.viewport.own_materials import Materials, ShownMaterials
 
 
@@ -160,11 +160,6 @@ def baked_normal(material: bpy.types.Material) -> None:
 
 def glass(material: bpy.types.Material) -> None:
     bsdf(material).inputs["Transmission Weight"].default_value = 1.0
-
-
-def sheen(material: bpy.types.Material) -> None:
-    bsdf(material).inputs["Sheen Weight"].default_value = 1.0
-    image_node(material, "Sheen Tint", picture())
 
 
 def bumped_coat(material: bpy.types.Material) -> None:
@@ -393,3 +388,12 @@ def test_textures_beyond_the_last_that_fits_are_the_only_ones_not_shown(cube: bp
     assert textured == asked[:MOST_TEXTURES]
     for name in asked[MOST_TEXTURES:]:
         assert getattr(slot.inputs, name) == getattr(PLAIN, name)
+
+
+def test_a_bake_of_another_mesh_is_told_and_no_bake_is_promised(cube: bpy.types.Object) -> None:
+    noise(cube.active_material)
+    of_viewports = ShownInputs({}, {}, ("bake", np.zeros((5, 2), np.float32)))
+    inputs = InputBakes(ThreadPoolExecutor(1))
+    inputs._shown[cube.session_uid] = Path("inputs.exr"), of_viewports
+    (told,) = Materials(inputs).of(cube.evaluated_get(bpy.context.evaluated_depsgraph_get())).messages
+    assert "the bake of Cube lies face by face on the mesh that viewports show" in told

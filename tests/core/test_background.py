@@ -11,7 +11,7 @@ from types import SimpleNamespace
 import pytest
 from rsibr.rsibr_addon.core.progress import Progress
 from rsibr.rsibr_addon.tasks.queue import background
-from rsibr.rsibr_addon.tasks.queue.background import Bake, BakeQueue, Farm, State, blender_command
+from rsibr.rsibr_addon.tasks.queue.background import STARTING, Bake, BakeQueue, Farm, State, blender_command
 
 
 def bake(script: str, title: str = "bake") -> Bake:
@@ -56,7 +56,7 @@ def test_one_after_another(tmp_path: Path) -> None:
     (tmp_path / "go").touch()
     assert wait(queue, lambda: not queue.busy) == [first, second]
     assert first.state is second.state is State.DONE
-    assert first.fraction == 0.25
+    assert first.fraction == STARTING + 0.25 * (1.0 - STARTING)
     assert first.progress == Progress(1, 4, "view 2")
     assert first.warnings == ["dark"]
     assert queue.unfinished(first.output) is None

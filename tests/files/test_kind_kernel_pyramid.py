@@ -86,5 +86,5 @@ def test_maps_of_other_shapes_are_named(
     map_set.maps[name] = np.ones(shape, dtype=np.float32)
     path = tmp_path / "a.rsibr.exr"
     write_map_set(path, map_set)
-    with pytest.raises(MapSetError, match=f"{path} holds no kernel pyramid. .*{sentence}"):
+    with pytest.raises(MapSetError, match=f"{path} holds no light for own materials. .*{sentence}"):
         from_map_set(path, read_map_set(path))

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import MapSetError
+from rsibr.rsibr_addon.files.kinds.registry import STORED
 from rsibr.rsibr_addon.files.map_set import read_map_set, write_map_set
 from rsibr.rsibr_addon.files.map_set_data import MapSet
 from rsibr.rsibr_addon.tasks.report import facts as facts
@@ -26,7 +27,7 @@ def test_facts_follow_the_file(tmp_path: Path) -> None:
         facts.map_set_facts(path)
     write_flat_capture(path, (0.5, 0.0, 0.5))
     told = facts.map_set_facts(path)
-    assert told["Kind"] == "Radiance views"
+    assert told["Kind"] == "Radiance Views"
     assert all(isinstance(which, str) and which for which in told.values())
     path.write_text("no picture any more")
     with pytest.raises(MapSetError, match=r"flat\.rsibr\.exr"):
@@ -44,7 +45,7 @@ def test_info_tells_every_kind_in_words(
     assert first == f"{path}: a map set, format 1"
     shown = dict(re.split("  +", line.strip(), maxsplit=1) for line in lines)
     assert list(shown)[:2] == ["Kind", "Light"]
-    assert shown["Kind"] == map_set.kind.replace("_", " ").capitalize()
+    assert shown["Kind"] == STORED[map_set.kind].settings.LABEL
     assert facts.map_set_facts(path).items() <= shown.items()
     assert all(which and not set(f"{what}{which}") & set("_[]{}") for what, which in shown.items())
 

@@ -221,16 +221,16 @@ def _kept(
     if thrift == 0.0:
         return kept
     equations: list[list[Equations]] = []
-    errors = np.zeros(count)
     for row in range(count):
         bank, used = kernels_of(widths[row]), kept[row].ravel()
         equations.append([])
         for target, each in zip(rows[row], tilts[row], strict=True):
             projector = Projector(_guided(target, guides), bank)
             system, right = projector.equations(_lookups(target, each))
-            errors[row] += 1.0 + UNIFORM_LIGHT - np.sum(right * np.linalg.solve(system, right))
-            equations[row].append(_spread_out(system, right, used))
-    chosen = thinned(equations, errors, thrift).reshape(kept.shape)
+            error = 1.0 + UNIFORM_LIGHT - np.sum(right * np.linalg.solve(system, right))
+            # Each elevation's error counts by itself: those of steep views are far larger than the others
+            equations[row].append(_spread_out(system / error, right / error, used))
+    chosen = thinned(equations, np.full(count, float(len(tilts[0]))), thrift).reshape(kept.shape)
     return kept & chosen
 
 

@@ -103,7 +103,7 @@ def from_map_set(path: Path, map_set: MapSet) -> Pyramid:
             np.stack(of_rings),
         )
     except (RangeError, ShapeError) as error:
-        raise MapSetError(f"{path} holds no kernel pyramid. {error}") from error
+        raise MapSetError(f"{path} holds no light for own materials. {error}") from error
 
 
 def shipped_families() -> Families:

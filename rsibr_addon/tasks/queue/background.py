@@ -1,6 +1,7 @@
 """Bakes in Blenders of their own, one after another, so that the artist's Blender never waits."""
 
 import contextlib
+import math
 import os
 import subprocess
 import sys
@@ -16,6 +17,9 @@ from typing import Generic, NotRequired, TextIO, TypedDict, TypeVar
 from ...core.errors import SchemaError
 from ...core.progress import Progress
 from ...core.schema import decode, loads
+
+STARTING, START_SECONDS = 0.25, 2.0
+"""Share of a bake that starting Blender is taken for, and after how long most of it is over."""
 
 LAST_LINES = 20
 """How many lines of Blender's output are kept: they tell why it ended without a message of ours."""
@@ -143,11 +147,15 @@ class Bake:
     _said: deque[str] = field(default_factory=lambda: deque(maxlen=LAST_LINES), repr=False)
     _result: str = field(default="", repr=False)
     _first_step: tuple[float, int] | None = field(default=None, repr=False)
+    _since: float = field(default=0.0, repr=False)
 
     @property
     def fraction(self) -> float:
-        """How much is done, in [0, 1]."""
-        return 0.0 if self.progress is None else self.progress.done / max(self.progress.total, 1)
+        """How much is done, in [0, 1]; starting Blender is a part of it."""
+        if self.progress is None:
+            waited = time.monotonic() - self._since if self.state is State.RUNNING else 0.0
+            return STARTING * (1.0 - math.exp(-waited / START_SECONDS))
+        return STARTING + (1.0 - STARTING) * self.progress.done / max(self.progress.total, 1)
 
     @property
     def seconds_left(self) -> float | None:
@@ -167,6 +175,7 @@ class Bake:
 
     def start(self) -> None:
         """Start its process; a bake that cannot start has failed."""
+        self._since = time.monotonic()
         try:
             self._process = subprocess.Popen(
                 self.command,

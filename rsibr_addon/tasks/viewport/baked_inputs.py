@@ -43,6 +43,8 @@ class ShownInputs:
 
 
 NOTHING = ShownInputs({}, {})
+OF_ANOTHER_MESH = ShownInputs({}, {})
+"""Nothing, as the pictures lie on a mesh of other corners."""
 NONE = (None, NOTHING)
 
 
@@ -120,11 +122,15 @@ class InputBakes:
         self.is_unasked |= item.session_uid not in self._wishes
 
     def shown(self, item: Any, corners: int) -> ShownInputs:
-        """What an object shows: the newest file that is whole, if its mesh has as many corners still."""
+        """What an object shows: the newest file that is whole, or `OF_ANOTHER_MESH`."""
         _, inputs = self._shown.get(item.session_uid, NONE)
         if inputs.unwrapping is not None and len(inputs.unwrapping[1]) != corners:
-            return NOTHING
+            return OF_ANOTHER_MESH
         return inputs
+
+    def shows_all(self, item: Any) -> bool:
+        """Whether an object's bake is there, and is what it needs, by what is known."""
+        return item.session_uid in self._shown and not self.lacks(item)
 
     def wish(self, item: Any, path: Path | None) -> bool:
         """Have an object show a file; it is read if it is there.
@@ -157,8 +163,13 @@ class InputBakes:
         return True
 
     def show_as(self, other: "InputBakes") -> None:
-        """Have all objects show what they show elsewhere."""
+        """Have all objects show what they show elsewhere, or will once a file that is there has been read."""
         self._wishes, self._shown = dict(other._wishes), dict(other._shown)
+        shown = {path for path, _ in self._shown.values()}
+        for wish in self._wishes.values():
+            path = None if wish.trouble or wish.path in shown else wish.path
+            if path and path not in self._coming and is_whole(path):
+                self._coming[path] = self.reader.submit(read_shown_inputs, path)
 
     def ask(self, item: Any) -> None:
         """Say that what an object wishes was asked of a background Blender."""

@@ -17,7 +17,7 @@ from ...host.materials import surface_output
 from ...host.principled import principled
 from ...host.surfaces import INPUTS, NORMAL_INPUTS
 from ...host.textured_meshes import MeshNeeds
-from .baked_inputs import InputBakes, ShownInputs, Unwrapping
+from .baked_inputs import OF_ANOTHER_MESH, InputBakes, ShownInputs, Unwrapping
 
 BakedTextures = tuple[tuple[Picture, Texture], ...]
 """What pictures hold."""
@@ -123,11 +123,7 @@ class Materials:
         if has_baked:
             self._inputs.need(evaluated.original)
         needs = _needs(shown)
-        messages = [
-            f"Until its bake is done, material {each.name} shows Blender's default for {each.unbaked}."
-            for each in shown
-            if each.unbaked
-        ]
+        messages = [_unbaked(each, evaluated, inputs) for each in shown if each.unbaked]
         messages += [message for each in shown for message in each.messages]
         messages += _missing_maps(evaluated, shown, needs, inputs.unwrapping)
         slots = tuple(each.drawn for each in shown)
@@ -225,6 +221,17 @@ def _messages(name: str, inputs: PrincipledInputs, reader: _Reader) -> list[str]
         for image in reader.lost
     ]
     return messages
+
+
+def _unbaked(material: ShownMaterial, evaluated: Any, inputs: ShownInputs) -> str:
+    """Why a material is not shown as it is baked."""
+    if inputs is OF_ANOTHER_MESH:
+        return (
+            f"Material {material.name} shows Blender's default for {material.unbaked}: the bake of "
+            f"{evaluated.name} lies face by face on the mesh that viewports show, and this one has other "
+            f"faces. Give it a UV map, or modifiers that are the same for both."
+        )
+    return f"Until its bake is done, material {material.name} shows Blender's default for {material.unbaked}."
 
 
 def _told(fields: Mapping[str, str]) -> str:

@@ -41,7 +41,7 @@ class LobesSettings(EngineSettings):
     widest: int | None = option(
         None,
         label="Widest Map",
-        help="Width of the sharpest maps; those of a kernel pyramid stay as they are",
+        help="Width of the sharpest maps; those of Own Materials stay as they are",
         unit="texels",
         least=32,
         most=2048,

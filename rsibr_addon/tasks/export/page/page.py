@@ -194,9 +194,8 @@ def _told(map_set: Path, opened: OpenedMapSet, error: float) -> tuple[str, str]:
     facts = told_facts(header)
     title = " in ".join(facts[what] for what in ("Material", "Light") if what in facts)
     bounds = [f"{name.removeprefix('Error, ')} {bound}" for name, bound in told_errors(header).items()]
-    stated = (
-        f"The map set states errors: {', '.join(bounds)}. " if bounds else "The map set states no error. "
-    )
+    some = f"The map set states errors: {', '.join(bounds)}. "
+    stated = some if header["error_bound"] else "The map set states no error. "
     return title, stated + rounding
 
 

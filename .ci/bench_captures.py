@@ -22,11 +22,14 @@ from rsibr.rsibr_addon.core.kinds.radiance_views.shading import views_fragment
 from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
 from rsibr.rsibr_addon.core.kinds.radiance_views.warping import Warping
 from rsibr.rsibr_addon.core.lobes.captured_light import CapturedLight
-from rsibr.rsibr_addon.core.lobes.captured_texels import captured_texels, seen_functions
+from rsibr.rsibr_addon.core.lobes.captured_texels import CapturedTexels, captured_texels, seen_functions
 from rsibr.rsibr_addon.core.lobes.captures import fit_captures
 from rsibr.rsibr_addon.core.lobes.fit import Fit
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.host.pictures import save_png
+from rsibr.rsibr_addon.tasks.compare.contact_sheet import contact_sheet
+from rsibr.rsibr_addon.tasks.compare.pictures import difference_picture
 from rsibr.rsibr_addon.tasks.light.environments import load_environment
 from rsibr.rsibr_addon.tasks.methods.fit_captures import filtered_light, shipped_families
 
@@ -47,6 +50,7 @@ DIRECTIONS = geodesic_sphere(VIEWS).vertices
 ALBEDO_ROWS = 64
 TEXELS, STRIDE = 20000, 5
 ENVIRONMENTS = ("forest", "city")
+PICTURE = Path(__file__).parents[1] / "docs" / "images" / "captured-lobes.png"
 
 
 def model(spec: str) -> Brdf:
@@ -94,15 +98,39 @@ def predicted(fit: Fit, light: CapturedLight, views: RadianceViews, texels: int)
     Both are times the root of how many texels each stands for.
     """
     seen = captured_texels(views, len(views.diffuse), texels, light.sun_dir)
-    channels = [
-        seen_functions(
-            seen, light, fit.mu, fit.offsets[:, :, 0, 0].T, np.moveaxis(fit.weights, 0, 1)[..., [channel]]
-        )[:, 0, channel]
-        for channel in range(3)
-    ]
     new = seen.view >= CAPTURED
     root = np.sqrt(seen.stands_for[new, None])
-    return root * np.stack(channels, axis=-1)[new], root * (seen.diffuse + seen.glossy)[new]
+    return root * shown(fit, light, seen)[new], root * (seen.diffuse + seen.glossy)[new]
+
+
+def shown(fit: Fit, light: CapturedLight, seen: CapturedTexels) -> Array:
+    """What the lobes show of texels, shape (N, 3)."""
+    every = seen_functions(
+        seen, light, fit.mu, fit.offsets[:, :, 0, 0].T, np.moveaxis(fit.weights, 0, 1)
+    )  # each colour's lobes in each colour's light
+    return np.einsum("ncc->nc", every)
+
+
+def worst_view(fit: Fit, light: CapturedLight, views: RadianceViews) -> list[Array]:
+    """The new view of which most is wrong: as it is, by the lobes, and what is between; bright in print."""
+    rows = []
+    for number in range(CAPTURED, len(views.diffuse)):
+        maps = views.diffuse[[number]], views.glossy[[number]]
+        one = RadianceViews(*maps, views.albedo, view_dirs=views.sphere.vertices[[number]])
+        inside = np.linalg.norm(2.0 * texel_centres(SIZE, SIZE) - 1.0, axis=-1) < 1.0
+        ours, true = np.zeros((2, SIZE, SIZE, 4))
+        seen = captured_texels(one, 1, SIZE**2, light.sun_dir)
+        centre = np.add.reduceat(
+            sphere_map.uv_from_normal(seen.normal @ one.frames[0]) * seen.share[:, None], seen.first
+        )
+        x, y = np.minimum((SIZE * centre).astype(np.intp), SIZE - 1).T
+        ours[y, x, :3], true[..., :3] = shown(fit, light, seen), one.combined[0] * inside[..., None]
+        ours[..., 3] = true[..., 3] = inside
+        rows.append((float(np.sum((ours - true) ** 2)), ours, true))
+    _, ours, true = max(rows, key=lambda row: row[0])
+    scale = 0.35 / np.sqrt(np.mean(true[inside, :3] ** 2))
+    bright = [each * np.array([scale, scale, scale, 1.0]) for each in (true, ours)]
+    return [*bright, difference_picture(bright[1], bright[0], 0.1)]
 
 
 def blended(views: RadianceViews, warping: Warping, fading: Fading = Fading.COSINE) -> tuple[Array, Array]:
@@ -147,6 +175,7 @@ def main() -> None:
         *("lobes from 12", "left out", "lobes from 1", "relit in the other", "CPU"),
     )
     lines = [f"| {' | '.join(heads)} |", f"|---|---|{'---:|' * (len(heads) - 2)}"]
+    sheet: list[Array] = []
     for material in MATERIALS:
         views = {name: captured(light, material, folder, view_dirs) for name, light in lights.items()}
         for name, other in zip(ENVIRONMENTS, reversed(ENVIRONMENTS), strict=True):
@@ -162,9 +191,11 @@ def main() -> None:
                 error(*predicted(one, filtered[name], views[name], TEXELS)),
                 error(*predicted(fit, filtered[other], views[other], TEXELS)),
             ]
+            sheet += worst_view(fit, filtered[name], views[name])
             told = " | ".join(f"{figure:.1%}" for figure in figures)
             lines.append(f"| {material} | {name} | {told} | {seconds:.0f} s |")
             print(lines[-1], flush=True)
+    save_png(PICTURE, contact_sheet(sheet, 6))
     write_table("captured-lobes.md", "captures", "\n".join(lines))
 
 

@@ -221,9 +221,9 @@ def _map_set(
             yield from (part.side_by_side("RGB") for part in read_parts(path))
 
     by_file = settings.view_file is not None or settings.photographs is not None
-    untold = ["material", "views" if by_file else "view_file"]
-    untold += () if _is_rendered(settings) else RENDERING
-    stated = {name: value for name, value in to_plain(settings).items() if name not in untold}
+    untold = ("material", *(["views"] if by_file else []), *([] if _is_rendered(settings) else RENDERING))
+    given = {name: value for name, value in to_plain(settings).items() if value is not None}
+    stated = {name: value for name, value in given.items() if name not in untold}
     origin = Origin(light, stated, software, captured.material, errors)
     header = make_header("sphere_map", (settings.size, settings.size), parts, origin)
     return MapsInTurn("radiance_views", shapes, maps(), header)

@@ -217,6 +217,8 @@ def test_dragging_and_sliders_change_what_the_preview_would(tmp_path: Path) -> N
     script = """
     const mouse = (type, x, y) =>
       browser("Input.dispatchMouseEvent", { type, x, y, button: "left", buttons: 1 });
+    const hint = document.querySelector("#hint");
+    const told = !hint.hidden;
     await mouse("mousePressed", 20, 20);
     const turned = settled();
     await mouse("mouseMoved", 20 + SIZE / 4, 20);
@@ -225,9 +227,11 @@ def test_dragging_and_sliders_change_what_the_preview_would(tmp_path: Path) -> N
     await set("metallic", 1);
     const changed = (await set("roughness", 0.25)).pixels;
     const lit = (await set("turn", 45)).pixels;
-    answer({ dragged: encoded(dragged), changed: encoded(changed), lit: encoded(lit) });
+    const hints = [told, !hint.hidden];
+    answer({ dragged: encoded(dragged), changed: encoded(changed), lit: encoded(lit), hints });
     """.replace("SIZE", str(SIZE))
     said = driven(page_of(source), SET_UP + script)
+    assert said["hints"] == [True, False]
     # A quarter of the frame's width is an eighth of a turn of the eye, clockwise seen from above
     x, y, z = VIEW
     half = np.sqrt(0.5)

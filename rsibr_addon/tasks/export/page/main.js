@@ -40,6 +40,7 @@ class Page {
     await this.picture.load();
     await this.picture.show(this.content.displays[this.display]);
     document.querySelector("#waiting").hidden = true;
+    document.querySelector("#hint").hidden = false;
     document.querySelector("#reset").hidden = false;
     this.fillPanel();
     this.listen();
@@ -154,6 +155,9 @@ class Page {
   }
 
   listen() {
+    for (const known of ["pointerdown", "wheel", "keydown"]) {
+      canvas.addEventListener(known, () => { document.querySelector("#hint").hidden = true; }, { once: true });
+    }
     const fingers = new Map();
     const spread = () => {
       const [a, b] = [...fingers.values()];

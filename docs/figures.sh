@@ -1,11 +1,11 @@
 #!/bin/bash
-# Draws figures of the papers with rsibr on the path: figures.sh [SECTION ...], all sections by default
+# Draws figures of the papers with rsibr on the path: figures.sh [SECTION ...], all sections by default.
+# CAYMAN names Cornell's measurement cayman.brdf; TEAPOT a teapot in Wavefront OBJ, in whose place Suzanne sits
 set -euo pipefail
 docs=$(cd "$(dirname "$0")" && pwd)
 images=$docs/images
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-cd "$work"
 
 sheet() { # PICTURE COLUMNS STOPS PREVIEW.exr ...
     python "$docs/../.ci/contact_sheet.py" "$images/$1.png" "${@:2}"
@@ -115,8 +115,55 @@ painted() {
     sheet painted 3 0 {painted,matcap}-{0,40,80}.exr
 }
 
+# Kautz & McCool 2000; docs/lobe-stacks.md shows and explains them
+ward=ward:alpha=0.04,ks=0.8
+copper=he_torrance:sigma=0.2,tau=2.5,metal=copper
+cayman=cornell:path=$(realpath "${CAYMAN:-cayman.brdf}")
+printed=(--cosine outside)
+pot=(--mesh "$([ -z "${TEAPOT:-}" ] && echo monkey || realpath "$TEAPOT")" --view 0.5,-1,0.6 --size 384)
+stack() { # NAME MODEL OPTIONS
+    rsibr bake lobe-stack --environment interior --brdf "$2" "${@:3}" -o "$1.rsibr.exr"
+}
+# Figure 7: errors of the three methods, and of a joint fit
+kautz2000-7() {
+    rsibr fit --brdf $ward --method single "${printed[@]}" -o "single lobe.json"
+    rsibr fit --brdf $ward --method single-2d "${printed[@]}" -o "single 2D lobe.json"
+    rsibr fit --brdf $ward --method greedy "${printed[@]}" -o "three lobes.json"
+    rsibr fit --brdf $ward --plot plots --beside {three\ lobes,single\ lobe,single\ 2D\ lobe}.json -o "joint fit.json"
+    cp plots/error.svg "$images/kautz2000-7.svg"
+}
+# Figure 8: the single lobe's maps, from grazing to the normal; Cayman above, copper below
+kautz2000-8() {
+    maps=()
+    for name in cayman copper; do
+        stack $name "${!name}" --method single "${printed[@]}" --size 128
+        rsibr report $name.rsibr.exr --maps $name-maps
+        maps+=($name-maps/lobe00.slice0{01,03,06,10,15}.exr)
+    done
+    sheet kautz2000-8 5 1 "${maps[@]}"
+}
+# Each pixel filtered with the model itself, the paper's methods, and a joint fit
+beside() { # PICTURE MODEL METHOD ...
+    stack joint "$2"
+    rsibr preview joint.rsibr.exr "${pot[@]}" --exact "$2" -o exact.exr
+    for method in "${@:3}"; do
+        stack "$method" "$2" --method "$method" "${printed[@]}"
+    done
+    for method in "${@:3}" joint; do
+        rsibr preview "$method.rsibr.exr" "${pot[@]}" -o "$method.exr"
+    done
+    drawn=(exact "${@:3}" joint)
+    sheet "$1" ${#drawn[@]} 0 "${drawn[@]/%/.exr}"
+    python "$docs/../.ci/picture_errors.py" "${drawn[@]/%/.exr}"
+}
+# Figures 9 to 11, 12 to 14 and 15 to 18
+kautz2000-9() { beside kautz2000-9 "$cayman" single single-2d; }
+kautz2000-12() { beside kautz2000-12 $copper single single-2d; }
+kautz2000-15() { beside kautz2000-15 $ward greedy single single-2d; }
+
 sections=("$@")
-[ $# -gt 0 ] || sections=(kautz2004 miller1984 painted)
+[ $# -gt 0 ] || sections=(kautz2004 miller1984 painted kautz2000-{7,12,15,8,9})
 for section in "${sections[@]}"; do
-    "$section"
+    mkdir "$work/$section"
+    (set -e; cd "$work/$section"; "$section")
 done

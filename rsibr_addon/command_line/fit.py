@@ -24,6 +24,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--plot", metavar="FOLDER", type=Path, help="write polar plots and the error over n.v there, as SVG"
     )
+    parser.add_argument(
+        "--beside",
+        metavar="FIT.json",
+        type=Path,
+        nargs="+",
+        default=[],
+        help="other fits of the model, whose errors are plotted beside, in error.svg",
+    )
     options.add_output(parser, "FIT.json", "the fit to write")
 
 
@@ -44,7 +52,9 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     from ..tasks.reflectance.fit_lobes import fit_lobes
 
     settings = options.given(arguments, FitSettings)
-    result = console.steps(fit_lobes(settings, arguments.output, arguments.force, arguments.plot))
+    result = console.steps(
+        fit_lobes(settings, arguments.output, arguments.force, arguments.plot, arguments.beside)
+    )
     figures = result.report()
     plain = ", ".join(f"{name} {_text(value)}" for name, value in figures.items() if name not in EXPLAINED)
     console.say(f"{arguments.output}: {plain}")

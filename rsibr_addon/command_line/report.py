@@ -18,6 +18,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=Path,
         help="the report, which needs nothing beside it (default: NAME.html beside the map set)",
     )
+    parser.add_argument(
+        "--maps",
+        metavar="FOLDER",
+        type=Path,
+        help="write each map there too, at its full size, as OpenEXR: a new folder, or one with earlier maps",
+    )
     options.add_options(parser, ReportOptions)
     parser.add_argument("--force", action="store_true", help="replace what exists")
 
@@ -28,7 +34,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     Returns
     -------
     dict
-        "page", its path.
+        "page", its path; "maps", the folder with the maps, where they are asked for.
 
     Raises
     ------
@@ -40,6 +46,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
     output = arguments.output or report_beside(arguments.map_set)
     brdf = options.given(arguments, ReportOptions).brdf
-    page = console.steps(map_set_report(arguments.map_set, output, arguments.force, brdf))
-    console.say(f"{page}")
-    return {"page": str(page)}
+    page = console.steps(map_set_report(arguments.map_set, output, arguments.force, brdf, arguments.maps))
+    written = {"page": str(page)} | ({} if arguments.maps is None else {"maps": str(arguments.maps)})
+    for path in written.values():
+        console.say(path)
+    return written

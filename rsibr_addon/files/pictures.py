@@ -39,9 +39,14 @@ def write_exr(path: str | Path, rgba: Array, force: bool = False) -> None:
     """
     if rgba.ndim != 3 or rgba.shape[2] != 4:
         raise ShapeError(f"{path} takes a picture of shape (height, width, 4), not {rgba.shape}.")
-    pixels = rgba.astype(np.float32)
     with written_aside(path, force) as aside:
-        write_parts(aside, [Part("", {"RGBA": pixels})])
+        put_exr(aside, rgba)
+
+
+def put_exr(path: Path, rgba: Array) -> None:
+    """Write a picture likewise, but under its own name at once: in a folder that is written aside."""
+    pixels = rgba.astype(np.float32)
+    write_parts(path, [Part("", {"RGBA": pixels})])
 
 
 def read_exr(path: str | Path) -> Array:

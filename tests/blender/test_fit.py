@@ -156,6 +156,38 @@ def test_existing_fits_are_kept(tmp_path: Path, capfd: pytest.CaptureFixture[str
     assert path.read_text() == "kept"
 
 
+def test_errors_of_several_fits_are_plotted_beside_each_other(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    single, joint, plots = tmp_path / "single.json", tmp_path / "joint.json", tmp_path / "plots"
+    assert run([*COMMAND, "--method", "single", "-o", str(single)]) == 0
+    beside = ["--beside", str(single), "-o", str(joint)]
+    assert run([*COMMAND, *beside]) == 1
+    assert "Fits beside are for the plot of the errors: give --plot" in capfd.readouterr().err
+    assert (
+        run(
+            [
+                *COMMAND,
+                "--plot",
+                str(plots),
+                "--beside",
+                str(single),
+                "-o",
+                str(tmp_path / "s" / "single.json"),
+            ]
+        )
+        == 1
+    )
+    assert "two of ['single', 'single'] are the same: rename one" in capfd.readouterr().err
+    assert run([*COMMAND, "--plot", str(plots), *beside]) == 0
+    text = (plots / "error.svg").read_text()
+    assert ">joint</text>" in text
+    assert ">single</text>" in text
+    other = ["fit", "--brdf", "phong:n=9,ks=0.5", "--plot", str(plots), "--force", *beside]
+    assert run(other) == 1
+    assert "is a fit of phong:n=40,ks=0.5, not of phong:n=9,ks=0.5" in capfd.readouterr().err
+
+
 def test_a_fit_among_its_plots_is_refused_at_once(tmp_path: Path) -> None:
     plots = tmp_path / "plots"
     plots.mkdir()

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import MapSetError, OutputFileError
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.files.map_set import read_map_set_header
+from rsibr.rsibr_addon.files.map_set import read_map_set, read_map_set_header
+from rsibr.rsibr_addon.files.pictures import read_exr
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.job import BakeJob
 from rsibr.rsibr_addon.settings.light import Light
@@ -59,6 +60,19 @@ def test_files_are_not_replaced_unasked(map_set: Path, tmp_path: Path) -> None:
         drain(map_set_report(map_set, report))
     assert report.read_text() == "mine"
     assert drain(map_set_report(map_set, report, force=True)).read_text().startswith("<!doctype html>")
+
+
+def test_maps_are_written_at_their_full_size(map_set: Path, tmp_path: Path) -> None:
+    drain(map_set_report(map_set, tmp_path / "report.html", maps=tmp_path / "maps"))
+    held = read_map_set(map_set)
+    written = {path.stem: read_exr(path) for path in (tmp_path / "maps").iterdir()}
+    assert written.keys() == held.maps.keys()
+    for name, picture in written.items():
+        np.testing.assert_array_equal(picture[..., :3], held.maps[name])
+    again = tmp_path / "again.html"
+    with pytest.raises(OutputFileError, match="maps exists"):
+        drain(map_set_report(map_set, again, maps=tmp_path / "maps"))
+    assert not again.exists()
 
 
 def test_bad_names_are_told(map_set: Path, tmp_path: Path) -> None:

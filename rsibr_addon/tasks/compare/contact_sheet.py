@@ -12,21 +12,21 @@ def contact_sheet(pictures: Sequence[Array], columns: int) -> Array:
 
     Parameters
     ----------
-    pictures : sequence of ndarray, each of shape (size, size, channels)
+    pictures : sequence of ndarray, each of shape (height, width, channels)
         At least one.
     columns : int
         Pictures in a full row; fewer pictures make one shorter row.
 
     Returns
     -------
-    ndarray, shape (rows * size, columns * size, channels), float32
+    ndarray, shape (rows * height, columns * width, channels), float32
         Row 0 at the bottom, places without a picture 0.
     """
-    size, _, channels = pictures[0].shape
+    height, width, channels = pictures[0].shape
     columns = min(len(pictures), columns)
     rows = -(-len(pictures) // columns)
-    sheet = np.zeros((rows, size, columns, size, channels), dtype=np.float32)
+    sheet = np.zeros((rows, height, columns, width, channels), dtype=np.float32)
     for number, picture in enumerate(pictures):
         row, column = divmod(number, columns)
         sheet[rows - 1 - row, :, column] = picture
-    return sheet.reshape(rows * size, columns * size, channels)
+    return sheet.reshape(rows * height, columns * width, channels)

@@ -1,6 +1,7 @@
 """A reflectance model to lobes, in a file."""
 
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -24,7 +25,7 @@ from ...core.lobes.target import elevation_slices
 from ...core.progress import Progress, Steps
 from ...core.warned import warn
 from ...files.atomic import check_target
-from ...files.fits import write_fit
+from ...files.fits import read_fit, write_fit
 from ...files.outputs import together
 from ...settings.fit import FitSettings, Fitting
 from ..methods.fit_captures import CapturedResult, fit_to_captures
@@ -64,7 +65,11 @@ class FitResult:
 
 
 def fit_lobes(
-    settings: FitSettings, output: Path, force: bool = False, plots: Path | None = None
+    settings: FitSettings,
+    output: Path,
+    force: bool = False,
+    plots: Path | None = None,
+    beside: Sequence[Path] = (),
 ) -> Steps[FitResult | CapturedResult]:
     """Fit a model, or captured views, and write the fit.
 
@@ -77,11 +82,14 @@ def fit_lobes(
         Whether existing files are replaced.
     plots : Path, optional
         A new folder, or one with earlier plots: see `fit_plots.write_plots`.
+    beside : sequence of Path
+        Other fits of the model, whose errors are plotted beside.
 
     Raises
     ------
     RangeError
-        The text describes no model, or the model is black at an elevation; captures are to be plotted.
+        The text describes no model, or the model is black at an elevation; captures are to be plotted; or
+        fits are to be plotted beside that are of another model, of one name, or without `plots`.
     InputFileError, OutputFileError, SceneError, RenderError
         Or see `fit_to_captures`.
 
@@ -90,6 +98,13 @@ def fit_lobes(
     RsibrWarning
         The error asked for takes more lobes; or see `load_brdf`.
     """
+    if beside and plots is None:
+        raise RangeError("Fits beside are for the plot of the errors: give --plot, or leave them out.")
+    names = [output.stem, *(path.stem for path in beside)]
+    if len(set(names)) < len(names):
+        raise RangeError(
+            f"Fits are plotted under their files' names, but two of {names} are the same: rename one."
+        )
     if settings.brdf is None:
         if plots is not None:
             raise RangeError("There is no model to plot beside a fit to captures: plot a fit to a model.")
@@ -103,6 +118,7 @@ def fit_lobes(
                 f"{output} would be in {plots}, which holds nothing but plots: write it elsewhere."
             )
     brdf = yield from load_brdf(settings.brdf)
+    others = {path.stem: _fit_of(path, brdf) for path in beside}
     started = time.process_time()
     fit = yield from fitted(brdf, settings)
     seconds = time.process_time() - started
@@ -115,9 +131,17 @@ def fit_lobes(
         )
     with together():
         if plots is not None:
-            write_plots(plots, result.fit, brdf, result.errors, force)
+            write_plots(plots, {output.stem: result.fit, **others}, brdf, result.errors, force)
         write_fit(output, fit, result.report(), force)
     return result
+
+
+def _fit_of(path: Path, brdf: Brdf) -> Fit:
+    """A fit of the model."""
+    fit, spec = read_fit(path), spec_from_brdf(brdf)
+    if fit.brdf != spec:
+        raise RangeError(f"{path} is a fit of {fit.brdf}, not of {spec}: plot it beside fits of its model.")
+    return fit
 
 
 def fitted(brdf: Brdf, settings: Fitting, sharpest: float = SHARPEST) -> Steps[Fit]:

@@ -1,5 +1,6 @@
 """Plots of a fit: the model and its lobes in the plane of incidence, and the error over the elevations."""
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -37,18 +38,19 @@ def check_plots(folder: Path, force: bool) -> None:
     check_folder_target(folder, _ERROR, force)
 
 
-def write_plots(folder: Path, fit: Fit, brdf: Brdf, errors: FitErrors, force: bool) -> None:
+def write_plots(folder: Path, fits: Mapping[str, Fit], brdf: Brdf, errors: FitErrors, force: bool) -> None:
     """Write the plots of a fit: ``lobes-20.svg`` and so on, by 100 n.v, and ``error.svg``.
 
     Parameters
     ----------
     folder : Path
         A new one, or one with earlier plots.
-    fit : Fit
+    fits : mapping of str to Fit
+        The fit by its name, and after it those whose errors are plotted beside.
     brdf : Brdf
-        What it stands for.
+        What they stand for.
     errors : FitErrors
-        At its own elevations.
+        Of the first, at its own elevations.
     force : bool
         Whether earlier plots are replaced.
 
@@ -57,10 +59,12 @@ def write_plots(folder: Path, fit: Fit, brdf: Brdf, errors: FitErrors, force: bo
     OutputFileError
         The folder cannot be written, or exists and is not to be replaced.
     """
+    fit, *others = fits.values()
+    error = _errors(fits, brdf) if others else _error(fit, brdf, errors)
     with folder_written_aside(folder, _ERROR, force) as aside:
         for mu in ELEVATIONS:
             _write(aside / f"lobes-{100 * mu:.0f}.svg", lobe_plot(fit, brdf, mu))
-        _write(aside / _ERROR, _error(fit, brdf, errors))
+        _write(aside / _ERROR, error)
 
 
 def _write(path: Path, plot: str) -> None:
@@ -113,3 +117,11 @@ def _error(fit: Fit, brdf: Brdf, errors: FitErrors) -> str:
         Curve("at fitted elevations", errors.mu, errors.shape, dashed=True),
     ]
     return line_plot(f"{fit.brdf}, {fit.method}", "n.v", (0.0, 1.0), "relative error", curves)
+
+
+def _errors(fits: Mapping[str, Fit], brdf: Brdf) -> str:
+    """Errors of several fits, interpolated between their elevations."""
+    fine = elevation_slices(_BETWEEN * max(len(fit.mu) for fit in fits.values()))
+    curves = [Curve(name, fine, fit_errors(fit, brdf, fine).shape) for name, fit in fits.items()]
+    title = next(iter(fits.values())).brdf
+    return line_plot(title, "n.v", (0.0, 1.0), "relative error", curves)

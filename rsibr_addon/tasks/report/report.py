@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from html import escape
 from pathlib import Path
 from string import Template
+from typing import Any
 
 import numpy as np
 
@@ -17,10 +18,14 @@ from ...core.progress import Progress, Steps
 from ...core.warned import warn
 from ...device.preview import PreviewRenderer
 from ...files.atomic import check_target, written_aside
+from ...files.folders import check_folder_target, folder_written_aside
 from ...files.kinds.registry import STORED, look_types
 from ...files.map_set import read_map_set
 from ...files.map_set_data import MapSet
 from ...files.map_set_facts import in_words, told_errors, told_facts, told_making
+from ...files.output_paths import portable_name
+from ...files.outputs import together
+from ...files.pictures import put_exr
 from ...files.temporary import temporary_folder
 from ...host.meshes import load_mesh
 from ...host.pictures import save_png
@@ -47,7 +52,9 @@ MESHES = {"sphere": Camera((0.3, -1.0, 0.3)), "monkey": Camera((0.3, -1.0, 0.3))
 """Mesh -> from where it is shown."""
 
 
-def map_set_report(map_set: Path, output: Path, force: bool = False, brdf: str | None = None) -> Steps[Path]:
+def map_set_report(
+    map_set: Path, output: Path, force: bool = False, brdf: str | None = None, maps: Path | None = None
+) -> Steps[Path]:
     """Show all that a map set holds, in NAME.html, without scripts and links.
 
     Parameters
@@ -55,10 +62,13 @@ def map_set_report(map_set: Path, output: Path, force: bool = False, brdf: str |
     brdf : str, optional
         The model to plot beside a lobe stack's lobes, as `tasks.reflectance.brdfs.load_brdf` takes it; by
         default the map set's own, unless that is in another file or takes to be measured.
+    maps : Path, optional
+        A folder in which each map is written too, at its full size: PART.exr, by the names of the file's
+        parts. A new one, or one with this map set's earlier maps.
 
     Raises
     ------
-    MapSetError
+    MapSetError, OutputFileError
     RsibrError
         See `load_brdf`, of `brdf` alone: where the map set's own model is none, the report says so.
 
@@ -70,6 +80,8 @@ def map_set_report(map_set: Path, output: Path, force: bool = False, brdf: str |
     check_target(output, force, (".html",))
     yield Progress(0, 3, f"reading {map_set.name}")
     held = read_map_set(map_set)
+    if maps is not None:
+        check_folder_target(maps, _map_file(held.header["parts"][0]), force)
     yield Progress(1, 3, "drawing with it")
     opened = open_map_set(map_set)
     meshes = _drawn_meshes(opened)
@@ -89,9 +101,23 @@ def map_set_report(map_set: Path, output: Path, force: bool = False, brdf: str |
         facts=_definitions(facts | told_making(header)),
         roles="\n".join(_roles(held)),
     )
-    with written_aside(output, force) as aside:
-        aside.write_text(text, encoding="utf-8", errors="replace")  # of names that are no UTF-8
+    with together():
+        if maps is not None:
+            _write_maps(maps, held, force)
+        with written_aside(output, force) as aside:
+            aside.write_text(text, encoding="utf-8", errors="replace")  # of names that are no UTF-8
     return output
+
+
+def _write_maps(folder: Path, held: MapSet, force: bool) -> None:
+    parts = held.header["parts"]
+    with folder_written_aside(folder, _map_file(parts[0]), force) as aside:
+        for part in parts:
+            put_exr(aside / _map_file(part), _opaque(held.maps[part["name"]]))
+
+
+def _map_file(part: dict[str, Any]) -> str:
+    return f"{portable_name(part['name'])}.exr"
 
 
 def _drawn_meshes(opened: OpenedMapSet) -> dict[str, Array]:
@@ -147,7 +173,7 @@ def _roles(held: MapSet) -> list[str]:
     blocks, title = [], STORED[held.kind].part_title
     for role in dict.fromkeys(part["role"] for part in held.header["parts"]):
         figures = "".join(
-            f"<figure>{_image(_opaque(held.maps[part['name']]), part['name'])}"
+            f"<figure>{_image(_opaque(thumbnail(held.maps[part['name']], MAP_SIZE)), part['name'])}"
             f"<figcaption>{escape(title(part))}</figcaption></figure>"
             for part in held.header["parts"]
             if part["role"] == role
@@ -157,8 +183,7 @@ def _roles(held: MapSet) -> list[str]:
 
 
 def _opaque(radiance: Array) -> Array:
-    small = thumbnail(radiance, MAP_SIZE)
-    return np.concatenate([small, np.ones((*small.shape[:2], 1))], axis=-1)
+    return np.concatenate([radiance, np.ones((*radiance.shape[:2], 1))], axis=-1)
 
 
 def _image(rgba: Array, description: str) -> str:

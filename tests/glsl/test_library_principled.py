@@ -218,6 +218,20 @@ TWINS = {
         principled._left,
         ULP,
     ),
+    "sheen_weights": Twin(
+        "principled_lib.glsl",
+        "result_0 = sheen_weights(sheens, in_0.x, in_1.x);",
+        lambda: [numbers(42), numbers(43)],
+        lambda roughness, mu: families().sheen_table.at(roughness[:, 0], mu[:, 0]),
+        # As of layers
+        2e-3,
+        samplers=samplers_of_layers,
+    ),
+    "sheen_of": layer_twin(
+        "float left; result_0.rgb = sheen_of(surface, mu, sheens, left); result_0.a = left;",
+        lambda surface, mu, albedos: np.concatenate(principled._sheen(surface, mu, albedos), axis=1),
+        1,
+    ),
     "coat_of": layer_twin(
         "Powers found = coat_of(surface, mu, albedos, rises, beside);"
         f"{written('found')} result_5.rgb = beside;",

@@ -41,6 +41,16 @@ POINTS = 10_000
 """Enough for random materials; the numpy twin takes a second."""
 
 
+def test_sheen_radiance() -> None:
+    roughness, mu, normal = (each[:POINTS] for each in (numbers(44), numbers(45), unit_vectors(46)))
+    code = "result_0.rgb = sheen_radiance(atlas, lookups, sheens, in_0.x, in_1.x, in_2.xyz);"
+    found = evaluate(LIBRARY, code, [roughness, mu, normal], 1, samplers())[:, 0, :3]
+    surface = Surface(sheen_roughness=roughness[:, 0])
+    expected = shading._sheen(pyramid(), families().sheen_table, surface, normal, mu[:, 0])
+    # Weights of texels of 8 bits, of a table and of five maps
+    assert np.abs(found - expected).max() < 5e-3 * expected.max()
+
+
 def test_family_place() -> None:
     alpha, mu = numbers(40, 0.0, 1.0), numbers(41)
     code = "result_0.xy = family_place(ggx, in_0.x, in_1.x);"

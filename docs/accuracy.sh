@@ -20,5 +20,6 @@ for environment in forest city; do
     measure $environment car-paint --size 256 --samples 32 --denoise
 done
 
+python "$ci/accuracy_table.py" {forest,city}-{mirror,copper,plastic,car-paint}
 python "$ci/bench_captures.py" captures
 python "$ci/bench_relit.py" relit

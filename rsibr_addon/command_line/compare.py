@@ -1,11 +1,15 @@
 """The command `rsibr compare`."""
 
 import argparse
-from typing import Any
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
 
 from ..files.kinds.registry import STORED
 from . import options
 from .console import Console
+
+if TYPE_CHECKING:
+    from ..tasks.compare.comparison import Comparison
 
 
 def _owners() -> dict[str, Any]:
@@ -36,11 +40,20 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     from ..tasks.compare.compare import compare, truth_of
     from ..tasks.methods.kinds import kind_of
 
-    truth = truth_of(arguments.map_set)
+    against = truth_of(arguments.map_set).name
     settings = options.given_of(arguments, _owners(), kind_of(arguments.map_set))
     comparison = console.steps(compare(arguments.map_set, settings, arguments.output, arguments.force))
     page = arguments.output / "index.html"
-    console.say("Relative RMSE over all views:")
-    console.say(truth.table([comparison]))
-    console.say(f"{page}")
+    for line in (*lines(comparison, against(comparison.settings)), str(page)):
+        console.say(line)
     return {"page": str(page), "comparison": comparison.to_json()}
+
+
+def lines(comparison: "Comparison", against: str) -> Iterator[str]:
+    """A comparison in words: the errors first, as the names of ways to draw are long."""
+    noise = f", whose own noise is {comparison.reference_noise:.4f}" if comparison.reference_noise else ""
+    count = len(comparison.view_dirs)
+    yield f"Relative RMSE against {against}{noise}, {count} {'view' if count == 1 else 'views'}:"
+    yield "all views  median   worst  way of drawing"
+    for error in comparison.errors:
+        yield f"{error.pooled:9.4f}{error.median:8.4f}{error.worst:8.4f}  {error.way.name}"

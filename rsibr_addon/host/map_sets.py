@@ -15,6 +15,7 @@ from ..core.errors import MapSetError, OutputFileError
 from ..files.atomic import written_aside
 from ..files.map_set import read_map_set_header
 from ..files.map_set_header import content_hash
+from ..files.outputs import make_folder
 from ..files.read_once import read_once
 from .painted import PaintedSettings, painted_files
 
@@ -62,7 +63,7 @@ class UnpackedFiles:
         """
         path = self.path(image)
         if not path.is_file():
-            path.parent.mkdir(parents=True, exist_ok=True)
+            make_folder(path.parent)
             with written_aside(path) as aside:
                 aside.write_bytes(image.packed_file.data)
         return path

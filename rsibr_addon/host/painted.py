@@ -17,6 +17,7 @@ from ..core.conventions import Array
 from ..core.errors import MapSetError
 from ..files.map_set import read_map_set, read_map_set_header, write_map_set
 from ..files.map_set_header import content_hash
+from ..files.outputs import make_folder
 from ..files.painted import painted_map_set
 from .working_space import rec709_from_working, working_from_rec709
 
@@ -72,7 +73,7 @@ class PaintedFiles:
         """
         path = self.path(settings, str(source))
         if not path.is_file():
-            path.parent.mkdir(parents=True, exist_ok=True)
+            make_folder(path.parent)
             write_painted(path, settings, source)
             last = self._written.get(settings.id_data.session_uid)
             if last is not None and last != path:

@@ -129,7 +129,7 @@ def test_the_commands_preview_and_compare_it(path: Path, capfd: pytest.CaptureFi
     limits = ["--views", "2", "--size", "16", "--brighter", "1.25"]
     assert run(["compare", str(path), *limits, "-o", str(path.parent / "out")]) == 0
     # 1 is a fifth less than 1.25
-    assert "| paper | 0.200 |" in capfd.readouterr().out
+    assert "0.2000  as it is\n" in capfd.readouterr().out
     told = json.loads((path.parent / "out" / "comparison.json").read_text())
     assert told["settings"]["brighter"] == 1.25
     assert "drawn brighter" in (path.parent / "out" / "index.html").read_text()

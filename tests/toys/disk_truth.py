@@ -1,6 +1,5 @@
 """What the toy kind is compared with: the colours that it was made of, or a brighter one's."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,7 +10,7 @@ from rsibr.rsibr_addon.core.metrics import relative_rmse, unpremultiplied
 from rsibr.rsibr_addon.core.progress import Progress, Steps
 from rsibr.rsibr_addon.device.preview import PreviewRenderer
 from rsibr.rsibr_addon.host.meshes import load_mesh
-from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, cameras_of, way_error
+from rsibr.rsibr_addon.tasks.compare.comparison import cameras_of, way_error
 from rsibr.rsibr_addon.tasks.compare.truth import Drawn, Truth
 from rsibr.tests.toys.disk_core import Disk, DiskLook
 from rsibr.tests.toys.disk_device import GpuDisk
@@ -44,10 +43,6 @@ def draw(
     return Drawn("paper", 2, settings, true, {way: drawn}, (error,))
 
 
-def table(comparisons: Sequence[Comparison]) -> str:
-    return "".join(f"| {each.material} | {each.errors[0].pooled:.3f} |\n" for each in comparisons)
-
-
 TRUTH = Truth(
     way=DiskWay,
     draw=draw,
@@ -55,5 +50,4 @@ TRUTH = Truth(
     made=lambda settings: "drawn brighter",
     notes=lambda comparison: "",
     quality=lambda settings: f"{settings.brighter} times",
-    table=table,
 )

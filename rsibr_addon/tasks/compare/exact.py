@@ -1,6 +1,6 @@
 """Pictures of a reflectance model itself, integrated over an environment."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from math import ceil
 from typing import Any
 
@@ -89,36 +89,3 @@ def notes(comparison: Comparison) -> str:
 def quality(settings: ExactComparison) -> str:
     """See `Truth`."""
     return f"{settings.rings} rings of surface points"
-
-
-def table(
-    comparisons: Sequence[Comparison], what: str, columns: dict[str, Callable[[Comparison, Any], object]]
-) -> str:
-    """Errors of several comparisons as a table in Markdown.
-
-    Parameters
-    ----------
-    comparisons : sequence of Comparison
-    what : str
-        What a material is, as the head of its column.
-    columns : mapping of str to callable
-        Head of a column -> a comparison, and a way of it, to what stands in it.
-
-    Returns
-    -------
-    str
-        A row for each way of each.
-    """
-    head = [what, "environment", *columns, "all views", "median view", "worst view"]
-    rows = [head, ["---"] * 2 + ["---:"] * (len(columns) + 3)]
-    for comparison in comparisons:
-        for error in comparison.errors:
-            numbers = [f"{number:.4f}" for number in (error.pooled, error.median, error.worst)]
-            told = [str(column(comparison, error.way)) for column in columns.values()]
-            rows.append([comparison.material, comparison.environment, *told, *numbers])
-    return "".join(f"| {' | '.join(row)} |\n" for row in rows)
-
-
-def map_size(comparison: Comparison, way: Way) -> int:
-    """A column of `table`."""
-    return comparison.map_size

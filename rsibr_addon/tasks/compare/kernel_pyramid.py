@@ -1,6 +1,5 @@
 """One Principled material, shaded from a kernel pyramid, against its reflectance model."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -17,8 +16,8 @@ from ...host.meshes import load_mesh
 from ...settings.kernel_pyramid import PyramidComparison
 from ..reflectance.brdfs import load_brdf
 from . import either
-from .comparison import Comparison, cameras_of
-from .exact import exact_pictures, made, map_size, name, notes, picture, quality, rings_of, table
+from .comparison import cameras_of
+from .exact import exact_pictures, made, name, notes, picture, quality, rings_of
 from .truth import Drawn, Truth
 
 
@@ -85,10 +84,6 @@ def _is_look(way: PyramidWay, look: PrincipledLook) -> bool:
     return not look.own and look.antialiased and way.material == look.text
 
 
-def _table(comparisons: Sequence[Comparison]) -> str:
-    return table(comparisons, "material", {"size": map_size})
-
-
 TRUTH = Truth(
     way=PyramidWay,
     draw=draw,
@@ -96,6 +91,5 @@ TRUTH = Truth(
     made=made,
     notes=notes,
     quality=quality,
-    table=_table,
     is_look=_is_look,
 )

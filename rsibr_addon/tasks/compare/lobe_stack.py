@@ -1,6 +1,5 @@
 """Lobe stacks against their BRDF itself, integrated over the environment."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -14,8 +13,8 @@ from ...host.meshes import load_mesh
 from ...settings.lobe_stack import StackComparison
 from ..reflectance.brdfs import check_told_brdf, load_brdf
 from . import either
-from .comparison import Comparison, cameras_of
-from .exact import LEAST_RINGS, exact_pictures, made, map_size, name, notes, picture, quality, table
+from .comparison import cameras_of
+from .exact import LEAST_RINGS, exact_pictures, made, name, notes, picture, quality
 from .truth import Drawn, Truth
 
 
@@ -72,11 +71,6 @@ def draw(
     return either.beside(truth, {way: drawn}, spec, stack.size, replace(settings, rings=rings))
 
 
-def stack_table(comparisons: Sequence[Comparison]) -> str:
-    """See `exact.table`."""
-    return table(comparisons, "BRDF", {"lobes": lambda _, way: way.lobes, "size": map_size})
-
-
 TRUTH = Truth(
     way=StackWay,
     draw=draw,
@@ -84,5 +78,4 @@ TRUTH = Truth(
     made=made,
     notes=notes,
     quality=quality,
-    table=stack_table,
 )

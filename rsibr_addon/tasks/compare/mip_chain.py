@@ -1,6 +1,5 @@
 """Mip chains against the reflectance that they approximate, integrated, or against Cycles."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import sqrt
 from pathlib import Path
@@ -15,8 +14,8 @@ from ...device.kinds.mip_chain import GpuMipChain
 from ...host.meshes import load_mesh
 from ...settings.mip_chain import MipComparison
 from . import either
-from .comparison import Comparison, cameras_of
-from .exact import exact_pictures, map_size, picture, rings_of, table
+from .comparison import cameras_of
+from .exact import exact_pictures, picture, rings_of
 from .truth import Drawn, Truth
 
 
@@ -96,10 +95,6 @@ def _is_look(way: MipWay, look: MipLook) -> bool:
     return chosen and look.antialiased and way.lobe == _lobe(look)
 
 
-def _table(comparisons: Sequence[Comparison]) -> str:
-    return table(comparisons, "lobe", {"size": map_size})
-
-
 TRUTH = Truth(
     way=MipWay,
     draw=draw,
@@ -107,6 +102,5 @@ TRUTH = Truth(
     made=either.UNLESS_NAMED.made,
     notes=either.UNLESS_NAMED.notes,
     quality=either.UNLESS_NAMED.quality,
-    table=_table,
     is_look=_is_look,
 )

@@ -1,7 +1,5 @@
 """Radiance views against Cycles; those of a model against the model."""
 
-import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -24,7 +22,7 @@ from ...host.meshes import load_mesh
 from ...settings.radiance_views import ViewsComparison
 from ..reflectance.brdfs import load_brdf, told_brdf
 from . import either, exact, references
-from .comparison import Comparison, cameras_of
+from .comparison import cameras_of
 from .truth import Drawn, Truth
 
 
@@ -123,32 +121,6 @@ def _material(map_set: Path, told: dict[str, Any], settings: ViewsComparison) ->
     return spec
 
 
-def views_table(comparisons: Sequence[Comparison]) -> str:
-    """Pooled errors of several comparisons as a table in Markdown.
-
-    Parameters
-    ----------
-    comparisons : sequence of Comparison
-        With the same ways of drawing, whatever the numbers of captured views.
-
-    Returns
-    -------
-    str
-        A row for each material, environment and number of captured views, in the order given; a
-        column for each mode and warp, and one for the noise of the references.
-    """
-    columns = list(dict.fromkeys((e.way.mode, e.way.warping) for c in comparisons for e in c.errors))
-    head = ["material", "environment", "views", *(f"{mode}, {warping}" for mode, warping in columns), "noise"]
-    rows = [head, ["---"] * 3 + ["---:"] * (len(columns) + 1)]
-    for comparison in comparisons:
-        pooled = {(e.way.captured_views, e.way.mode, e.way.warping): e.pooled for e in comparison.errors}
-        for captured_views in dict.fromkeys(way[0] for way in pooled):
-            errors = (pooled.get((captured_views, *column), math.nan) for column in columns)
-            numbers = [f"{number:.3f}" for number in (*errors, comparison.reference_noise)]
-            rows.append([comparison.material, comparison.environment, str(captured_views), *numbers])
-    return "".join(f"| {' | '.join(row)} |\n" for row in rows)
-
-
 def _is_look(way: ViewsWay, look: ViewsLook) -> bool:
     """Whether a way is a look's, or may be: which warp is the best is not told here."""
     fades_alike = look.fading is ViewsLook().fading
@@ -164,6 +136,5 @@ TRUTH = Truth(
     made=_TELLING.made,
     notes=_TELLING.notes,
     quality=lambda each: "sums over rings of points" if _TELLING.by_model(each) else references.quality(each),
-    table=views_table,
     is_look=_is_look,
 )

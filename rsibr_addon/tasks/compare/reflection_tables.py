@@ -22,8 +22,8 @@ from ...files.brdfs import read_measured
 from ...host.meshes import TriangleMesh, load_mesh
 from ...settings.reflection_tables import TablesComparison
 from . import either
-from .comparison import Comparison, cameras_of
-from .exact import exact_pictures, map_size, picture, rings_of, table
+from .comparison import cameras_of
+from .exact import exact_pictures, picture, rings_of
 from .truth import Drawn, Truth
 
 FINER = 4
@@ -124,10 +124,6 @@ def _added(first: Array, second: Array) -> Array:
     return np.dstack([first[..., :3] + second[..., :3], second[..., 3]])
 
 
-def _table(comparisons: Sequence[Comparison]) -> str:
-    return table(comparisons, "material", {"size": map_size, "tables": lambda _, way: way.name})
-
-
 def _is_look(way: TablesWay, look: TablesLook) -> bool:
     return look == TablesLook(fade=way.fade)
 
@@ -139,6 +135,5 @@ TRUTH = Truth(
     made=either.UNLESS_NAMED.made,
     notes=either.UNLESS_NAMED.notes,
     quality=either.UNLESS_NAMED.quality,
-    table=_table,
     is_look=_is_look,
 )

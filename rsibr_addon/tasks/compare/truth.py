@@ -1,6 +1,6 @@
 """References for pictures drawn from map sets of a kind."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -60,8 +60,6 @@ class Truth:
         A comparison to what else there is to know of its references, as HTML.
     quality : callable
         Settings to how good the references are, in words.
-    table : callable
-        Several comparisons to a table in Markdown, a row or more for each.
     is_look : callable
         Whether a way to draw is that of a look.
     """
@@ -72,5 +70,4 @@ class Truth:
     made: Callable[[Any], str]
     notes: Callable[[Comparison], str]
     quality: Callable[[Any], str]
-    table: Callable[[Sequence[Comparison]], str]
     is_look: Callable[[Any, Any], bool] = lambda way, look: True

@@ -8,6 +8,7 @@ from ...core.progress import Progress, Steps
 from ...core.warned import recorded_warnings, warn
 from ...device.context import ensure_context
 from ...files.atomic import check_target, written_aside
+from ...files.outputs import make_folder
 from ...host.bake_settings import enable_extension
 from ...host.blend_files import open_blend
 from ...host.render_views import STEREOSCOPY, checked_camera, without
@@ -78,7 +79,7 @@ def render_frames(
             f"{output} is one name for {len(paths)} frames: write #### where the number goes."
         )
     for path in paths:
-        path.parent.mkdir(parents=True, exist_ok=True)
+        make_folder(path.parent)
         check_target(path, force, tuple(FORMATS))
     yield from bake_for_render(scene)
     for done, (number, path) in enumerate(zip(numbers, paths, strict=True)):

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..core.errors import InputFileError
+from ..files.reading import opened
 from ..job import BakeJob, read_job
 from .bake import run_job
 from .console import Console
@@ -48,10 +49,9 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
 
 def _text(path: Path) -> str:
-    if not path.is_file():
-        raise InputFileError(f"There is no job {path}: check the path.")
     try:
-        return path.read_text(encoding="utf-8")
+        with opened(path) as stream:
+            return stream.read().decode()
     except UnicodeDecodeError as error:
         raise InputFileError(f"{path} is no text: give a job, which is JSON in UTF-8.") from error
 

@@ -148,5 +148,5 @@ def sentence_of(error: Exception, command: str) -> str:
     if isinstance(error, MemoryError):
         return "The memory of this machine is used up: choose a smaller size, or close other programs."
     if isinstance(error, OSError) and error.filename is not None:
-        return f"{error.filename}: {error.strerror}."
+        return f"{error.filename} cannot be used ({error.strerror}): check what is there, or give another."
     return str(error)

@@ -211,9 +211,14 @@ def _picture(
                 source.close()
 
 
+UNKNOWN_KIND = "it is of no known kind"
+
+
 def _reason(text: str) -> str:
     """OpenImageIO's reason why it cannot read a file, without the file's name."""
-    return text.strip().split("\n")[0].partition(' ("')[0].rstrip(".") or "it is of no known kind"
+    if "could not find a format reader" in text:
+        return UNKNOWN_KIND
+    return text.strip().split("\n")[0].partition(' ("')[0].rstrip(".") or UNKNOWN_KIND
 
 
 def _white(numbers: Array) -> float:

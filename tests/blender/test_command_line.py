@@ -199,7 +199,10 @@ def test_json_result_holds_warnings(capfd: pytest.CaptureFixture[str]) -> None:
     ("how", "sentence"),
     [
         ("fail", "The sky fell: hold it up."),
-        ("system", "missing.txt: No such file or directory."),
+        (
+            "system",
+            "missing.txt cannot be used (No such file or directory): check what is there, or give another.",
+        ),
     ],
 )
 def test_failure_is_1_on_both_streams(

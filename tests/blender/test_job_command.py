@@ -71,7 +71,7 @@ def test_without_a_world_there_is_a_sentence(capfd: pytest.CaptureFixture[str]) 
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        (None, "There is no job job.json: check the path."),
+        (None, "job.json does not exist: check the name and the folder."),
         (b"\xff\xfe\xfd", "job.json is no text"),
         ("{}", "job.json is no job"),
         (

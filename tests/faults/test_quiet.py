@@ -27,4 +27,7 @@ def test_a_preview_says_what_it_made_and_keeps_the_rest_in_a_log(tmp_path: Path)
 def test_a_log_that_cannot_be_written_is_told(tmp_path: Path) -> None:
     ended = run(tmp_path, "info", "in.exr", "--log", "missing/log.txt")
     assert ended.code == 1
-    assert ended.err == "rsibr: error: missing/log.txt: No such file or directory.\n"
+    assert ended.err == (
+        "rsibr: error: missing/log.txt cannot be used (No such file or directory): check what is there, or "
+        "give another.\n"
+    )

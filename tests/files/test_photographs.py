@@ -110,6 +110,15 @@ def test_what_is_no_picture_is_refused(
     assert capfd.readouterr() == ("", "")
 
 
+def test_a_file_of_no_known_kind_is_told_in_one_sentence(tmp_path: Path) -> None:
+    (tmp_path / "a.txt").write_text("just text")
+    told = (
+        r"a\.txt cannot be read as a picture \(it is of no known kind\): check the file, or save it as PNG\.$"
+    )
+    with pytest.raises(InputFileError, match=told):
+        read_photograph(tmp_path / "a.txt")
+
+
 @pytest.mark.parametrize("ending", ["jpg", "png", "webp", "tif", "gif", "bmp"])
 @pytest.mark.parametrize("share", [0.2, 0.6, 0.95])
 def test_what_is_cut_off_is_refused(

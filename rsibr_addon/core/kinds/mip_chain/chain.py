@@ -141,5 +141,5 @@ def check_roughness(roughness: tuple[float, ...], repeated: bool = False) -> Non
     steps = np.diff(roughness)
     if not all(0.0 <= r <= 1.0 for r in roughness) or np.any(steps < 0.0 if repeated else steps <= 0.0):
         raise RangeError(
-            f"Roughnesses {', '.join(f'{r:g}' for r in roughness)} do not ascend from 0 to 1: order them."
+            f"Roughnesses {', '.join(f'{r:g}' for r in roughness)} do not ascend within 0 to 1: change them."
         )

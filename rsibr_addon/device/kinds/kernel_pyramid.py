@@ -80,10 +80,6 @@ class GpuPyramid(ProgramMapSet):
             GpuTexture("sheen", sheen_texels(families)),
         )
         self._families, self._places = families, places
-        # The widest maps, which come first, are of kernels that hardly cancel each other
-        sizes = [len(sheet) for sheets in pyramid.all_maps for sheet in sheets]
-        rows = sizes.count(sizes[0]) * (sizes[0] + 2)
-        self._exact_from = rows if rows < len(atlas) else 0
         self._materials = MaterialBinding()
 
     def inputs(self, look: PrincipledLook | Surface) -> Inputs:
@@ -95,7 +91,7 @@ class GpuPyramid(ProgramMapSet):
             principled_shader,
             look_fields(surface, is_antialiased),
             textures,
-            exact_from={"atlas": self._exact_from},
+            exact_from={"atlas": 0},
         )
 
     def split_sum(self) -> dict[str, GpuTexture]:

@@ -317,6 +317,16 @@ def test_a_page_says_what_a_browser_lacks(before: str, sentence: str, tmp_path: 
         driven(page_of(sky_file(tmp_path)), "", before=before)
 
 
+@pytest.mark.slow
+def test_a_damaged_page_says_so(tmp_path: Path) -> None:
+    page = page_of(light_file(tmp_path, "mip_chain"))
+    text = page.read_text()
+    middle = text.index('"data":"', text.index('"atlas"')) + 2000
+    page.write_text(text[:middle] + text[middle + 1000 :])
+    with pytest.raises(AssertionError, match="This page is damaged: a part of it cannot be unpacked"):
+        driven(page, "")
+
+
 def widths(said: dict[str, str]) -> dict[str, int]:
     """How many pixels wide the object is in each picture."""
     return {name: int((radiance(text)[..., 3] > 0.5).any(axis=0).sum()) for name, text in said.items()}

@@ -18,6 +18,7 @@ function say(sentence) {
   const place = document.querySelector("#trouble");
   place.textContent = sentence;
   place.hidden = false;
+  document.querySelector("#waiting").hidden = true;
 }
 
 class Page {

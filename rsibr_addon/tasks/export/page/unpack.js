@@ -5,7 +5,9 @@ const STEPS = 256;
 async function inflated(text) {
   const stored = bytesOf(text);
   const stream = new Blob([stored]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return new Response(stream).arrayBuffer();
+  return new Response(stream).arrayBuffer().catch(() => {
+    throw new Error("a part of it cannot be unpacked. Ask for it again.");
+  });
 }
 
 // 13 bits in two letters, or 5 at the end in one.

@@ -5,89 +5,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import bpy
-from rsibr.tests.gui.test_panel import PRELUDE
+from rsibr.tests.gui.panel import HANDS, PRELUDE
 
 LARGEST = 150_000
 """Bytes of a picture."""
-
-HANDS = """
-def event(kind, value, x, y, **more):
-    window().event_simulate(type=kind, value=value, x=x, y=y, **more)
-    yield
-
-clicks = []
-
-def click(x, y):
-    clicks.append((x, y))
-    yield from event("MOUSEMOVE", "NOTHING", x, y)
-    yield from event("LEFTMOUSE", "PRESS", x, y)
-    yield from event("LEFTMOUSE", "RELEASE", x, y)
-    yield from drawn()
-
-def key(kind, letter=None, **modifiers):
-    # Over the viewport
-    part = region(view())
-    x, y = part.x + part.width // 3, part.y + part.height // 2
-    typed = {"unicode": letter} if letter else {}
-    yield from event("MOUSEMOVE", "NOTHING", x, y)
-    yield from event(kind, "PRESS", x, y, **typed, **modifiers)
-    yield from event(kind, "RELEASE", x, y, **modifiers)
-
-def look_up(words):
-    # In a menu that searches
-    for letter in words:
-        yield from key("SPACE" if letter == " " else letter.upper(), letter)
-    yield from drawn()
-
-def name_at(x, y):
-    # The setting or command under the mouse
-    wm = bpy.context.window_manager
-    wm.clipboard = ""
-    yield from event("MOUSEMOVE", "NOTHING", x, y)
-    yield
-    area, part = sidebar()
-    with bpy.context.temp_override(window=window(), area=area, region=part):
-        for copy in (bpy.ops.ui.copy_data_path_button, bpy.ops.ui.copy_python_command_button):
-            if not wm.clipboard and copy.poll():
-                copy()
-    return wm.clipboard
-
-def find(name, share=0.5):
-    # Where the sidebar shows it, looking from top to bottom at a share of its width
-    part = sidebar()[1]
-    x = part.x + int((part.width - 40) * share)
-    for y in range(part.y + part.height - 12, part.y, -12):
-        if name in (yield from name_at(x, y)):
-            return x, y - 3
-    raise AssertionError(f"the sidebar does not show {name}")
-
-def push(name, share=0.5):
-    yield from click(*(yield from find(name, share)))
-
-def choose(name, value):
-    # Turn the wheel over a list, with Ctrl held
-    x, y = yield from find(name)
-    for _ in range(20):
-        if bpy.context.scene.path_resolve(name) == value:
-            return
-        yield from event("WHEELDOWNMOUSE", "PRESS", x, y, ctrl=True)
-        yield
-    raise AssertionError(f"{name} does not become {value}")
-
-def scroll():
-    # To the panel's end
-    part = sidebar()[1]
-    for _ in range(15):
-        yield from event("WHEELDOWNMOUSE", "PRESS", part.x + part.width // 2, part.y + 200)
-    yield from drawn()
-
-def picture(name, left=3):
-    # The viewport from some column on, with the sidebar
-    area = view()
-    shown = xshot.grab()
-    top = shown.shape[0] - area.y - area.height
-    xshot.save(shown[top : top + area.height, left : area.x + area.width], f"/job/{name}.png")
-"""
 
 WAY = """
 SIDEBAR = 766

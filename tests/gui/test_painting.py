@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 import pytest
-from rsibr.tests.gui.test_panel import PRELUDE
+from rsibr.tests.gui.panel import PRELUDE
 
 PAINTING = """
 def stroke(editor):
@@ -60,16 +60,8 @@ def scenario(told):
     yield from drawn_with_news()
     yield from drawn_with_news()
     told["undone"] = middle()
-    sidebar()
-    yield from drawn()
-    sidebar()[1].active_panel_category = "RSIBR"
-    # The other panels would push it down and out of sight
-    result = bpy.types.RSIBR_PT_result
-    for panel in reversed(bpy.types.Panel.__subclasses__()):
-        if panel.__name__.startswith("RSIBR_PT_"):
-            bpy.utils.unregister_class(panel)
-    del result.bl_parent_id
-    bpy.utils.register_class(result)
+    yield from tab()
+    only(bpy.types.RSIBR_PT_result)
     yield from drawn_with_news()
     xshot.save(xshot.grab(), "/job/panel.png")
     told["pressed"] = yield from press("bpy.ops.rsibr.save_back(")

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from rsibr.tests.gui.panel import PRELUDE
 
 Told = Callable[[str], dict]
 
@@ -14,61 +15,6 @@ def _nothing_baked(job: Path) -> None:
     for folder in [job / "rsibr", *job.glob("user/extensions/.user/*/rsibr/baked")]:
         shutil.rmtree(folder, ignore_errors=True)
 
-
-PRELUDE = """
-import importlib, os, pathlib, signal
-background = importlib.import_module(ROOT + ".operators.background")
-
-def settings():
-    chosen = bpy.context.scene.rsibr_bake
-    chosen.kind, chosen.light, chosen.studio = "radiance_views", "STUDIO", "forest"
-    views = chosen.radiance_views
-    views.size, views.samples, views.denoise = 16, 2, False
-    return chosen
-
-def sidebar():
-    area = view()
-    area.spaces.active.show_region_ui = True
-    return area, next(each for each in area.regions if each.type == "UI")
-
-def command_at(x, y):
-    # What the button under the mouse does; empty where there is none
-    wm = bpy.context.window_manager
-    wm.clipboard = ""
-    window().event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y)
-    yield
-    yield
-    area, region = sidebar()
-    with bpy.context.temp_override(window=window(), area=area, region=region):
-        if bpy.ops.ui.copy_python_command_button.poll():
-            bpy.ops.ui.copy_python_command_button()
-    return wm.clipboard
-
-def press(command):
-    # Find the button that runs a command, by moving the mouse down the panel, and click it
-    area, region = sidebar()
-    x = region.x + region.width // 3
-    for y in range(region.y + region.height - 10, region.y, -12):
-        found = yield from command_at(x, y)
-        if found.startswith(command):
-            window().event_simulate(type="LEFTMOUSE", value="PRESS", x=x, y=y)
-            yield
-            window().event_simulate(type="LEFTMOUSE", value="RELEASE", x=x, y=y)
-            yield
-            return True
-    return False
-
-def done(until=lambda: not session().bakes.busy):
-    while not until():
-        yield
-
-def finished_views(bake):
-    return len(list(pathlib.Path(f"{bake.output}.partial").glob("view*.exr")))
-
-def bake():
-    with bpy.context.temp_override(window=window()):
-        return list(bpy.ops.rsibr.bake("INVOKE_DEFAULT"))
-"""
 
 WAY = """
 def scenario(told):

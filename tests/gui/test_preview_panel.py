@@ -2,8 +2,7 @@
 
 from collections.abc import Callable
 
-from rsibr.tests.gui.test_guide import HANDS
-from rsibr.tests.gui.test_panel import PRELUDE
+from rsibr.tests.gui.panel import HANDS, PRELUDE
 
 Told = Callable[[str], dict]
 
@@ -37,14 +36,6 @@ def two_slots():
     for face in cube.data.polygons:
         face.material_index = face.index % 2
     return cube
-
-def tab():
-    yield from drawn()
-    sidebar()
-    yield from drawn()
-    sidebar()[1].active_panel_category = "RSIBR"
-    for _ in range(5):
-        yield from drawn()
 
 def fresh():
     # Until it has been looked, and nothing is baked; the looks come after an edit

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from rsibr.tests.gui.test_panel import PRELUDE
+from rsibr.tests.gui.panel import PRELUDE
 
 ENDED = """
 queue = importlib.import_module(ROOT + ".rsibr_addon.tasks.queue.background")
@@ -19,9 +19,7 @@ def look():
 def scenario(told):
     chosen = settings()
     chosen.light = "WORLD"  # of the fewest buttons, so that the queue is in sight
-    sidebar()
-    yield from drawn()
-    sidebar()[1].active_panel_category = "RSIBR"
+    yield from tab()
     yield from look()
     nothing = yield from look()
     ended = request.ObjectBake(title="Cube: paint", output=pathlib.Path("/job/a.rsibr.exr"), command=())

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from rsibr.tests.gui.test_panel import PRELUDE
+from rsibr.tests.gui.panel import PRELUDE
 
 PICTURES = """
 facts = importlib.import_module(ROOT + ".rsibr_addon.tasks.report.facts")
@@ -27,19 +27,9 @@ def scenario(told):
             filepath="/job/stack.rsibr.exr", environment="city", brdf="ward:alpha=0.3,ks=1", size=16, slices=4
         )
         bpy.ops.rsibr.assign(filepath="/job/mips.rsibr.exr")
-    sidebar()
-    yield from look()
-    sidebar()[1].active_panel_category = "RSIBR"
-    # The other panels would push it down and out of sight
-    names = [f"RSIBR_PT_result{part}" for part in ("", "_maps", "_lobes")]
-    result, *below = results = [getattr(bpy.types, name) for name in names]
-    for panel in reversed(bpy.types.Panel.__subclasses__()):
-        if panel.__name__.startswith("RSIBR_PT_"):
-            bpy.utils.unregister_class(panel)
-    del result.bl_parent_id
-    below[1].bl_options = set()
-    for panel in results:
-        bpy.utils.register_class(panel)
+    yield from tab()
+    bpy.types.RSIBR_PT_result_lobes.bl_options = set()
+    only(*(getattr(bpy.types, f"RSIBR_PT_result{part}") for part in ("", "_maps", "_lobes")))
     yield from look()
     yield from done(lambda: session().map_pictures.items)
     told["mips"] = [each[1] for each in session().map_pictures.items]

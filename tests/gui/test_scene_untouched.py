@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from rsibr.rsibr_addon.files.png import png_of
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
-from rsibr.tests.gui.test_panel import PRELUDE
+from rsibr.tests.gui.panel import PRELUDE
 
 PANELS = Path(__file__).parents[2] / "rsibr_addon" / "ui"
 

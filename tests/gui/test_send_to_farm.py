@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from rsibr.tests.gui.test_panel import PRELUDE
+from rsibr.tests.gui.panel import PRELUDE
 
 MANAGER = """
 import fcntl, http.server, json, socket, struct, subprocess, threading

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from rsibr.tests.gui.test_panel import PRELUDE
+from rsibr.tests.gui.panel import PRELUDE
 
 Told = Callable[[str], dict]
 
@@ -23,12 +23,7 @@ def scenario(told):
     sidebar()
     yield from drawn()
     sidebar()[1].active_panel_category = "RSIBR"
-    # The other panels would push it down and out of sight
-    shown = bpy.types.RSIBR_PT_look
-    for panel in reversed(bpy.types.Panel.__subclasses__()):
-        if panel.__name__.startswith("RSIBR_PT_"):
-            bpy.utils.unregister_class(panel)
-    bpy.utils.register_class(shown)
+    only(bpy.types.RSIBR_PT_look)
     parts = ball.rsibr.reflection_tables
     yield from drawn_with_news()
     told["baked"] = [parts.diffuse_model, parts.specular_n, parts.coat_model]

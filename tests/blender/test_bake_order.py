@@ -1,5 +1,6 @@
 """What the panel's settings ask for: a job that the command line takes, a name that tells bakes apart."""
 
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from unittest.mock import MagicMock
@@ -10,6 +11,7 @@ import pytest
 from rsibr.rsibr_addon.core.errors import InputFileError, OutputFileError, RsibrError, SceneError
 from rsibr.rsibr_addon.files.exr import write_parts
 from rsibr.rsibr_addon.files.exr_part import Part
+from rsibr.rsibr_addon.files.map_set import read_map_set, write_map_set
 from rsibr.rsibr_addon.files.staging import is_staging_folder
 from rsibr.rsibr_addon.host.bake_settings import apply_settings, plain_settings
 from rsibr.rsibr_addon.job import read_job
@@ -249,6 +251,34 @@ def test_what_was_baked_before_is_taken_at_once(tmp_path: Path) -> None:
     with pytest.raises(RuntimeError, match="There is no Blender to bake in"):
         bpy.ops.rsibr.bake()
     assert cube.rsibr.map_set == ""
+
+
+@pytest.mark.parametrize(
+    ("kind", "least", "role"),
+    [
+        ("kernel_pyramid", {"size": "256"}, "ring"),
+        ("mip_chain", {"size": "64", "filter": "box"}, "harmonics"),
+    ],
+)
+def test_what_cannot_be_shown_is_baked_again(tmp_path: Path, kind: str, least: dict, role: str) -> None:
+    chosen = bpy.context.scene.rsibr_bake
+    chosen.kind = kind
+    for name, value in least.items():
+        setattr(getattr(chosen, kind), name, value)
+    path = output()
+    assert run_job(order().job(path), tmp_path) == 0
+    assert is_baked(path)
+    written = path.read_bytes()
+    # As a version wrote it that had no such maps, under the same name
+    held = read_map_set(path)
+    held.header["parts"] = [part for part in held.header["parts"] if part["role"] != role]
+    maps = {part["name"]: held.maps[part["name"]] for part in held.header["parts"]}
+    assert len(maps) < len(held.maps)
+    write_map_set(path, replace(held, maps=maps), force=True)
+    assert path == output()
+    assert not is_baked(path)
+    assert run_job(order().job(path), tmp_path) == 0
+    assert path.read_bytes() == written
 
 
 def test_only_map_sets_are_assigned(tmp_path: Path) -> None:

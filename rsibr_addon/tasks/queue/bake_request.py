@@ -205,9 +205,10 @@ def plain_name(map_set: Path) -> str:
 
 
 def is_baked(output: Path) -> bool:
-    """Whether a file is there, and a map set that is whole."""
+    """Whether a file is there, and a map set that is whole and of maps that its kind takes."""
     try:
-        read_map_set(output)
+        held = read_map_set(output)
+        KINDS[held.kind].from_map_set(output, held)
     except MapSetError:
         return False
     return True

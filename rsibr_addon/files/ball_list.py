@@ -19,6 +19,8 @@ class BallPhotograph:
     Attributes
     ----------
     path : Path
+    name : str
+        As the list names it.
     view_dir : (float, float, float)
         From the ball to the camera, of any length.
     circle : (float, float, float) or None
@@ -27,6 +29,7 @@ class BallPhotograph:
     """
 
     path: Path
+    name: str
     view_dir: Triple
     circle: Triple | None
 
@@ -64,5 +67,6 @@ def read_ball_list(path: str | Path) -> list[BallPhotograph]:
         raise InputFileError(f"{path} is no list of photographs: {error}") from error
     folder = Path(path).parent
     return [
-        BallPhotograph(folder / each["file"], each["view_dir"], each.get("circle")) for each in photographs
+        BallPhotograph(folder / each["file"], each["file"], each["view_dir"], each.get("circle"))
+        for each in photographs
     ]

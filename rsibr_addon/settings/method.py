@@ -22,3 +22,8 @@ class MethodSettings(Options):
     LABEL: ClassVar[str]
     SUMMARY: ClassVar[str]
     REMARK: ClassVar[str] = ""
+
+    @property
+    def only_names_material(self) -> bool:
+        """Whether the material is no more than a name, as where photographs show it."""
+        return False

@@ -96,6 +96,11 @@ class RadianceViewsSettings(MethodSettings):
         0, label="Seed", help="Seed of Cycles' noise", least=0, most=(1 << 31) - 1, advanced=True
     )
 
+    @property
+    def only_names_material(self) -> bool:
+        """See `MethodSettings`."""
+        return self.photographs is not None
+
 
 RENDERING = ("samples", "denoise", "seed")
 """Settings that count for a material that is rendered, not for a model."""

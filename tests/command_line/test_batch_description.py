@@ -127,9 +127,16 @@ def test_files_that_settings_name_are_beside_the_batch(
             {"environments": ["dark.exr"], "methods": ["lobe-stack"], "materials": ["merl:path=a/b.binary"]}
         )
     )
+    probes = {"kind": "mip-chain", "probes": "box:light=hall.exr,size=6/5/3;sphere:size=1/1/1,light=b/c.exr"}
+    Path("rooms.json").write_text(json.dumps({"environments": ["dark.exr"], "methods": [probes]}))
     monkeypatch.chdir("light")
     [bake] = read_batch(path)
     assert bake.job.settings.fit == f"{tmp_path}/fit.json"
+    [rooms] = read_batch(tmp_path / "rooms.json")
+    assert [each.light for each in rooms.job.settings.rooms] == [
+        f"{tmp_path}/hall.exr",
+        f"{tmp_path}/b/c.exr",
+    ]
     [spec] = read_batch(tmp_path / "spec.json")
     assert spec.job.settings.brdf == f"merl:path={tmp_path}/a/b.binary"
     assert spec.job.light.environment == f"{tmp_path}/dark.exr"

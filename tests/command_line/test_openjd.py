@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -35,6 +36,14 @@ def bundle(**changed: Any) -> Path:
     Path("Metals & more.json").write_text(json.dumps(batch | changed))
     assert run(["submit", "Metals & more.json", "--openjd", "bundle"]) == 0
     return Path("bundle")
+
+
+def write_ball_list(name: str = "balls/0.exr") -> None:
+    """A photograph of a ball, and the list balls.json that names it so."""
+    Path("balls").mkdir()
+    write_radiance(Path("balls/0.exr"), np.random.default_rng(2).random((8, 16, 3)))
+    photograph = {"file": name, "view_dir": [0, -1, 0], "circle": [8, 4, 3]}
+    Path("balls.json").write_text(json.dumps({"photographs": [photograph]}))
 
 
 def template(folder: Path) -> Any:
@@ -76,6 +85,52 @@ def test_a_bundle_names_nothing_outside() -> None:
     ]  # fmt: skip
     texts = [path.read_text() for path in written if path.suffix in (".json", ".yaml")]
     assert all(str(folder.parent) not in text for text in texts)
+
+
+@pytest.mark.parametrize(
+    "method",
+    [
+        {"kind": "radiance-views", "size": 4, "photographs": "balls.json"},
+        {"kind": "radiance-views", "size": 4, "view_file": "views.txt", "material": "lambert:kd=0.5"},
+        {"kind": "mip-chain", "size": 4, "probes": "box:light=dusk.exr,size=6/5/3;sphere:light=balls/0.exr"},
+    ],
+    ids=["photographs", "view-file", "probes"],
+)
+def test_a_bundle_has_the_files_that_others_name(
+    method: dict[str, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    here = tmp_path / "here"
+    here.mkdir()
+    monkeypatch.chdir(here)
+    write_ball_list()
+    Path("views.txt").write_text("0 -1 0\n")
+    for name in ("dawn.exr", "dusk.exr"):
+        (tmp_path / name).rename(name)
+    folder = bundle(
+        environments=["dawn.exr"], materials=["paint"] if "photographs" in method else [], methods=[method],
+        output="one.exr",
+    )  # fmt: skip
+    assert run(["batch", "Metals & more.json"]) == 0
+    assert "will fail" not in capfd.readouterr().err
+    alone = read_map_set_header(Path("one.exr"))
+    moved = folder.rename(tmp_path / "elsewhere")
+    shutil.rmtree(here)
+    monkeypatch.chdir(tmp_path)
+    assert run(["batch", str(moved / "inputs" / "Metals-more.json"), "--output", "maps"]) == 0
+    assert read_map_set_header(Path("maps/one.exr"))["parts"] == alone["parts"]
+    assert read_map_set_header(Path("maps/one.exr"))["recipe"] == alone["recipe"]
+
+
+@pytest.mark.parametrize("name", ["../0.exr", "{here}/balls/0.exr"])
+def test_photographs_that_other_machines_lack_are_refused(
+    name: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    write_ball_list(name.format(here=tmp_path))
+    method = {"kind": "radiance-views", "material": "paint", "photographs": "balls.json"}
+    Path("away.json").write_text(json.dumps({"environments": ["dawn.exr"], "methods": [method]}))
+    assert run(["submit", "away.json", "--openjd", "bundle"]) == 1
+    assert "balls.json names " in (told := capfd.readouterr().err)
+    assert "put it beside the list, and name it relative to the list's folder" in told
 
 
 def test_other_words_can_start_it() -> None:

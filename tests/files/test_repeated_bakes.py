@@ -171,6 +171,11 @@ def test_files_of_measured_models_within_models_count_too() -> None:
         ("blend:m.blend:m.blend", "blend:b:m.blend"),
         ("m.blend:Cup", "b:Cup"),
         ("am.blend:Cup", "am.blend:Cup"),
+        (
+            "box:light=merl,size=1/1/1;sphere:size=2/2/2,light= merl ; ",
+            "box:light=new,size=1/1/1;sphere:size=2/2/2,light= new ; ",
+        ),
+        ("box:light=far/merl", "box:light=far/merl"),
     ],
 )
 def test_files_have_other_names_where_they_are_values(text: str, named: str) -> None:

@@ -32,6 +32,7 @@ FIELDS = ("environment", "material", "method", "size")
 
 _BLEND = re.compile(r"(.+?\.blend\d*):(.+)", re.IGNORECASE)
 _PATH = re.compile(r"\bpath=([^,]+)")
+_LIGHT = re.compile(r"\blight=([^,;]+)")  # of a probe
 _MODELS = {name: text for models in GALLERY.values() for name, text in models.items()}
 
 
@@ -141,7 +142,12 @@ def _with_files_beside(given: dict[str, Any], kind: str, folder: Path) -> dict[s
         for each in declared_options(STORED[kind].settings)
         if each.option.subtype == "FILE_PATH" and isinstance(given.get(each.name), str)
     ]
-    return given | {name: str(folder / given[name]) for name in files}
+    texts = {
+        name: _LIGHT.sub(lambda found: f"light={folder / found[1]}", value)
+        for name, value in given.items()
+        if isinstance(value, str)
+    }
+    return given | texts | {name: str(folder / given[name]) for name in files}
 
 
 def _environments(text: str, folder: Path) -> Sequence[str]:

@@ -27,7 +27,7 @@ def fault_of(bake: BatchBake) -> str:
     settings = bake.job.settings
     for each in declared_options(type(settings)):
         taken, text = each.option.materials, getattr(settings, each.name)
-        if taken and taken.model and text and not _is_known(text):
+        if taken and taken.model and text and not (settings.only_names_material or _is_known(text)):
             return _unknown(text)
     try:
         METHODS[settings.KIND].cost(settings)

@@ -6,6 +6,7 @@ import os
 import shutil
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -58,13 +59,15 @@ def bakes_to_send(path: Path) -> tuple[str, Path, list[BatchBake]]:
     Raises
     ------
     InputFileError
-        See `read_batch`; or an output lies outside the batch's folder, or is that of several objects.
+        See `read_batch`; or an output lies outside the batch's folder, or is that of several objects; or a
+        list names files outside its folder.
     SceneError
         A job's pattern means no object.
     """
     job = _read_job(path)
     if job is not None:
         bakes = [_bake_of(each) for each in _jobs_of(job)]
+        _check_lists(bakes)
         title = bakes[0].title if len(bakes) == 1 else path.stem
         return title, Path(job.output).parent, bakes
     bakes = []
@@ -76,6 +79,7 @@ def bakes_to_send(path: Path) -> tuple[str, Path, list[BatchBake]]:
                 f"batch's folder."
             )
         bakes.append(replace(each, job=replace(each.job, output=Path(output).as_posix())))
+    _check_lists(bakes)
     return path.stem, path.parent, bakes
 
 
@@ -152,14 +156,17 @@ class _Copies:
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
-        self._made: dict[str, str] = {}
+        self._made: set[str] = set()
 
     def placed(self, bake: BatchBake) -> BatchBake:
         """A bake with paths of the folder; as it is, where it cannot be done anywhere."""
         job, opened = bake.job, bake.opened
         try:
             sources = _sources(bake)
-            replaced = {file: self._copy(Path(file)) for file in sources.files if file}
+            if sources.listed:
+                replaced = {sources.files[0]: self._copy_list(Path(sources.files[0]), sources.listed)}
+            else:
+                replaced = {file: self._copy(Path(file)) for file in sources.files if file}
             if blend := _blend_file(sources.material):
                 replaced[blend] = self._packed(Path(blend))
             light = job.light
@@ -170,17 +177,20 @@ class _Copies:
         except InputFileError:
             return bake
         if _means_open_file(bake):
-            opened = Opened(self._once("", "open.blend", _write_open_file), _open_path())
+            opened = Opened(self._once("open.blend", _write_open_file), _open_path())
         settings = _with_texts(job, replaced)
         return replace(bake, job=replace(settings, light=light), opened=opened)
 
     def _copy(self, file: Path) -> str:
-        def copy(target: Path) -> None:
-            if not target.exists():
-                with written_aside(target) as aside:
-                    shutil.copyfile(file, aside)
+        return self._once(f"{digest(file)[:HASH_LETTERS]}/{file.name}", partial(_copy, file))
 
-        return self._once(str(file), f"{digest(file)[:HASH_LETTERS]}/{file.name}", copy)
+    def _copy_list(self, file: Path, listed: Sequence[str]) -> str:
+        """A list beside what it names, so that its names hold."""
+        files = {name: file.parent / name for name in (file.name, *listed)}
+        digests = [digest(each) for each in files.values()]
+        letters = hashlib.sha256("".join(digests).encode()).hexdigest()[:HASH_LETTERS]
+        copies = [self._once(f"{letters}/{name}", partial(_copy, each)) for name, each in files.items()]
+        return copies[0]
 
     def _packed(self, file: Path) -> str:
         def pack(target: Path) -> None:
@@ -189,16 +199,22 @@ class _Copies:
             open_blend(file)
             _write_packed(target)
 
-        return self._once(str(file), f"{digest(file)[:HASH_LETTERS]}/{file.name}", pack)
+        return self._once(f"{digest(file)[:HASH_LETTERS]}/{file.name}", pack)
 
-    def _once(self, source: str, name: str, write: Callable[[Path], None]) -> str:
+    def _once(self, name: str, write: Callable[[Path], None]) -> str:
         """The path of a copy within the list; it is written once."""
-        if source not in self._made:
+        if name not in self._made:
             target = self._folder / name
             make_folder(target.parent)
             write(target)
-            self._made[source] = f"{HERE}/{name}"
-        return self._made[source]
+            self._made.add(name)
+        return f"{HERE}/{name}"
+
+
+def _copy(file: Path, target: Path) -> None:
+    if not target.exists():
+        with written_aside(target) as aside:
+            shutil.copyfile(file, aside)
 
 
 def _open_path() -> str:
@@ -231,6 +247,17 @@ def _with_texts(job: BakeJob[Any], replaced: dict[str, str]) -> BakeJob[Any]:
     made = read_job(json.dumps(plain), "The job")
     assert isinstance(made, BakeJob)
     return made
+
+
+def _check_lists(bakes: Sequence[BatchBake]) -> None:
+    """Refuse lists of files whose names mean nothing elsewhere."""
+    for sources in map(_sources, bakes):
+        for name in map(Path, sources.listed):
+            if name.is_absolute() or os.pardir in name.parts:
+                raise InputFileError(
+                    f"{sources.files[0]} names {name}, which other machines may not have: put it beside the "
+                    f"list, and name it relative to the list's folder."
+                )
 
 
 def _identity(bake: BatchBake) -> str:

@@ -117,10 +117,13 @@ class Sources:
         Files that they name, but for files of Blender.
     material : str or None
         The material that Blender makes or holds, as `host.materials.load_material` names it.
+    listed : tuple of str
+        Where the first of `files` lists the others: their names in it, relative to its folder.
     """
 
     files: tuple[str, ...] = ()
     material: str | None = None
+    listed: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from ...core.options import to_plain
 from ...core.progress import Progress, Steps, drain
 from ...core.warned import warn
 from ...files.atomic import written_aside
-from ...files.ball_list import read_ball_list
+from ...files.ball_list import BallPhotograph, read_ball_list
 from ...files.exr import read_parts, write_parts
 from ...files.exr_part import Part
 from ...files.kinds.radiance_views import LEFT_OUT
@@ -66,7 +66,9 @@ def material(settings: RadianceViewsSettings) -> str:
 def sources(settings: RadianceViewsSettings) -> Sources:
     """See `Method`."""
     if settings.photographs is not None:
-        return Sources((settings.photographs, *_photographs_if_there(settings.photographs)))
+        listed = _photographs_if_there(settings.photographs)
+        files = (settings.photographs, *(str(each.path) for each in listed))
+        return Sources(files, listed=tuple(each.name for each in listed))
     files = () if settings.view_file is None else (settings.view_file,)
     if is_model(settings.material):
         return Sources((*measured_files(partial(brdf_from_spec, settings.material)), *files))
@@ -154,10 +156,10 @@ def _sphere(settings: RadianceViewsSettings) -> GeodesicSphere:
     return view_sphere(read_view_dirs(settings.view_file))
 
 
-def _photographs_if_there(path: str) -> list[str]:
-    """The files that a list names; a bake tells what is wrong with the list."""
+def _photographs_if_there(path: str) -> list[BallPhotograph]:
+    """What a list names; a bake tells what is wrong with the list."""
     try:
-        return [str(each.path) for each in read_ball_list(path)]
+        return read_ball_list(path)
     except InputFileError:
         return []
 

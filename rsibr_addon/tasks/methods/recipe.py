@@ -33,6 +33,15 @@ CHANGED = {
 }
 """Field of a recipe whose values are hashes -> what to say of it."""
 
+_PLACES = (
+    (
+        rf"(^|\bpath\s*=\s*|^{MATERIAL}:\s*)",
+        r"(?=\s*(?:$|\))|(?:(?<=(?i:\.blend))|(?<=(?i:\.blend\d))):)",
+    ),
+    (r"(\blight\s*=\s*)", r"(?=\s*(?:[,;]|$))"),
+)
+"""What comes before and after a file in settings: in those of a material, and in a probe."""
+
 
 def recipe_of(job: BakeJob[Any], sources: Sources) -> Recipe:
     """The recipe of a job.
@@ -123,17 +132,17 @@ def with_files_named(settings: dict[str, Any], names: Mapping[str, str]) -> dict
     Parameters
     ----------
     settings : dict
-        JSON values. A file is a whole text, or stands in one as ``path=FILE`` or ``FILE.blend:NAME``.
+        JSON values. A file is a whole text, or stands in one as ``path=FILE``, ``light=FILE`` or
+        ``FILE.blend:NAME``.
     names : mapping of str to str
         A file as the settings name it -> its other name.
     """
 
     def named(value: Any) -> Any:
         for file, name in names.items() if isinstance(value, str) else ():
-            begin = rf"(^|\bpath\s*=\s*|^{MATERIAL}:\s*)"
-            end = r"(?=\s*(?:$|\))|(?:(?<=(?i:\.blend))|(?<=(?i:\.blend\d))):)"
-            place = re.compile(f"{begin}{re.escape(file)}{end}")
-            value = place.sub(r"\g<1>" + name.replace("\\", r"\\"), value)
+            for begin, end in _PLACES:
+                place = re.compile(f"{begin}{re.escape(file)}{end}")
+                value = place.sub(r"\g<1>" + name.replace("\\", r"\\"), value)
         return value
 
     return {option: named(value) for option, value in settings.items()}

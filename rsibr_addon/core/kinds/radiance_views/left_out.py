@@ -21,7 +21,8 @@ class LeftOut:
     """Captured views, each predicted from its neighbours as if it had not been captured.
 
     Views are added one after another, so that one at a time need be in memory. All neighbours of a view count
-    as equally far from it, as about they are on a geodesic sphere: confidences alone make their shares.
+    as equally far from it, as about they are on a geodesic sphere: confidences alone, those of the cosine,
+    make their shares.
 
     Parameters
     ----------

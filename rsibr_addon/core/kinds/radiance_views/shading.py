@@ -55,7 +55,9 @@ class ViewsLook(Options):
         label="Warp",
         help="How the views' light is warped",
         choices={
-            WarpChoice.AUTO: Choice("Automatic", "as predicts captured views best from their neighbours"),
+            WarpChoice.AUTO: Choice(
+                "Automatic", "as predicts captured views best from their neighbours, faded by the cosine"
+            ),
             WarpChoice.ALBEDO: Choice("Albedo", "as by parts, over the material's directional albedo"),
             WarpChoice.SPLIT: Choice(
                 "By Parts", "diffuse light by the normal, glossy by the mirror direction"

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..core.counted import counted
 from ..core.errors import InputFileError, NotNowError, RsibrError
 from ..core.near_names import did_you_mean
 from ..core.warned import warn
@@ -182,11 +183,6 @@ def listed(bakes: Sequence["BatchBake"], console: Console) -> dict[str, Any]:
         "processor_seconds": total,
         "disk": disk,
     }
-
-
-def counted(number: int, thing: str) -> str:
-    """A number of things, in words."""
-    return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
 
 
 def _worker_command() -> list[str]:

@@ -4,6 +4,7 @@ import argparse
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from ..core.counted import counted
 from ..files.kinds.registry import STORED
 from . import options
 from .console import Console
@@ -53,7 +54,7 @@ def lines(comparison: "Comparison", against: str) -> Iterator[str]:
     """A comparison in words: the errors first, as the names of ways to draw are long."""
     noise = f", whose own noise is {comparison.reference_noise:.4f}" if comparison.reference_noise else ""
     count = len(comparison.view_dirs)
-    yield f"Relative RMSE against {against}{noise}, {count} {'view' if count == 1 else 'views'}:"
+    yield f"Relative RMSE against {against}{noise}, {counted(count, 'view')}:"
     yield "all views  median   worst  way of drawing"
     for error in comparison.errors:
         yield f"{error.pooled:9.4f}{error.median:8.4f}{error.worst:8.4f}  {error.way.name}"

@@ -6,9 +6,10 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..core.counted import counted
 from ..core.errors import RangeError
 from ..core.warned import warn
-from .batch import add_batch, check_failures, counted, listed, together
+from .batch import add_batch, check_failures, listed, together
 from .console import Console
 
 if TYPE_CHECKING:

@@ -21,6 +21,8 @@ from rsibr.rsibr_addon.files.environments import environment_kept
 from rsibr.rsibr_addon.files.map_set import read_map_set
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.tasks.batch.description import read_batch
+from rsibr.rsibr_addon.tasks.batch.index import write_index
+from rsibr.rsibr_addon.tasks.batch.notes import Note
 from rsibr.rsibr_addon.tasks.light.environments import load_environment
 from rsibr.rsibr_addon.tasks.methods import lobe_stack
 from rsibr.rsibr_addon.tasks.methods.bake import bake
@@ -145,6 +147,20 @@ def test_broken_bakes_are_named_and_stop_no_other(capfd: pytest.CaptureFixture[s
     assert all(picture.startswith("data:image/png;base64,iVBOR") for picture in page.pictures)
     assert text.count("There is no preset wood") == 3
     assert "://" not in text  # no sign of base 64, as letters of "http" are
+
+
+def test_a_page_counts_its_bakes_and_folds_their_warnings() -> None:
+    write_batch(environments=["light/dawn.exr"], materials=["chrome", "matte"])
+    one, other = read_batch(Path("metals.json"))
+    told = ["Its maps are too coarse & dark.", "Another."]
+    note = Note(stamp="", told="tables", seconds=1.0, processor=1.0, warnings=told, picture="")
+    write_index(Path("page.html"), "metals", [one], [note], {})
+    text = Path("page.html").read_text()
+    assert "<p>1 bake, 0 failed;" in text
+    assert "<details><summary>Its maps are too coarse &amp; dark.</summary></details>" in text
+    assert text.count("<details>") == 2
+    write_index(Path("page.html"), "metals", [one, other], [note, None], {})
+    assert "<p>2 bakes, 0 failed;" in Path("page.html").read_text()
 
 
 def test_parts_and_their_page_are_the_batch(capfd: pytest.CaptureFixture[str]) -> None:

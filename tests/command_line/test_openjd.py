@@ -87,6 +87,7 @@ def test_a_bundle_names_nothing_outside() -> None:
     assert all(str(folder.parent) not in text for text in texts)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "method",
     [

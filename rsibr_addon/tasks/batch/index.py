@@ -8,6 +8,7 @@ from pathlib import Path
 from string import Template
 from urllib.parse import quote
 
+from ...core.counted import counted
 from ...files.atomic import written_aside
 from ...files.map_set_facts import in_words
 from .bakes import BatchBake
@@ -47,8 +48,8 @@ def write_index(
     shown = zip(bakes, notes, strict=True)
     text = Template(TEMPLATE.read_text(encoding="utf-8")).substitute(
         title=escape(in_words(title)),
-        summary=f"{len(bakes)} bakes, {len(failed)} failed; {seconds:.1f} s of work, {processor:.1f} s of "
-        f"processors",
+        summary=f"{counted(len(bakes), 'bake')}, {len(failed)} failed; {seconds:.1f} s of work, "
+        f"{processor:.1f} s of processors",
         failures="\n".join(
             f"<li><b>{escape(bake.title)}</b>: {escape(failures[bake.job.output]['error'])}</li>"
             for bake in failed
@@ -67,10 +68,12 @@ def write_index(
 def _figure(page: Path, bake: BatchBake, note: Note | None, failures: Mapping[str, Failure]) -> str:
     name, method = bake.material or bake.job.settings.LABEL, bake.job.settings.LABEL
     link = quote(relpath(bake.job.output, page.parent))
-    told, picture, warnings = ["failed" if bake.job.output in failures else "not known"], "", []
+    told, picture, warnings = ["failed" if bake.job.output in failures else "not known"], "", ""
     if note:
         told = [note["told"], f"{note['seconds']:.2f} s"] if note["seconds"] else ["there before this batch"]
         picture = f'<img alt="" src="data:image/png;base64,{note["picture"]}">'
-        warnings = [f'<span class="warning">{escape(warning)}</span>' for warning in note["warnings"]]
-    lines = [f'<a href="{link}">{escape(name)}</a>', escape(method), *map(escape, told), *warnings]
-    return f"<figure>{picture or '<div></div>'}<figcaption>{'<br>'.join(lines)}</figcaption></figure>"
+        warnings = "".join(
+            f"<details><summary>{escape(warning)}</summary></details>" for warning in note["warnings"]
+        )
+    lines = "<br>".join([f'<a href="{link}">{escape(name)}</a>', escape(method), *map(escape, told)])
+    return f"<figure>{picture or '<div></div>'}<figcaption>{lines}{warnings}</figcaption></figure>"

@@ -10,6 +10,7 @@ from ...core.brdf.lambert import Lambert
 from ...core.brdf.lobe_width import narrowest_alpha
 from ...core.brdf.spec import brdf_from_spec, is_model
 from ...core.conventions import Array
+from ...core.counted import counted
 from ...core.environment import Environment
 from ...core.errors import InputFileError
 from ...core.geometry.geodesic import GeodesicSphere, geodesic_sphere
@@ -139,8 +140,7 @@ def bake(job: BakeJob[RadianceViewsSettings], recipe: Recipe) -> Steps[Baked]:
         software = software_of(job, measured=_is_rendered(asked))
         path = drain(written(job, recipe, _map_set(captured, asked, light, sphere, paths, software)))
     figures = {"views": count, "size": asked.size}
-    told = "1 view" if count == 1 else f"{count} views"
-    return Baked(path, f"{told} of {asked.size}x{asked.size}", figures)
+    return Baked(path, f"{counted(count, 'view')} of {asked.size}x{asked.size}", figures)
 
 
 def _is_rendered(settings: RadianceViewsSettings) -> bool:

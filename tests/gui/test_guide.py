@@ -61,6 +61,7 @@ def scenario(told):
     yield from push("bpy.ops.material.new(")
     yield from push("rsibr_bake.light")  # the middle one of three
     yield from choose("rsibr_bake.studio", "sunset")
+    yield from drawn()  # with the light's picture, which Blender makes aside
     picture("guide-settings", SIDEBAR)
     yield from push("bpy.ops.rsibr.bake(", share=0.3)
     (bake,) = session().bakes.bakes

@@ -87,7 +87,7 @@ def loads(text: str | bytes) -> Any:
     -------
     object
         Numbers are finite, and whole ones at most `LARGEST_INTEGER`; no object has a name twice; every text
-        can be written in UTF-8; nothing is deeper than `DEEPEST`.
+        can be written in UTF-8, without NUL, as names of files are; nothing is deeper than `DEEPEST`.
 
     Raises
     ------
@@ -214,6 +214,8 @@ def _check_depth_and_texts(plain: Any) -> None:
                 case list():
                     below += value
                 case str():
+                    if "\0" in value:
+                        raise SchemaError(f"the text {_shortened(value)!a} holds a NUL")
                     # The halves of a character, which JSON can escape one by one, have no bytes
                     if not value.isascii() and any("\ud800" <= each <= "\udfff" for each in value):
                         raise SchemaError(f"the text {_shortened(value)!a} is half a character")

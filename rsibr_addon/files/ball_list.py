@@ -63,8 +63,13 @@ def read_ball_list(path: str | Path) -> list[BallPhotograph]:
     try:
         photographs = decode(_List, loads(data))["photographs"]
         view_sphere([each["view_dir"] for each in photographs])
-    except (RangeError, SchemaError, ShapeError) as error:
-        raise InputFileError(f"{path} is no list of photographs: {error}") from error
+    except SchemaError as error:
+        raise InputFileError(
+            f"{path} is no list of photographs, as {error}: write "
+            '{"photographs": [{"file": "front.exr", "view_dir": [0, -1, 0.2]}, ...]}.'
+        ) from error
+    except (RangeError, ShapeError) as error:
+        raise InputFileError(f"{path}: {error}") from error
     folder = Path(path).parent
     return [
         BallPhotograph(folder / each["file"], each["file"], each["view_dir"], each.get("circle"))

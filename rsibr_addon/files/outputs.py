@@ -9,6 +9,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextvars import ContextVar
 from dataclasses import dataclass
+from itertools import permutations
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -144,6 +145,7 @@ def make_folder(folder: Path) -> None:
 def _appear(outputs: list[Output]) -> None:
     for output in outputs:
         output.check()
+    _check_apart(outputs)
     done: list[Output] = []
     for output in outputs:
         try:
@@ -155,6 +157,15 @@ def _appear(outputs: list[Output]) -> None:
         done.append(output)
     for folder in {output.target.parent for output in outputs}:
         _sync_folder(folder)
+
+
+def _check_apart(outputs: list[Output]) -> None:
+    """Refuse outputs of which one would replace the other, or the folder that it is in."""
+    for first, second in permutations(outputs, 2):
+        if second.target.is_relative_to(first.target):
+            raise OutputFileError(
+                f"{second.path} would be replaced by {first.path}: give the two names apart from each other."
+            )
 
 
 def _exchange(output: Output, alone: bool) -> None:

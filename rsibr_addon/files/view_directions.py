@@ -1,14 +1,15 @@
 """Sets of view directions as people write them: as text, or as JSON."""
 
 import codecs
-import json
 from pathlib import Path
 
 import numpy as np
 
 from ..core.conventions import Array
-from ..core.errors import InputFileError, RangeError, ShapeError
+from ..core.errors import InputFileError, RangeError, SchemaError, ShapeError
 from ..core.geometry.view_sphere import view_sphere
+from ..core.schema import decode, loads
+from .ball_list import Triple
 from .reading import opened
 
 LARGEST = 1 << 20
@@ -39,11 +40,11 @@ def read_view_dirs(path: str | Path) -> Array:
     encoding = "utf-16" if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) else "utf-8-sig"
     text = data.decode(encoding, errors="replace")
     try:
-        rows = json.loads(text) if text.lstrip().startswith("[") else _rows(text)
+        rows = decode(list[Triple], loads(text)) if text.lstrip().startswith("[") else _rows(text)
         return view_sphere(np.array(rows, dtype=np.float64)).vertices
     except (RangeError, ShapeError) as error:
         raise InputFileError(f"{path}: {error}") from error
-    except (ValueError, TypeError, RecursionError, OverflowError) as error:
+    except (SchemaError, ValueError) as error:
         raise InputFileError(
             f"{path} is no list of view directions: write three numbers a line, as 0 -1 0.5, or "
             f"[[0, -1, 0.5], ...]."

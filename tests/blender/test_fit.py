@@ -178,7 +178,7 @@ def test_errors_of_several_fits_are_plotted_beside_each_other(
         )
         == 1
     )
-    assert "two of ['single', 'single'] are the same: rename one" in capfd.readouterr().err
+    assert "two are single: rename one" in capfd.readouterr().err
     assert run([*COMMAND, "--plot", str(plots), *beside]) == 0
     text = (plots / "error.svg").read_text()
     assert ">joint</text>" in text

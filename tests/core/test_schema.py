@@ -85,6 +85,7 @@ def test_what_json_writes_comes_back(value: Any) -> None:
         ('{"a": 1, "b": 2, "a": 1}', "'a' appears twice"),
         (r'["\ud800"]', "is half a character"),
         (r'{"\udfff": 1}', "is half a character"),
+        (r'["a\u0000b"]', "the text 'a\\x00b' holds a NUL"),
         (" " * LARGEST_TEXT + "1", "it is longer than 8 MiB"),
     ],
 )

@@ -70,6 +70,11 @@ def test_directions_that_do_not_surround_are_each_alone(view_dirs: np.ndarray) -
     np.testing.assert_array_equal(weights, np.full((len(DIRECTIONS), 3), 1.0 / 3.0))
 
 
+def test_vectors_of_any_length_are_directions() -> None:
+    lengths = np.array([1e-300, 1e300, 1.0])[:, None]
+    np.testing.assert_allclose(view_sphere(lengths * np.eye(3)).vertices, np.eye(3), atol=1e-15)
+
+
 @pytest.mark.parametrize(
     ("view_dirs", "error", "message"),
     [

@@ -82,11 +82,20 @@ def test_lists_that_are_none_are_refused(folder: Path) -> None:
         ({"photographs": []}, "photographs"),
         ({"photographs": [{"file": "0.exr"}]}, "view_dir"),
         ({"photographs": [{"file": "0.exr", "view_dir": [0, 0, 0]}]}, "is 0 or not finite"),
-        ([1], "is no list of photographs"),
+        ([1], r"is no list of photographs, as it is not an object: write \{"),
     ):
         path.write_text(json.dumps(told))
         with pytest.raises(InputFileError, match=message):
             read_ball_list(path)
+
+
+def test_a_list_and_a_file_of_directions_are_not_given_together(
+    folder: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    lists = ["--photographs", str(folder / "photographs.json"), "--view-file", str(folder / "views.json")]
+    arguments = ["bake", "radiance-views", "--environment", str(folder / "light.exr"), "--material", "paint"]
+    assert run([*arguments, *lists, "-o", str(folder / "both.rsibr.exr")]) == 1
+    assert "leave the view file out" in capfd.readouterr().err
 
 
 def test_a_missing_photograph_is_told(folder: Path, capfd: pytest.CaptureFixture[str]) -> None:

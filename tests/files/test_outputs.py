@@ -74,6 +74,23 @@ def test_none_appears_when_one_appeared_meanwhile(tmp_path: Path) -> None:
     assert contents(tmp_path) == {"b": "theirs"}
 
 
+@pytest.mark.parametrize("name", ["all", "all/page"])
+def test_none_appears_where_one_would_replace_another(tmp_path: Path, name: str) -> None:
+    (tmp_path / "link").symlink_to(tmp_path)
+    if name != "all":
+        fill(tmp_path / "all", "old")
+    before = contents(tmp_path)
+
+    def write_both() -> None:
+        with together():
+            fill(tmp_path / "all", "new", force=True)
+            write(tmp_path / "link" / name, "page")
+
+    with pytest.raises(OutputFileError, match="would be replaced by"):
+        write_both()
+    assert contents(tmp_path) == before
+
+
 @pytest.mark.parametrize("links", [True, False])
 def test_all_is_as_before_when_the_last_cannot_get_its_name(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, links: bool

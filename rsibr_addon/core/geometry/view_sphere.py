@@ -53,7 +53,8 @@ def view_sphere(view_dirs: ArrayLike) -> GeodesicSphere:
         raise RangeError(f"There are {len(given)} view directions: give {MOST_VIEWS} at most.")
     if not np.all(np.isfinite(given)) or not np.all(np.any(given, axis=1)):
         raise RangeError("A view direction is 0 or not finite: correct it.")
-    vertices = normalize(given)
+    # Squares of the greatest and smallest numbers are not finite, or 0
+    vertices = normalize(given / np.abs(given).max(axis=1, keepdims=True))
     if len(vertices) in VERTEX_COUNTS:
         known = geodesic_sphere(len(vertices))
         if np.abs(vertices - known.vertices).max() <= ROUNDED:

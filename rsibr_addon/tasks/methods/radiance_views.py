@@ -150,6 +150,8 @@ def _is_rendered(settings: RadianceViewsSettings) -> bool:
 def _sphere(settings: RadianceViewsSettings) -> GeodesicSphere:
     """The directions of the views."""
     if settings.photographs is not None:
+        if settings.view_file is not None:
+            raise InputFileError("The list of photographs says their directions: leave the view file out.")
         return view_sphere([each.view_dir for each in read_ball_list(settings.photographs)])
     if settings.view_file is None:
         return geodesic_sphere(settings.views)

@@ -101,10 +101,9 @@ def fit_lobes(
     if beside and plots is None:
         raise RangeError("Fits beside are for the plot of the errors: give --plot, or leave them out.")
     names = [output.stem, *(path.stem for path in beside)]
-    if len(set(names)) < len(names):
-        raise RangeError(
-            f"Fits are plotted under their files' names, but two of {names} are the same: rename one."
-        )
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise RangeError(f"Fits are plotted under their files' names, but two are {twice}: rename one.")
     if settings.brdf is None:
         if plots is not None:
             raise RangeError("There is no model to plot beside a fit to captures: plot a fit to a model.")

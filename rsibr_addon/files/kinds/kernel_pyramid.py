@@ -55,10 +55,11 @@ def to_map_set(baked: BakedPyramid, origin: Origin) -> MapSet:
         name = f"ring{number:02d}"
         maps[name] = pyramid.rings[number]
         parts.append({"name": name, "role": RING, "width": width, **_told(errors)})
-    every = (*baked.kernels, *baked.diffuse, *baked.rings)
+    without_sheen = (*baked.kernels, *baked.diffuse)
     bound = {
-        "filter": np.max([errors.bound for errors in every], axis=0).tolist(),
-        "interpolation": max(errors.interpolation for errors in every),
+        "filter": np.max([errors.bound for errors in without_sheen], axis=0).tolist(),
+        "interpolation": max(errors.interpolation for errors in without_sheen),
+        "sheen": np.max([errors.bound for errors in baked.rings], axis=0).tolist(),
     }
     size = pyramid.mirror.shape[1]
     header = make_header(OCTAHEDRAL.name, (size, size), parts, replace(origin, error_bound=bound))

@@ -54,12 +54,16 @@ def preview(
 
     Raises
     ------
+    RangeError
+        A model itself is shown, and a look is given.
     MapSetError, InputFileError, DeviceError
         Or see `tasks.reflectance.brdfs.load_brdf`, where a model itself is shown.
     """
     _check_picture_target(output, force)
     yield Progress(0, 2, f"reading {map_set.name}")
     opened = open_map_set(map_set, clamp=settings.clamp)
+    if settings.exact is not None and look not in (None, look_types()[opened.kind]()):
+        raise RangeError("A model itself is shown without maps: leave the options of their look out.")
     exact = None if settings.exact is None else (yield from _exact(opened, settings, settings.exact))
     draw = _Studio(opened, settings, look, exact)
     yield Progress(1, 2, f"drawing {output.name}")

@@ -22,6 +22,11 @@ def path(tmp_path: Path) -> Path:
     return write_flat_capture(tmp_path / "flat.rsibr.exr", (0.5, 0.0, 0.25))
 
 
+def test_ways_count_their_views_in_words() -> None:
+    assert ViewsWay(1, Mode.PAPER, Warping.SINGLE).name == "1 view, paper, single warp"
+    assert ViewsWay(12, Mode.PAPER, Warping.SINGLE).name == "12 views, paper, single warp"
+
+
 def write_comparison(path: Path, content: str) -> None:
     ways = [ViewsWay(12, Mode.FRAGMENT, Warping.ALBEDO), ViewsWay(12, Mode.PAPER, Warping.SPLIT)]
     comparison = Comparison(

@@ -16,6 +16,7 @@ from rsibr.rsibr_addon.core.errors import (
 )
 from rsibr.rsibr_addon.core.geometry.camera import Camera
 from rsibr.rsibr_addon.core.geometry.directions import reflect, turn_about_z
+from rsibr.rsibr_addon.core.geometry.reflection_warp import Fading
 from rsibr.rsibr_addon.core.kinds.environment import EnvironmentLook
 from rsibr.rsibr_addon.core.kinds.radiance_views.shading import Mode, ViewsLook
 from rsibr.rsibr_addon.core.kinds.radiance_views.warping import Warping
@@ -338,6 +339,13 @@ def test_a_model_itself_is_the_sum_over_all_texels(tmp_path: Path) -> None:
 def test_a_model_itself_is_shown_in_one_orthographic_picture(wanted: dict[str, Any]) -> None:
     with pytest.raises(RangeError, match="leave the perspective and the turntable out"):
         PreviewOptions(exact="lambert:kd=0.5", **wanted)
+
+
+def test_a_model_itself_has_no_look(tmp_path: Path) -> None:
+    path = write_mirror_capture(tmp_path / "mirror.rsibr.exr", size=16)
+    settings, look = PreviewOptions(size=8, exact="lambert:kd=0.5"), ViewsLook(fading=Fading.DISTANCE)
+    with pytest.raises(RangeError, match="leave the options of their look out"):
+        drain(preview(path, settings, tmp_path / "out.exr", look=look))
 
 
 def test_light_too_coarse_for_a_model_is_told(tmp_path: Path) -> None:

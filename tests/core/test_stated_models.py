@@ -81,5 +81,5 @@ def test_a_rough_mip_is_microfacets_over_what_their_fresnel_term_leaves() -> Non
 
 
 def test_a_mirror_has_no_reflectance() -> None:
-    with pytest.raises(RangeError, match="alpha is 0"):
+    with pytest.raises(RangeError, match="give a roughness above 0"):
         glossy_model((1.0, 1.0, 1.0), (0.0, 0.0, 0.0), 0.0, None)

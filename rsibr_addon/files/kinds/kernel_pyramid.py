@@ -90,7 +90,7 @@ def from_map_set(path: Path, map_set: MapSet) -> Pyramid:
         for role, number in ((KERNEL, "concentration"), (RING, "width"))
     )
     if tuple(part["width"] for part in rings) != WIDTHS:
-        raise MapSetError(f"{path} holds not the rings that sheen is made of: make it again.")
+        raise MapSetError(f"{path} lacks the rings that sheen is made of: make it again.")
     of_rings = [map_set.maps[part["name"]] for part in rings]
     try:
         for name, sheets in (("diffuse", [single[LAMBERT], single[LEANING]]), ("ring", of_rings)):

@@ -7,6 +7,7 @@ from typing import Any
 from ...core.brdf.lobe_width import narrowest_alpha
 from ...core.brdf.spec import is_model
 from ...core.conventions import Array
+from ...core.counted import counted
 from ...core.environment import Environment
 from ...core.errors import InputFileError
 from ...core.geometry.camera import Camera
@@ -50,7 +51,7 @@ class ViewsWay:
     @property
     def name(self) -> str:
         """A name for people."""
-        return f"{self.captured_views} views, {self.mode}, {self.warping} warp"
+        return f"{counted(self.captured_views, 'view')}, {self.mode}, {self.warping} warp"
 
 
 def draw(

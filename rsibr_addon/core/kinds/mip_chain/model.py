@@ -6,6 +6,7 @@ from ...brdf.fresnel import Schlick, fresnel_schlick
 from ...brdf.ggx import Ggx
 from ...brdf.model import BrdfFunction
 from ...conventions import Array
+from ...errors import RangeError
 from ...geometry.directions import dot
 
 Colour = tuple[float, float, float]
@@ -37,6 +38,8 @@ def glossy_model(f0: Colour, kd: Colour, roughness: float | None, exponent: floa
     -----
     [Kautz2004] Eq. 8 and 11. Phong's lobe has no cosine of the light's angle, by which it is divided here.
     """
+    if roughness == 0.0:
+        raise RangeError("A mirror has no reflectance to compare with: give a roughness above 0.")
     facets = None if roughness is None else Ggx(alpha=roughness**2, fresnel=Schlick(f0=f0))
 
     def reflectance(light_dir: Array, view_dir: Array) -> Array:

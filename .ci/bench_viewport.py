@@ -130,7 +130,7 @@ def _ratios(told: dict[str, Any]) -> list[str]:
         "|---|---|---|",
         *(f"| {what} | {measured:.2f} | {asked} |" for what, measured, asked in rows),
         f"| Python's part of a frame, the most | {python:.2f} ms | 1 ms |",
-        f"| another map set keeps the window at most (is shown after) | {switches} ms | 100 ms |",
+        f"| CPU of the window's thread for another map set (shown after) | {switches} ms | 100 ms |",
         f"| back to one used lately | {longest:.0f} ({shown:.0f}) ms | 100 ms |",
         f"| for comparison: Blender's own redraw in Solid | {told['solid']:.0f} ms | |",
     ]

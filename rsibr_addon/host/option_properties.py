@@ -331,6 +331,8 @@ def _value(declared: Declared, group: Any, own: str) -> Any:
     value = _plain(getattr(group, name), told.subtype)
     if value == told.none_as and declared.optional:
         return None
+    if isinstance(value, str):
+        value = bpy.path.abspath(value)  # Blender's own window writes paths with //
     if _is_list(declared):
         try:
             return value_from_text(declared, ",".join(value.replace(",", " ").split()))

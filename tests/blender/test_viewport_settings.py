@@ -17,6 +17,7 @@ from rsibr.rsibr_addon.host.option_properties import options_of, replaced_option
 from rsibr.rsibr_addon.host.visible_surfaces import is_wanted, map_set_of, surfaces
 from rsibr.rsibr_addon.host.world_light import WorldLight, follows_world, world_light
 from rsibr.rsibr_addon.settings.lobe_stack import LobeStackSettings
+from rsibr.rsibr_addon.settings.radiance_views import RadianceViewsSettings
 from rsibr.rsibr_addon.tasks.viewport.faults import settings_of
 
 pytestmark = pytest.mark.usefixtures("registered")
@@ -167,3 +168,11 @@ def test_the_world_is_read_once_for_all_objects_of_a_frame(monkeypatch: pytest.M
     lights = view.lights_of([visible_surfaces.Surface(each, 0, each, 0, np.eye(4), "set") for each in items])
     assert [each.strength for each in lights] == [2.0, 2.0, 1.0]
     assert read == [scene.world]
+
+
+def test_paths_are_those_of_the_open_file(tmp_path: Path) -> None:
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "room.blend"))
+    chosen = bpy.context.scene.rsibr_bake.radiance_views
+    chosen.source, chosen.preset = "PRESET", "copper"
+    chosen.view_file = "//views.txt"
+    assert options_of(RadianceViewsSettings, chosen).view_file == str(tmp_path / "views.txt")

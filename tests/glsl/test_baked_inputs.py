@@ -119,7 +119,7 @@ def test_faces_that_were_added_are_not_shown_by_the_places_of_others(
     sheet.modifiers.new("Triangulate", "TRIANGULATE")
     previews.scene_changed()
     assert lit_rows(draw()) == UPPER + UPPER  # Blender's default, white
-    assert any("Until its bake is done" in each for each in previews.messages(sheet))
+    assert any("this one has other faces" in each for each in previews.messages(sheet))
 
 
 def test_a_damaged_bake_is_told(

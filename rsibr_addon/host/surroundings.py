@@ -137,7 +137,7 @@ def surroundings_scene(around: Surroundings) -> Iterator[bpy.types.Scene]:
     hidden = parts_of(find_object(source, around.subject)) if around.subject else set()
     # In their order, each once
     shown = [item for item in dict.fromkeys(_rendered(layer.layer_collection)) if item not in hidden]
-    with temporary_copy(source) as scene:
+    with _copy_to_evaluate(source) as scene:
         _replace_contents(scene, layer)
         for item in shown:
             scene.collection.objects.link(_twin(item, around.unseen) if _is_lamp(item) else item)
@@ -206,14 +206,28 @@ def stand_in(scene: bpy.types.Scene, around: Surroundings, item: bpy.types.Objec
         take_place_of(subject, item, [lamp for lamp in scene.objects if TWIN_OF in lamp])
 
 
+@contextmanager
+def _copy_to_evaluate(scene: bpy.types.Scene) -> Iterator[bpy.types.Scene]:
+    """A temporary copy; afterwards Blender computes particles anew, as both scenes' share one memory.
+
+    Now and then Blender leaves none alive otherwise, until the next frame.
+    """
+    try:
+        with temporary_copy(scene) as copy:
+            yield copy
+    finally:
+        for item in scene.objects:
+            if item.particle_systems:
+                item.update_tag()
+
+
 def _centre_at(
     scene: bpy.types.Scene, layer: bpy.types.ViewLayer, subject: bpy.types.Object, frame: float
 ) -> Array:
-    # A copy's evaluation may write into the memory of the artist's simulations: none where none is needed
     if frame == scene.frame_current_final:
         layer.update()
         return centre_of(layer, subject)
-    with temporary_copy(scene) as scene_at_frame:
+    with _copy_to_evaluate(scene) as scene_at_frame:
         _go_to(scene_at_frame, frame)
         return centre_of(scene_at_frame.view_layers[layer.name], subject)
 

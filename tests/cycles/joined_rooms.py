@@ -51,18 +51,19 @@ def add_rooms() -> None:
         mesh = bpy.data.meshes.new("walls")
         corners = [corner for face in outer for corner in face]
         mesh.from_pydata(corners, [], np.arange(len(corners)).reshape(-1, 4).tolist())
-        mesh.materials.append(_shining(colour))
+        mesh.materials.append(shining(colour, (0.03, 0.08, 0.08)))
         bpy.context.scene.collection.objects.link(bpy.data.objects.new("walls", mesh))
 
 
-def _shining(colour: Sequence[float]) -> bpy.types.Material:
+def shining(colour: Sequence[float], change: Sequence[float]) -> bpy.types.Material:
+    """What shines in a colour at the origin, whose channels change by `change` along x, y and z."""
     material = bpy.data.materials.new("walls")
     nodes, links = material.node_tree.nodes, material.node_tree.links
     nodes.clear()
     place, wave = nodes.new("ShaderNodeNewGeometry"), nodes.new("ShaderNodeVectorMath")
     shine, output = nodes.new("ShaderNodeEmission"), nodes.new("ShaderNodeOutputMaterial")
     wave.operation = "MULTIPLY_ADD"
-    wave.inputs[1].default_value, wave.inputs[2].default_value = (0.03, 0.08, 0.08), colour
+    wave.inputs[1].default_value, wave.inputs[2].default_value = change, colour
     links.new(place.outputs["Position"], wave.inputs[0])
     links.new(wave.outputs["Vector"], shine.inputs["Color"])
     links.new(shine.outputs["Emission"], output.inputs["Surface"])

@@ -31,28 +31,17 @@ WIDTHS, MIDDLE, CAPTURED_AT = (5.0, 4.6, 4.4), (0.2, 0.1, -0.1), (0.5, -0.4, 0.3
 CAMERA = Camera((0.5, -0.7, 0.4))
 
 
-def add_walls(scene: bpy.types.Scene) -> None:
+def add_walls() -> None:
     """A box whose walls shine, in colours that change along them."""
-    material = bpy.data.materials.new("walls")
-    nodes, links = material.node_tree.nodes, material.node_tree.links
-    nodes.clear()
-    place, wave = nodes.new("ShaderNodeNewGeometry"), nodes.new("ShaderNodeVectorMath")
-    shine, output = nodes.new("ShaderNodeEmission"), nodes.new("ShaderNodeOutputMaterial")
-    wave.operation = "MULTIPLY_ADD"
-    wave.inputs[1].default_value, wave.inputs[2].default_value = (0.15,) * 3, (0.5,) * 3
-    links.new(place.outputs["Position"], wave.inputs[0])
-    links.new(wave.outputs["Vector"], shine.inputs["Color"])
-    links.new(shine.outputs["Emission"], output.inputs["Surface"])
     bpy.ops.mesh.primitive_cube_add(size=1.0, location=MIDDLE, scale=WIDTHS)
-    bpy.context.object.data.materials.append(material)
+    bpy.context.object.data.materials.append(joined_rooms.shining((0.5,) * 3, (0.15,) * 3))
 
 
 @pytest.fixture
 def chain(tmp_path: Path) -> MipChain:
     """The room, with a point in it captured, and room for a ball."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    scene = bpy.context.scene
-    add_walls(scene)
+    add_walls()
     light = SceneLight(size=512, samples=1, point=CAPTURED_AT)
     radiance = read_radiance(drain(illuminate_from_scene(light, tmp_path / "light.exr")))
     return chain_of_faces(environment_faces(radiance, 128).astype(np.float32), tent_halved)

@@ -3,7 +3,6 @@
 import os
 from collections import ChainMap
 from contextlib import suppress
-from dataclasses import replace
 from pathlib import Path
 from textwrap import wrap
 from typing import Any
@@ -14,11 +13,9 @@ from ..rsibr_addon.core.options import declared_options
 from ..rsibr_addon.core.progress import Steps, drain
 from ..rsibr_addon.files.kinds.registry import look_types
 from ..rsibr_addon.files.output_paths import bare_name
-from ..rsibr_addon.host.blend_files import whole_path
 from ..rsibr_addon.host.map_sets import planned_path, written_path
 from ..rsibr_addon.host.meshes import TriangleMesh, mesh_of_objects
 from ..rsibr_addon.host.option_properties import options_of, properties_of
-from ..rsibr_addon.settings.matte import LIGHT
 from ..rsibr_addon.settings.page import PageOptions
 from ..rsibr_addon.tasks.export.engines.engines import ENGINES
 from ..rsibr_addon.tasks.export.engines.export import export_for_engine
@@ -195,10 +192,7 @@ class _ExportPage(_Export):
             shown, look = in_own_materials(items, depsgraph, look)
         else:
             shown = mesh_of_objects(items, depsgraph)
-        settings = options_of(PageOptions, self)
-        if settings.background not in (None, LIGHT):
-            settings = replace(settings, background=str(whole_path(settings.background)))
-        return export_page(map_set, output, settings, shown, look, force)
+        return export_page(map_set, output, options_of(PageOptions, self), shown, look, force)
 
 
 EXPORT_PAGE = type(

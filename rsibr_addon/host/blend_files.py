@@ -57,8 +57,3 @@ def unreadable(path: Path) -> InputFileError:
     return InputFileError(
         f"{path} is no file that Blender {version} can read: save it with Blender {version}."
     )
-
-
-def whole_path(path: str) -> Path:
-    """A path as Blender writes it, also with `//` for the folder of the open file."""
-    return Path(bpy.path.abspath(path))

@@ -9,7 +9,6 @@ from ...core.environment import Environment
 from ...core.errors import RsibrError
 from ...core.light.blur import blurred
 from ...device.backdrop import Backdrop, Behind, PictureBackdrop
-from ...host.blend_files import whole_path
 from ...host.option_properties import options_of
 from ...settings.render import RenderOptions
 from ..light.light_pictures import read_light
@@ -92,7 +91,7 @@ class Backgrounds:
         options, number = options_of(RenderOptions, scene.rsibr_render), scene.session_uid
         exposure = 2.0**options.background_exposure
         if options.background is not None:
-            path = whole_path(options.background)
+            path = Path(options.background)
             if path not in self._stamps:
                 self._stamps[path] = stamp_of(path)
             return self._made(number, (path, self._stamps[path]), world, _picture, path), exposure

@@ -163,6 +163,26 @@ def test_an_empty_scene_is_refused(tmp_path: Path) -> None:
         captured(tmp_path)
 
 
+def test_particles_are_computed_anew_after_a_copy_of_their_scene(tmp_path: Path) -> None:
+    # Blender keeps particles of both in one memory, and now and then leaves none alive there
+    add_world(1.0)
+    swarm, still = add_box((3.0, 0.0, 0.0)), add_box((-3.0, 0.0, 0.0))
+    swarm.modifiers.new("Particles", "PARTICLE_SYSTEM")
+    computed: list[str] = []
+
+    def note(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+        computed.extend(each.id.name for each in depsgraph.updates if each.is_updated_geometry)
+
+    captured(tmp_path, subject=swarm.name)
+    bpy.app.handlers.depsgraph_update_post.append(note)
+    try:
+        bpy.context.view_layer.update()
+    finally:
+        bpy.app.handlers.depsgraph_update_post.remove(note)
+    assert swarm.name in computed
+    assert still.name not in computed
+
+
 def test_an_existing_file_is_kept(tmp_path: Path) -> None:
     path = tmp_path / "light.exr"
     path.write_text("precious")

@@ -22,6 +22,9 @@ precision highp sampler3D;
 LOOKUPS = Path(__file__).with_name("lookups.glsl")
 """What takes the place of `textureLod` at level 0."""
 
+CORNERS = Path(__file__).with_name("corners.glsl")
+"""The end of vertex shaders: where they place a corner."""
+
 SAMPLES = Path(__file__).with_name("samples.glsl")
 """What brings a surface to the middle of a sample."""
 
@@ -128,8 +131,7 @@ def _at_corners(interface: str, surface: Mapping[str, str], name: str) -> str:
     told = "".join(
         f"out {kind} drawn_{each};\n#define {each} drawn_{each}\n" for each, kind in surface.items()
     )
-    placed = "#undef main\nvoid main() { place(); drawn_clip = gl_Position; }\n"
-    return _source(f"{interface}{told}out vec4 drawn_clip;\n#define main place\n", name) + placed
+    return _source(f"{interface}{told}#define main place\n", name) + _own(CORNERS)
 
 
 def _at_samples(interface: str, surface: Mapping[str, str], name: str) -> str:
@@ -137,8 +139,11 @@ def _at_samples(interface: str, surface: Mapping[str, str], name: str) -> str:
     told = "".join(f"in {kind} drawn_{each};\n{kind} {each};\n" for each, kind in surface.items())
     taken = " ".join(f"{each} = at_sample(drawn_{each}, away);" for each in surface)
     main = f"#undef main\nvoid main() {{ vec2 away = away_from_sample(); {taken} shade(); }}\n"
-    samples = _stripped(SAMPLES.read_text(encoding="utf-8"))
-    return _source(f"{interface}{samples}{told}#define main shade\n", name) + main
+    return _source(f"{interface}{_own(SAMPLES)}{told}#define main shade\n", name) + main
+
+
+def _own(path: Path) -> str:
+    return _stripped(path.read_text(encoding="utf-8"))
 
 
 def _samplers(samplers: Mapping[str, str]) -> str:
@@ -148,7 +153,7 @@ def _samplers(samplers: Mapping[str, str]) -> str:
 def _source(interface: str, name: str) -> str:
     text = _stripped(shader_source(name))
     exact = re.sub(r"\btextureLod\((\w+), (.*), 0\.0\)", r"looked_up(\1, \2)", text)
-    lookups = _stripped(LOOKUPS.read_text(encoding="utf-8")) if exact != text else ""
+    lookups = _own(LOOKUPS) if exact != text else ""
     return HEAD + interface + lookups + exact
 
 

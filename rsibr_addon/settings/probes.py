@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from ..core.errors import RangeError
 from ..core.geometry.near_room import Room
 from ..core.kinds.mip_chain.probes import Place
-from ..core.kinds.mip_chain.shading import ROOMS, room_middle_option, room_size_option
+from ..core.kinds.mip_chain.shading import ROOMS, point_option, room_middle_option, room_size_option
 from ..core.options import Options, declared_options, option, value_from_text, value_text
 
 ADD_PROBE = "rsibr.add_probe"
@@ -43,14 +43,7 @@ class ProbeOptions(Options):
     )
     size: tuple[float, float, float] = room_size_option()
     middle: tuple[float, float, float] = room_middle_option()
-    at: tuple[float, float, float] = option(
-        (0.0, 0.0, 0.0),
-        label="Captured At",
-        help="Where the picture was captured, in world coordinates",
-        least=-1e6,
-        most=1e6,
-        metavar="X,Y,Z",
-    )
+    at: tuple[float, float, float] = point_option("Captured At", "Where the picture was captured")
     blend: float = option(
         0.5,
         label="Blend",

@@ -64,10 +64,15 @@ def room_size_option(**more: Any) -> Any:
 
 def room_middle_option(**more: Any) -> Any:
     """Middle of a room."""
+    return point_option("Room Middle", "Middle of the room", **more)
+
+
+def point_option(label: str, meaning: str, **more: Any) -> Any:
+    """A point in world coordinates; `meaning` says which, in its help."""
     return option(
         (0.0, 0.0, 0.0),
-        label="Room Middle",
-        help="Middle of the room, in world coordinates",
+        label=label,
+        help=f"{meaning}, in world coordinates",
         least=-1e6,
         most=1e6,
         metavar="X,Y,Z",
@@ -147,14 +152,8 @@ class MipLook(Options):
     )
     room_size: tuple[float, float, float] = room_size_option(advanced=True)
     room_middle: tuple[float, float, float] = room_middle_option(advanced=True)
-    captured_at: tuple[float, float, float] = option(
-        (0.0, 0.0, 0.0),
-        label="Captured At",
-        help="Where the map was captured, in world coordinates",
-        least=-1e6,
-        most=1e6,
-        advanced=True,
-        metavar="X,Y,Z",
+    captured_at: tuple[float, float, float] = point_option(
+        "Captured At", "Where the map was captured", advanced=True
     )
 
     @property

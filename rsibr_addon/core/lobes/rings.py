@@ -101,12 +101,11 @@ def fit_sheen(sheen_of: Callable[[float, Array], Sheen], count: int = ROUGHNESSE
 
 def ring_weights(sheen: Sheen) -> Array:
     """Weights of lobes about the normal with the sheen's albedo, nearest to it, shape (S, 1 + R)."""
-    height, solid = _heights()
-    lobes = np.stack([ring(height, a) for a in (1.0, *WIDTHS)], axis=-1)
+    height, solid, lobes = _lobes()
     counted = np.concatenate([lobes * np.sqrt(solid)[:, None], np.full((1, lobes.shape[1]), _ALBEDO_COUNTS)])
     weights = np.zeros((len(sheen.mu), lobes.shape[1]))
     for number, (a, b, albedo) in enumerate(zip(sheen.a, sheen.b, sheen.albedo, strict=True)):
-        wanted = np.append(around(height, a, b).mean(axis=1) * np.sqrt(solid), _ALBEDO_COUNTS)
+        wanted = np.append(_around(height, a, b).mean(axis=1) * np.sqrt(solid), _ALBEDO_COUNTS)
         right = counted.T @ wanted
         weights[number] = albedo * (nonnegative_inverse(counted.T @ counted, right) @ right)
     return weights
@@ -120,11 +119,10 @@ def ring_errors(sheen: Sheen, weights: Array) -> Array:
     sheen : Sheen
     weights : ndarray, shape (S, 1 + R)
     """
-    height, solid = _heights()
-    lobes = np.stack([ring(height, a) for a in (1.0, *WIDTHS)], axis=-1)
+    height, solid, lobes = _lobes()
     errors = []
     for a, b, albedo, row in zip(sheen.a, sheen.b, sheen.albedo, weights, strict=True):
-        exact = albedo * around(height, a, b)
+        exact = albedo * _around(height, a, b)
         power = solid @ np.mean(exact**2, axis=1)
         wrong = solid @ np.mean((exact - (lobes @ row)[:, None]) ** 2, axis=1)
         errors.append(float(np.sqrt(wrong / np.maximum(power, 1e-30))))
@@ -137,7 +135,7 @@ def ring(cosine: ArrayLike, a: float) -> Array:
     return transformed_cosine(np.sqrt(np.maximum(1.0 - cosine**2, 0.0)), 0.0, cosine, a)
 
 
-def around(height: Array, a: float, b: float) -> Array:
+def _around(height: Array, a: float, b: float) -> Array:
     """A transformed cosine at some n.l, at even azimuths, shape (N, azimuths)."""
     azimuth = 2.0 * np.pi * (np.arange(_AZIMUTHS) + 0.5) / _AZIMUTHS
     radius = np.sqrt(1.0 - height**2)[:, None]
@@ -145,8 +143,10 @@ def around(height: Array, a: float, b: float) -> Array:
 
 
 @cache
-def _heights() -> tuple[Array, Array]:
-    """n.l, denser near the horizon, and the solid angles that they stand for."""
+def _lobes() -> tuple[Array, Array, Array]:
+    """n.l, denser near the horizon, the solid angles [sr] of these, and all lobes' values there."""
     node, weight = np.polynomial.legendre.leggauss(_NODES)
     root = 0.5 * (node + 1.0)
-    return root**2, 2.0 * np.pi * weight * root
+    height = root**2
+    lobes = np.stack([ring(height, a) for a in (1.0, *WIDTHS)], axis=-1)
+    return height, 2.0 * np.pi * weight * root, lobes

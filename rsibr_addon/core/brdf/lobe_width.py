@@ -33,7 +33,15 @@ def narrowest_alpha(brdf: Brdf) -> float:
 
 
 def is_resolved(alpha: float, height: int) -> bool:
-    """Whether the sum over texels of light of so many rows is good for a lobe, two texels wide at least."""
+    """Whether a sum over texels of light is good for a lobe: it is two texels wide at least.
+
+    Parameters
+    ----------
+    alpha : float
+        The lobe's width, as `narrowest_alpha` tells.
+    height : int
+        Rows of the light, a latitude-longitude picture.
+    """
     return alpha >= pi / height
 
 
@@ -59,9 +67,10 @@ def measured_alpha(brdf: Brdf) -> float:
     Returns
     -------
     float
-        From `NARROWEST` to 1: the least of four angles between light and view, half vectors leaning across
-        their plane. A lobe that is no brighter than twice its base counts as diffuse, and has 1. GGX, which
-        is sharper at its top than its tail tells, has 0.77 of its own alpha.
+        From `NARROWEST` to 1: the least at four difference angles, which are half of those between light and
+        view, with half vectors that lean across the plane of both. A lobe that is no brighter than twice its
+        base counts as diffuse, and has 1. GGX, which is sharper at its top than its tail tells, has 0.77 of
+        its own alpha.
     """
     return min(_alpha_at(brdf, angle) for angle in _DIFFERENCE_ANGLES)
 

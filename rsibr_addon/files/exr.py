@@ -234,6 +234,7 @@ def _pixels_by_name(part: Any) -> dict[str, Array]:
     if channel.pixels.ndim == 2:
         return {name: _full(channel, part.header["dataWindow"]) for name, channel in part.channels.items()}
     pixels = channel.pixels
+    # In place, so that they lie as `Part.side_by_side` takes them without a copy
     for low, high in zip(range(len(pixels) // 2), reversed(range(len(pixels))), strict=False):
         pixels[[low, high]] = pixels[[high, low]]
     return {name: pixels[..., number] for number, name in enumerate(first)}

@@ -2,6 +2,9 @@
 
 const float BOX = 1.0;
 
+// The shortest way of a ray, so that one from the point of capture has a direction.
+const float LEAST_WAY = 1e-6;
+
 // Where a map shows what a ray meets; position and middle are relative to where the map was captured. The
 // room's kind: 0 for distant surroundings, BOX, or 2 for an ellipsoid.
 vec3 near_direction(vec3 position, vec3 direction, float room, vec3 half_size, vec3 middle)
@@ -23,7 +26,7 @@ vec3 near_direction(vec3 position, vec3 direction, float room, vec3 half_size, v
     float c = dot(start, start) - 1.0;
     along = (sqrt(max(b * b - a * c, 0.0)) - b) / a;
   }
-  return normalize(position + max(along, 1e-6) * direction);
+  return normalize(position + max(along, LEAST_WAY) * direction);
 }
 
 // How far a place, relative to the middle, is from a room: 0 inside.

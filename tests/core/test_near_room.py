@@ -58,7 +58,12 @@ def test_the_way_out_of_a_room(room: Room) -> None:
     assert np.all(outside_distance(INSIDE - MIDDLE, room, HALF) == 0.0)
     along_x = outside_distance([2.5, 0.0, 0.0], room, HALF)
     assert along_x == pytest.approx(0.5)
-    corner = outside_distance(HALF + [0.3, 0.4, 0.0], room, HALF)
-    assert corner == pytest.approx(0.5) or room is Room.SPHERE
     at_once = outside_distance(np.zeros(3), room, HALF)
     assert at_once == 0.0
+
+
+def test_beyond_a_corner_and_beside_an_ellipsoid_the_way_is_aslant() -> None:
+    assert outside_distance(HALF + [0.3, 0.4, 0.0], Room.BOX, HALF) == pytest.approx(0.5)
+    wall = DIRECTIONS / np.linalg.norm(DIRECTIONS / HALF, axis=1)[:, None]
+    beyond = outside_distance(1.5 * wall, Room.SPHERE, HALF)
+    np.testing.assert_allclose(beyond, 0.5 * np.linalg.norm(wall, axis=1), rtol=1e-12)

@@ -53,7 +53,7 @@ def own_objects(items: Sequence[Any], depsgraph: Any) -> list[OwnObject]:
     for item in meshes:
         try:
             inputs.wish(item, inputs_file(item, depsgraph))
-        except (SceneError, RecursionError):  # which the material's messages tell
+        except SceneError:  # which the material's messages tell
             continue
     while inputs.is_busy:
         inputs.upload()

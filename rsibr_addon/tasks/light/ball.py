@@ -104,7 +104,19 @@ def illuminate_from_ball(
 
 @dataclass(frozen=True)
 class Outline:
-    """A ball found in a photograph of some size."""
+    """A ball found in a photograph.
+
+    Attributes
+    ----------
+    path : Path
+        The photograph.
+    circle : Circle
+        In the upright photograph.
+    width, height : int
+        Of the upright photograph, in pixels.
+    orientation : Orientation
+        How it is stored.
+    """
 
     path: Path
     circle: Circle
@@ -125,18 +137,25 @@ def ball_picture(
     bracket: BracketKnowledge = BRACKETS,
     clamp: float | None = None,
 ) -> Steps[tuple[Array, list[Outline]]]:
-    """Radiance in the square that touches the ball's outline, and the outlines.
+    """Cut a ball out of its photographs.
 
     Parameters
     ----------
     photographs : sequence of Path
         One, or several exposures from one side.
     circle : (float, float, float) or None
-        The outline in each.
+        The outline in each: see `Where`.
     bracket : BracketKnowledge
         What is known of the exposures.
     clamp : float, optional
         Greatest radiance; what is brighter becomes this.
+
+    Returns
+    -------
+    picture : ndarray, shape (size, size, 3)
+        Radiance in the square that touches the outline, row 0 at the bottom.
+    outlines : list of Outline
+        One for each photograph.
 
     Raises
     ------

@@ -164,22 +164,10 @@ def test_errors_of_several_fits_are_plotted_beside_each_other(
     beside = ["--beside", str(single), "-o", str(joint)]
     assert run([*COMMAND, *beside]) == 1
     assert "Fits beside are for the plot of the errors: give --plot" in capfd.readouterr().err
-    assert (
-        run(
-            [
-                *COMMAND,
-                "--plot",
-                str(plots),
-                "--beside",
-                str(single),
-                "-o",
-                str(tmp_path / "s" / "single.json"),
-            ]
-        )
-        == 1
-    )
+    plotted = [*COMMAND, "--plot", str(plots)]
+    assert run([*plotted, "--beside", str(single), "-o", str(tmp_path / "s" / "single.json")]) == 1
     assert "two are single: rename one" in capfd.readouterr().err
-    assert run([*COMMAND, "--plot", str(plots), *beside]) == 0
+    assert run([*plotted, *beside]) == 0
     text = (plots / "error.svg").read_text()
     assert ">joint</text>" in text
     assert ">single</text>" in text

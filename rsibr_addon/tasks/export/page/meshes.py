@@ -22,7 +22,6 @@ STEPS = 32767
 NORMAL_STEPS = 8191
 """Of a place on the octahedral map of normals, from its middle to its edge."""
 
-
 PLACES = 9
 """Of normals that are made, in decimals."""
 

@@ -128,12 +128,14 @@ def find_triangle(sphere: GeodesicSphere, view_dir: ArrayLike) -> Indices:
     Returns
     -------
     ndarray, shape (..., 3), int
-        Vertex indices of the triangle that holds each direction; on an edge, one of the two.
+        Vertex indices of the triangle that holds each direction; on an edge, one of the two. Where no
+        triangles surround the sphere, the vertex nearest to each direction, three times.
 
     Notes
     -----
     The triangles of an icosahedron are the Voronoi cells of their centres; below that, three
-    planes through a triangle's middles tell its children apart: a descent instead of a search.
+    planes through a triangle's middles tell its children apart: a descent instead of a search. Spheres of
+    other views have one level.
     GLSL twin: gpu_shaders/lib/geodesic_lib.glsl `find_triangle`, equal off the edges.
     """
     view_dir = np.asarray(view_dir, dtype=np.float64)

@@ -99,10 +99,11 @@ class MipChainSettings(MethodSettings):
     def __post_init__(self) -> None:
         super().__post_init__()
         check_size(self.size, 1)
-        largest = HIGHEST // (2 * (1 + len(self.rooms)))
-        if self.rooms and self.size > largest:
+        probes = len(self.rooms)
+        largest = HIGHEST // (2 * (1 + probes))
+        if probes and self.size > largest:
             raise RangeError(
-                f"{len(self.rooms)} probes of {self.size} texels do not fit into a texture: choose a size of "
+                f"{probes} probes of {self.size} texels do not fit into a texture: choose a size of "
                 f"at most {2 ** (largest.bit_length() - 1)}."
             )
         if self.exponents is not None:

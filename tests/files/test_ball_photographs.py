@@ -33,7 +33,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("ball")
     radiance = environment_radiance(representation("equirect").texel_directions(64)[0]).astype(np.float32)
     write_radiance(folder / "light.exr", radiance)
-    paint = brdf_from_spec(PAINT, lambda name, path: (_ for _ in ()).throw(ValueError(path)))
+    paint = brdf_from_spec(PAINT, lambda name, path: pytest.fail(path))
     spheres = drain(lit_spheres(paint, radiance, list(VIEW_DIRS), 32))
     pixels = texel_centres(WIDTH, HEIGHT) * (WIDTH, HEIGHT)
     photographs = []

@@ -223,7 +223,6 @@ class Splat:
         solid_angle, number = texels.solid_angle[chosen], texels.number[chosen]
         for first in range(0, len(uv), BLOCK // 4):
             block = slice(first, first + BLOCK // 4)
-
             centres, on_sheet = _four(uv[block]) + quarter, _four(sheet[block])
             # A texel that the rim of a disk cuts contributes only with its parts within the disk.
             counts = np.hypot(*np.moveaxis(2.0 * centres - 1.0, -1, 0)) < source.disk

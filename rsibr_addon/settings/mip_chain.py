@@ -15,7 +15,7 @@ from .method import MethodSettings
 from .probes import ADD_PROBE, ProbeOptions, probes_from_text
 
 HIGHEST = 16000
-"""Rows of texels that the chains of all probes may take: graphics cards have 16384."""
+"""Rows of texels that all chains may take, without the borders of faces: graphics cards have 16384."""
 
 
 @dataclass(frozen=True, kw_only=True)

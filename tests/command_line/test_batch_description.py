@@ -127,7 +127,10 @@ def test_files_that_settings_name_are_beside_the_batch(
             {"environments": ["dark.exr"], "methods": ["lobe-stack"], "materials": ["merl:path=a/b.binary"]}
         )
     )
-    probes = {"kind": "mip-chain", "probes": "box:light=hall.exr,size=6/5/3;sphere:size=1/1/1,light=b/c.exr"}
+    probes = {
+        "kind": "mip-chain",
+        "probes": "box:light=hall.exr,size=6/5/3;sphere:size=1/1/1, light = b/c.exr ",
+    }
     Path("rooms.json").write_text(json.dumps({"environments": ["dark.exr"], "methods": [probes]}))
     monkeypatch.chdir("light")
     [bake] = read_batch(path)

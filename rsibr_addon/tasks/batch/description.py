@@ -32,7 +32,7 @@ FIELDS = ("environment", "material", "method", "size")
 
 _BLEND = re.compile(r"(.+?\.blend\d*):(.+)", re.IGNORECASE)
 _PATH = re.compile(r"\bpath=([^,]+)")
-_LIGHT = re.compile(r"\blight=([^,;]+)")  # of a probe
+_LIGHT = re.compile(r"\blight\s*=\s*([^,;]+)")  # of a probe
 _MODELS = {name: text for models in GALLERY.values() for name, text in models.items()}
 
 

@@ -1,22 +1,15 @@
 """The operator that adds the light of a room, and the rooms that objects stand for."""
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import bpy
 import numpy as np
 import pytest
-import rsibr
 from rsibr.rsibr_addon.core.geometry.near_room import Room
 from rsibr.rsibr_addon.host.rooms import room_of
 from rsibr.rsibr_addon.settings.probes import probes_from_text
 
-
-@pytest.fixture(autouse=True)
-def registered() -> Iterator[None]:
-    rsibr.register()
-    yield
-    rsibr.unregister()
+pytestmark = pytest.mark.usefixtures("registered")
 
 
 def test_objects_stand_for_rooms() -> None:

@@ -14,8 +14,11 @@ from .comparison import ExactComparison, cycles_material_option, option_of_look,
 from .method import MethodSettings
 from .probes import ADD_PROBE, ProbeOptions, probes_from_text
 
-HIGHEST = 16000
-"""Rows of texels that all chains may take, without the borders of faces: graphics cards have 16384."""
+HIGHEST = 16384
+"""Rows of texels that a texture of all chains may take, as graphics cards have them."""
+
+MOST_PROBES = 255
+"""Most that a map set numbers."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,11 +103,13 @@ class MipChainSettings(MethodSettings):
         super().__post_init__()
         check_size(self.size, 1)
         probes = len(self.rooms)
-        largest = HIGHEST // (2 * (1 + probes))
-        if probes and self.size > largest:
+        if probes > MOST_PROBES:
+            raise RangeError(f"A mip chain holds at most {MOST_PROBES} probes, not {probes}: give fewer.")
+        if probes and (1 + probes) * _rows(self.size) > HIGHEST:
+            fits = [size for size in (2**n for n in range(14)) if (1 + probes) * _rows(size) <= HIGHEST]
             raise RangeError(
                 f"{probes} probes of {self.size} texels do not fit into a texture: choose a size of "
-                f"at most {2 ** (largest.bit_length() - 1)}."
+                f"at most {max(fits)}."
             )
         if self.exponents is not None:
             if self.filter != "phong":
@@ -161,3 +166,8 @@ class MipComparison(ExactComparison):
         super().__post_init__()
         if self.roughness is None and self.exponent is None:
             raise RangeError("Mips are compared as a material has them: give a roughness or an exponent.")
+
+
+def _rows(size: int) -> int:
+    """Rows of texels that a chain takes at most, each mip with a border of one texel."""
+    return 2 * size + 2 * size.bit_length()

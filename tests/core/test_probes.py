@@ -1,5 +1,6 @@
 """Light of several rooms: which of it a point has, what is shaded from it, and its text."""
 
+from contextlib import nullcontext
 from dataclasses import replace
 
 import numpy as np
@@ -109,3 +110,23 @@ def test_probes_come_back_from_their_text() -> None:
 def test_a_text_that_is_no_probe_says_why(text: str, said: str) -> None:
     with pytest.raises(RangeError, match=said):
         MipChainSettings(probes=text)
+
+
+@pytest.mark.parametrize(
+    ("count", "size", "said"),
+    [
+        (61, 128, "61 probes of 128 texels do not fit into a texture: choose a size of at most 64."),
+        (249, 32, "249 probes of 32 texels do not fit into a texture: choose a size of at most 16."),
+        (256, 16, "at most 255 probes, not 256"),
+        (60, 128, ""),
+    ],
+)
+def test_more_probes_than_a_texture_or_a_map_set_holds_are_refused(count: int, size: int, said: str) -> None:
+    room = "box:light=room.exr,size=6/5/3,middle=0/0/1.5,at=0/0/1.5,blend=0.5"
+    refused = pytest.raises(RangeError, match=said) if said else nullcontext()
+    with refused:
+        MipChainSettings(size=size, probes=";".join([room] * count))
+    # All rows of a texture: each mip of each chain has a row of texels more above and below
+    mips = [size >> mip for mip in range(size.bit_length())]
+    rows = (1 + count) * sum(each + 2 for each in mips)
+    assert (rows <= 16384 and count <= 255) == (not said)

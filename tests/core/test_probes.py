@@ -118,7 +118,8 @@ def test_a_text_that_is_no_probe_says_why(text: str, said: str) -> None:
         (61, 128, "61 probes of 128 texels do not fit into a texture: choose a size of at most 64."),
         (249, 32, "249 probes of 32 texels do not fit into a texture: choose a size of at most 16."),
         (256, 16, "at most 255 probes, not 256"),
-        (60, 128, ""),
+        (59, 128, ""),
+        (60, 128, "choose a size of at most 64"),
     ],
 )
 def test_more_probes_than_a_texture_or_a_map_set_holds_are_refused(count: int, size: int, said: str) -> None:

@@ -142,8 +142,8 @@ def sentence_of(error: Exception, command: str) -> str:
     """What to tell of an error, naming the file where the system knows it."""
     if isinstance(error, ModuleNotFoundError):
         return (
-            f"{command} needs Blender for this: pip install 'rsibr[blender]' on Python 3.13, or run it as "
-            f"blender --command {command}."
+            f"{command} needs Blender for this: pip install '.[blender]' in RSIBR's source on Python 3.13, "
+            f"or run it as blender --command {command}."
         )
     if isinstance(error, MemoryError):
         return "The memory of this machine is used up: choose a smaller size, or close other programs."

@@ -5,6 +5,7 @@ import json
 import re
 import runpy
 import sys
+from itertools import pairwise
 
 import pytest
 from rsibr.rsibr_addon.command_line.commands import parsed
@@ -46,6 +47,16 @@ def test_links_lead_to_files(page: str) -> None:
     links = re.findall(r"\]\(([\w./-]+)(?:#[\w-]+)?\)", (ROOT / page).read_text())
     made = "api/index.md"  # with the site
     assert all(link == made or ((ROOT / page).parent / link).is_file() for link in links), links
+
+
+@every_page
+def test_lines_are_short_and_headings_stand_alone(page: str) -> None:
+    text = (ROOT / page).read_text(encoding="utf-8").partition("<!-- made from")[0]
+    prose = re.sub(r"^ *```.*?^ *```$", "```", text, flags=re.DOTALL | re.MULTILINE)
+    lines = prose.splitlines()
+    whole = re.compile(r"\||#| *!\[")  # rows, headings and pictures are one line each
+    assert not [line for line in lines if len(line) > 120 and not whole.match(line)]
+    assert not [line for line, below in pairwise(lines) if re.match("#+ ", line) and below]
 
 
 def test_commands_are_found() -> None:

@@ -71,6 +71,12 @@ class Parser(argparse.ArgumentParser):
             if name.startswith("--") and name not in self._option_string_actions:
                 self.error(f"there is no option {name}{did_you_mean(name, self._option_string_actions)}")
 
+    def _get_value(self, action: argparse.Action, arg_string: str) -> Any:
+        """The value of a word; an empty one is mostly a variable of a script that is not set."""
+        if not arg_string:
+            raise argparse.ArgumentError(action, "it is empty: give a value, or leave it out")
+        return super()._get_value(action, arg_string)
+
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         if action.choices is not None and value not in action.choices:
             known = ", ".join(map(str, action.choices))

@@ -207,7 +207,7 @@ def test_errors_are_reports(folder: Path) -> None:
     refused("No picture is chosen", "merge_brackets", directory=f"{folder}/", files=[{"name": ""}])
     bracket, ball = several(folder, *names), str(folder / "ball.exr")
     refused(r"0\.exr does not tell its exposure time: give", "merge_brackets", **bracket)
-    refused("There are 3 photographs, but 2 exposure times", "merge_brackets", **bracket, times="1,2")
+    refused("3 photographs have 2 exposure times", "merge_brackets", **bracket, times="1,2")
     refused("'soon' is not a number: give numbers", "merge_brackets", **bracket, times="soon")
     refused("One photograph is no bracket", "merge_brackets", **several(folder, "0.exr"), times="1")
     refused("There are 3 photographs of the ball: select one or two", "unwrap_ball", **bracket)

@@ -126,7 +126,7 @@ def test_bad_input_is_told_and_nothing_written(tmp_path: Path, capfd: pytest.Cap
     assert "Elevation cannot be 90 degrees: choose -89 to 89" in told(ball, "--elevation", 90)
     assert "Camera cannot be -1 degrees: choose 0 to 179" in told(ball, "--camera", -1)
     times = ["--times", 1, "--times-file", tmp_path / "times.txt"]
-    assert "There are 1 photographs, but 2 exposure times" in told(ball, "--times", "1,2")
+    assert "1 photograph has 2 exposure times" in told(ball, "--times", "1,2")
     assert "leave one of the two out" in told(ball, *times)
     assert "Distance and field of view both tell" in told(ball, "--distance", 5, "--fov", 50)
     assert "ball.exr does not tell its exposure time" in told(ball, ball)

@@ -59,7 +59,7 @@ def test_bad_brackets_are_told_and_nothing_is_written(
         return capfd.readouterr().err
 
     assert "0.exr does not tell its exposure time: give the times of all photographs" in told(*paths)
-    assert "There are 3 photographs, but 2 exposure times" in told(*paths, "--times", "1,2")
+    assert "3 photographs have 2 exposure times" in told(*paths, "--times", "1,2")
     assert "One photograph is no bracket: give two or more" in told(paths[0], "--times", "1")
     assert "All photographs have the same exposure" in told(*paths, "--times", "1,1,1")
     assert "missing.exr does not exist" in told(paths[0], tmp_path / "missing.exr", "--times", "1,2")

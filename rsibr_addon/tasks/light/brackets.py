@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from ...core.conventions import Array
+from ...core.counted import counted
 from ...core.environment import usable_radiance
 from ...core.errors import InputFileError, RangeError
 from ...core.light.exposure.merge import Merged, merge_bracket
@@ -43,8 +44,10 @@ def known_times(photographs: Sequence[Path], settings: BracketKnowledge) -> tupl
     """
     times = settings.times if settings.times_file is None else read_times(settings.times_file)
     if times is not None and len(times) != len(photographs):
+        have = "has" if len(photographs) == 1 else "have"
         raise RangeError(
-            f"There are {len(photographs)} photographs, but {len(times)} exposure times: give one for each."
+            f"{counted(len(photographs), 'photograph')} {have} {counted(len(times), 'exposure time')}: "
+            "give one for each."
         )
     return times
 

@@ -75,6 +75,11 @@ class CameraView(View):
         return self.shape
 
     @property
+    def number(self) -> int:
+        """Always 0: a render has this view alone."""
+        return 0
+
+    @property
     def world_light(self) -> WorldLight:
         """See `View`; with the values of the frame that is rendered."""
         return world_light(self.depsgraph.scene_eval.world) or AS_IT_IS

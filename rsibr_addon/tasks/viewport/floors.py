@@ -1,6 +1,7 @@
 """The shadows that floors catch, each made once until what casts it, the floor or the light changes."""
 
-from collections.abc import Sequence
+from collections import ChainMap
+from collections.abc import MutableMapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -20,10 +21,16 @@ SIZE = 1024
 """Width of a floor's map in texels."""
 
 KEPT = 4
-"""Shadows that are kept: those that a few viewports show."""
+"""Viewports whose shadows are kept, all that each shows: those that were drawn last."""
+
+KEPT_LAMPS = 64
+"""Floors' lamps that are kept, some 12 kB each."""
 
 Cast = tuple[GpuMesh, Array]
 """A mesh, and its place in the world."""
+
+Shadows = dict[tuple[Any, ...], CaughtShadow | None]
+"""All that shadows depend on -> the shadow; None where nothing is above the floor."""
 
 
 class Floors:
@@ -37,7 +44,7 @@ class Floors:
 
     def __init__(self) -> None:
         self.messages: list[str] = []
-        self._shadows: dict[tuple[Any, ...], CaughtShadow | None] = {}
+        self._shadows: dict[int, Shadows] = {}  # by the number of the viewport
         self._lamps: dict[tuple[str, bytes], Lamps] = {}
 
     def caught(
@@ -63,13 +70,20 @@ class Floors:
             for each in contents.catchers
             if each.plane is None
         ]
+        shown: Shadows = {}
+        known = ChainMap(shown, self._shadows.pop(view.number, {}), *self._shadows.values())
         if not contents.catchers:
             return []
         casters, turn = contents.casters(view), view.world_light.turn
-        return [(each, self._of(each, casters, light, turn, eye)) for each in contents.catchers]
+        caught = [(each, self._of(known, each, casters, light, turn, eye)) for each in contents.catchers]
+        self._shadows[view.number] = shown  # the newest last
+        if len(self._shadows) > KEPT:
+            del self._shadows[next(iter(self._shadows))]
+        return caught
 
     def _of(
         self,
+        known: MutableMapping[tuple[Any, ...], CaughtShadow | None],
         catcher: Catcher,
         casters: Sequence[Drawable],
         light: Environment | None,
@@ -83,11 +97,7 @@ class Floors:
             return None
         cast = ((each.mesh.batch, each.surface.matrix.tobytes()) for each in casters)
         key = light.sha256, turn.tobytes(), floor.tobytes(), *cast
-        known = key in self._shadows
-        shadow = self._shadows.pop(key) if known else self._made(casters, light, turn, floor)
-        self._shadows[key] = shadow  # the newest last
-        if len(self._shadows) > KEPT:
-            del self._shadows[next(iter(self._shadows))]
+        shadow = known[key] = known[key] if key in known else self._made(casters, light, turn, floor)
         return shadow
 
     def _made(
@@ -101,14 +111,18 @@ class Floors:
             return None
         area = FloorArea(*floor_area(np.concatenate([bounds[each] for each, _ in above])))
         models: list[Cast] = [(each.mesh, model) for each, model in above]
-        up = turn @ floor[2, :3]
-        found = light.sha256, np.round(up, 6).tobytes()
-        if found not in self._lamps:
-            self._lamps = {found: lamps_above(light.radiance, LAMPS, up)}
-        lamps = self._lamps[found]
+        lamps = self._lamps_above(light, turn @ floor[2, :3])
         turned = Lamps(lamps.directions @ turn @ floor[:3, :3].T, lamps.irradiance)
         shadow = floor_shadow(models, turned, area, SIZE)
         return CaughtShadow(floor, area, shadow, lamps.irradiance.sum(axis=0))
+
+    def _lamps_above(self, light: Environment, up: Array) -> Lamps:
+        key = light.sha256, np.round(up, 6).tobytes()
+        lamps = self._lamps.pop(key, None) or lamps_above(light.radiance, LAMPS, up)
+        self._lamps[key] = lamps  # the newest last
+        if len(self._lamps) > KEPT_LAMPS:
+            del self._lamps[next(iter(self._lamps))]
+        return lamps
 
 
 def _moved(matrix: Array, points: Array) -> Array:

@@ -47,6 +47,13 @@ OLD_DEFAULTS = {
 """Kind -> options that had another default in version 0.1, and what gives that to its command."""
 
 
+OPENBLAS_PATIENCE = "10"
+"""Ticks of the processor, as a power of 2, that OpenBLAS's threads wait for work in a loop before they sleep.
+
+By themselves they wait for 2**26, whatever a command does: a few hundredths of a second on every processor.
+"""
+
+
 def parsed(argv: Sequence[str]) -> argparse.Namespace:
     """What a command line asks for.
 
@@ -67,12 +74,13 @@ def parsed(argv: Sequence[str]) -> argparse.Namespace:
     SystemExit
         Help was asked for; that is printed.
     """
-    _limit_threads(argv)
+    _set_up_threads(argv)
     return parser().parse_args(_with_joined_values(_with_todays_names(argv)))
 
 
-def _limit_threads(argv: Sequence[str]) -> None:
+def _set_up_threads(argv: Sequence[str]) -> None:
     """Tell what counts threads of their limit: numpy's OpenBLAS asks once, when a command imports it."""
+    os.environ.setdefault("OPENBLAS_THREAD_TIMEOUT", OPENBLAS_PATIENCE)
     for word, following in pairwise([*argv, ""]):
         name, _, said = word.partition("=")
         if name == "--threads":

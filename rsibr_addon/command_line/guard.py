@@ -16,7 +16,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import NoReturn
 
-from ..files.memory import address_limit
+from ..files.memory import address_limit, keep_freed_memory
 from ..files.staging import clear_strays, remove_own, staging_folder
 from . import endings
 
@@ -91,6 +91,7 @@ def _work(work: Callable[[], int], writer: int) -> NoReturn:
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
     endings.listen(_end)
+    keep_freed_memory()
     try:
         code = work()
     except BaseException:

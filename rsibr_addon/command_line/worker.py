@@ -18,6 +18,7 @@ from typing import Any, NoReturn
 from ..core.errors import RsibrError
 from ..core.schema import loads
 from ..core.warned import recorded_warnings
+from ..files.memory import keep_freed_memory
 from ..files.staging import remove_own
 from ..job import BakeJob, read_job
 from .main import may_pass, sentence_of
@@ -29,6 +30,7 @@ def serve() -> NoReturn:
     from ..core.lobes.kept_fits import fits_kept
     from ..files.environments import environment_kept
 
+    keep_freed_memory()
     told = Outlet(os.dup(1))
     jobs: queue.SimpleQueue[str] = queue.SimpleQueue()
 

@@ -1,6 +1,7 @@
 """What commands import: those that need no Blender do without, so that they start at once."""
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -35,6 +36,23 @@ sys.meta_path[:] = map(Blindfold, sys.meta_path)
 sys.exit(run(sys.argv[1:]))
 """
 """Blender cannot be found, as if it were not installed."""
+
+AT_NUMPY = """
+import os, sys
+from rsibr.rsibr_addon.command_line.main import run
+
+told = []
+
+class Watch:
+    def find_spec(self, name, *where):
+        if name == "numpy":
+            told.append(os.environ["OPENBLAS_THREAD_TIMEOUT"])
+
+sys.meta_path.insert(0, Watch())
+run(sys.argv[1:])
+print(*told)
+"""
+"""Prints at last how long OpenBLAS's threads wait, as they are told when numpy is imported."""
 
 FEW = ("--method", "single", "--slices", "2")
 LIGHT = ("--environment", "light.hdr")
@@ -103,6 +121,16 @@ def test_what_needs_no_numbers_imports_no_numpy(argv: list[str], folder: Path) -
     code, modules, told = imported(folder, *argv)
     assert code == 0, told
     assert "numpy" not in modules
+
+
+@pytest.mark.parametrize(("own", "told"), [({}, "10"), ({"OPENBLAS_THREAD_TIMEOUT": "20"}, "20")])
+def test_openblas_is_told_not_to_wait_before_numpy_is_imported(
+    own: dict[str, str], told: str, folder: Path
+) -> None:
+    free = {name: value for name, value in os.environ.items() if name != "OPENBLAS_THREAD_TIMEOUT"}
+    watched = [sys.executable, "-c", AT_NUMPY, *COMMANDS["info"]]
+    ended = subprocess.run(watched, cwd=folder, env=free | own, capture_output=True, text=True, check=True)
+    assert ended.stdout.splitlines()[-1] == told
 
 
 def test_a_bake_imports_nothing_of_other_kinds(folder: Path) -> None:

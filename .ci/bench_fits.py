@@ -105,14 +105,16 @@ def errors_here() -> list[str]:
 
 
 def processors() -> str:
-    """E of `tapped` under each of OpenBLAS's kernels, as a table."""
-    table = f"| kernel | {' | '.join(tapped())} |\n|{(len(tapped()) + 1) * '---|'}\n"
+    """The least and the greatest E of `tapped` under OpenBLAS's kernels, as a table."""
+    errors = []
     for kernel in ("default", "Prescott", "Nehalem", "Sandybridge", "Haswell", "Zen"):
         setting = {} if kernel == "default" else {"OPENBLAS_CORETYPE": kernel}
         command = [sys.executable, __file__, "--errors"]
         run = subprocess.run(command, env=os.environ | setting, capture_output=True, check=True)
-        table += f"| {kernel} | {' | '.join(json.loads(run.stdout))} |\n"
-    return table
+        errors.append(json.loads(run.stdout))
+    rows = zip(tapped(), zip(*errors, strict=True), strict=True)
+    table = "| fit | least E | greatest E |\n|---|---|---|\n"
+    return table + "".join(f"| {name} | {min(found)} | {max(found)} |\n" for name, found in rows)
 
 
 def main() -> None:

@@ -133,10 +133,49 @@ def nothing(item: bpy.types.Object) -> None:
     """Leave it."""
 
 
+def bevelled(item: bpy.types.Object) -> None:
+    """Have Blender add UV maps up in no certain order."""
+    bpy.ops.mesh.primitive_monkey_add()
+    monkey = bpy.context.object.data
+    bpy.data.objects.remove(bpy.context.object)
+    monkey.materials.append(item.active_material)
+    item.data = monkey
+    for name, kind in (("Subdivision", "SUBSURF"), ("Bevel", "BEVEL"), ("Dust", "PARTICLE_SYSTEM")):
+        item.modifiers.new(name, kind)
+
+
+def warp(item: bpy.types.Object) -> None:
+    item.modifiers.new("Warp", "UV_WARP").offset = (0.01, 0.0)
+
+
+def turn(item: bpy.types.Object) -> None:
+    """About the middle of each face."""
+    item.modifiers.new("Warp", "UV_WARP").rotation = np.pi / 2.0
+
+
+def laid_out_squarely(item: bpy.types.Object) -> None:
+    """Each face on all of the picture."""
+    item.data.uv_layers[0].uv.foreach_set("vector", [0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0] * 6)
+
+
+def edit(item: bpy.types.Object) -> None:
+    bpy.context.view_layer.objects.active = item
+    bpy.ops.object.mode_set(mode="EDIT")
+
+
+def evaluate_anew(item: bpy.types.Object) -> None:
+    item.update_tag()
+
+
 @pytest.mark.parametrize(
     ("before", "change", "is_other"),
     [
         (nothing, nothing, False),
+        (bevelled, evaluate_anew, False),
+        (bevelled, edit, False),
+        (bevelled, move_uv, True),
+        (bevelled, warp, True),
+        (laid_out_squarely, turn, True),
         (nothing, slide, False),
         (nothing, link_image, False),
         (nothing, lay_out, False),

@@ -145,10 +145,11 @@ def scroll():
         yield from event("WHEELDOWNMOUSE", "PRESS", part.x + part.width // 2, part.y + 200)
     yield from drawn()
 
-def picture(name, left=3):
-    # The viewport from some column on, with the sidebar
+def picture(name, left=3, top=0, right=None, bottom=None):
+    # The viewport, or the part of it within these columns and rows, which count from its top left
     area = view()
     shown = xshot.grab()
-    top = shown.shape[0] - area.y - area.height
-    xshot.save(shown[top : top + area.height, left : area.x + area.width], f"/job/{name}.png")
+    first = shown.shape[0] - area.y - area.height
+    part = shown[first : first + area.height, area.x : area.x + area.width][top:bottom, left:right]
+    xshot.save(part, f"/job/{name}.png")
 """

@@ -27,7 +27,7 @@ def suzanne():
     yield from key("DEL")
     yield from key("A", "A", shift=True)
     yield from look_up("monkey")
-    picture("guide-add")
+    picture("guide-add", 330, 330, 870, 450)
     yield from key("RET")
     yield from key("TWO", ctrl=True)
     yield from key("F3")
@@ -56,18 +56,18 @@ def scenario(told):
     yield from suzanne()
     told["objects"] = sorted(each.name for each in bpy.data.objects if each.type == "MESH")
     yield from open_tab()
-    picture("guide-tab")
+    picture("guide-tab", 360, 0, None, 530)
     clicks[:-1] = []  # all but the last one looked for the tab
     yield from push("bpy.ops.material.new(")
     yield from push("rsibr_bake.light")  # the middle one of three
     yield from choose("rsibr_bake.studio", "sunset")
     yield from drawn()  # with the light's picture, which Blender makes aside
-    picture("guide-settings", SIDEBAR)
+    picture("guide-settings", SIDEBAR, 0, None, 400)
     yield from push("bpy.ops.rsibr.bake(", share=0.3)
     (bake,) = session().bakes.bakes
     told["clicks"] = len(clicks) + 2  # to open the list, and to choose in it, instead of the wheel
     yield from drawn()
-    picture("guide-baking", SIDEBAR)
+    picture("guide-baking", SIDEBAR, 0, None, 480)
     yield from done()
     told["state"], told["message"] = str(bake.state), bake.message
     told["shaded"] = bool(bpy.context.object.rsibr.map_set)
@@ -77,9 +77,10 @@ def scenario(told):
     inputs = bpy.context.object.active_material.node_tree.nodes["Principled BSDF"].inputs
     inputs["Base Color"].default_value = (0.5, 0.03, 0.02, 1)
     inputs["Roughness"].default_value, inputs["Coat Weight"].default_value = 0.4, 1.0
+    view().spaces.active.overlay.show_outline_selected = True
     for _ in range(3):
         yield from drawn()
-    picture("guide-preview", left=250)
+    picture("guide-preview", 340, 0, None, 530)
 """
 
 

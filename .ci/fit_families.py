@@ -4,12 +4,15 @@ Without the option --fit, what there is is measured.
 """
 
 import argparse
+from pathlib import Path
 
 import numpy as np
 from docs_table import write_table
+from rsibr.rsibr_addon.core.brdf import sheen_polynomials
 from rsibr.rsibr_addon.core.brdf.fresnel import Fresnel, Index, Schlick
 from rsibr.rsibr_addon.core.brdf.fresnel_powers import dielectric, schlick
 from rsibr.rsibr_addon.core.brdf.ggx import Ggx
+from rsibr.rsibr_addon.core.brdf.sheen_polynomials import fit_polynomials
 from rsibr.rsibr_addon.core.conventions import Array
 from rsibr.rsibr_addon.core.lobes.accuracy import FitErrors, fit_errors
 from rsibr.rsibr_addon.core.lobes.family import Family
@@ -78,6 +81,16 @@ def sheen_errors() -> str:
     return "\n".join(lines)
 
 
+def write_polynomials(coefficients: Array) -> None:
+    """Write polynomials of sheen into their module."""
+    rows = "".join(" ".join(f"{number:.5g}" for number in row) + "\n" for row in np.concatenate(coefficients))
+    path = Path(sheen_polynomials.__file__)
+    text = path.read_text(encoding="utf-8")
+    before, start, rest = text.partition('_ROWS = """\n')
+    _, end, after = rest.partition('"""')
+    path.write_text(f"{before}{start}{rows}{end}{after}", encoding="utf-8")
+
+
 def main() -> None:
     """Fit, where asked to, and write the table."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -87,6 +100,7 @@ def main() -> None:
         write_family(SHIPPED / "gaussian.npz", drain(fit_gaussian()))
         write_family(SHIPPED / "leaning.npz", drain(fit_leaning()))
         write_sheen(SHIPPED / "sheen.npz", drain(fit_sheen(measured_sheen)))
+        write_polynomials(drain(fit_polynomials(measured_sheen)))
     write_table("materials.md", "family", errors(shipped_family("ggx")))
     write_table("materials.md", "sheen", sheen_errors())
 

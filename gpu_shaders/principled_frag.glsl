@@ -1,6 +1,4 @@
-// Twin of core/kinds/kernel_pyramid/shading.py `principled_radiance`, of one material, which has no
-// sheen.
-#define SHEENLESS
+// Twin of core/kinds/kernel_pyramid/shading.py `principled_radiance`, of one material.
 #include "lib/footprint_lib.glsl"
 #include "lib/principled_radiance_lib.glsl"
 #include "lib/sides_lib.glsl"
@@ -24,9 +22,9 @@ void main()
                             widened_roughness(look.coating.x, spread),
                             look.coating.y,
                             look.coat.rgb,
-                            0.0,
-                            0.0,
-                            vec3(0.0),
+                            look.sheen.a,
+                            look.boundary.w,
+                            look.sheen.rgb,
                             look.emission.rgb);
   radiance.rgb = principled_radiance(atlas,
                                      lookups,

@@ -9,6 +9,7 @@ from rsibr.rsibr_addon.core.brdf.fresnel import Index
 from rsibr.rsibr_addon.core.brdf.ggx import Ggx
 from rsibr.rsibr_addon.core.brdf.oren_nayar import leaning_albedo, tilt
 from rsibr.rsibr_addon.core.brdf.principled import ExactAlbedos, Principled, Surface, layers_of
+from rsibr.rsibr_addon.core.brdf.sheen_polynomials import sheen_at
 
 MU = np.array([0.1, 0.3, 0.7, 1.0])
 
@@ -70,6 +71,16 @@ def test_a_coat_s_tint_above_1_brightens_and_stays_finite(index: float) -> None:
         assert np.isfinite(base).all()
     clear = layers_of(replace(surface, coat_tint=(1.0, 1.0, 1.0)), 1.0, ExactAlbedos()).base
     np.testing.assert_allclose(base[0, :2] / clear[0, :2], [2.0, 20.0], rtol=1e-9)
+
+
+@pytest.mark.parametrize("roughness", [0.0, 0.3, 1.0])
+def test_white_fibres_on_black_reflect_their_albedo_and_none_above_white(roughness: float) -> None:
+    fibres = {"specular_level": 0.0, "sheen_weight": 1.0, "sheen_roughness": roughness}
+    albedo = sheen_at(roughness, MU).albedo[:, None] * np.ones(3)
+    # The quadrature is made for smooth lobes
+    found = directional_albedo(Principled(base_color=0.0, **fibres), MU)
+    np.testing.assert_allclose(found, albedo, atol=2e-3)
+    np.testing.assert_allclose(directional_albedo(Principled(base_color=1.0, **fibres), MU), 1.0, atol=2e-3)
 
 
 def test_the_edge_of_a_metal_takes_its_tint() -> None:

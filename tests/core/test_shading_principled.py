@@ -76,6 +76,9 @@ MATERIALS = {
         coat_roughness=0.5,
         coat_tint=(0.6, 0.8, 1.0),
     ),
+    "cloth": Principled(
+        base_color=(0.5, 0.05, 0.03), roughness=0.8, sheen_weight=1.0, sheen_tint=(1.0, 0.8, 0.7)
+    ),
 }
 
 

@@ -2,11 +2,14 @@
 
 import numpy as np
 import pytest
+from rsibr.rsibr_addon.core.brdf import sheen_polynomials
 from rsibr.rsibr_addon.core.brdf.albedo import hemisphere_quadrature
 from rsibr.rsibr_addon.core.brdf.principled import Surface, layers_of
 from rsibr.rsibr_addon.core.brdf.sheen import Sheen, transform_of, transformed_cosine
+from rsibr.rsibr_addon.core.brdf.sheen_polynomials import fit_polynomials, sheen_at
 from rsibr.rsibr_addon.core.errors import RangeError, ShapeError
 from rsibr.rsibr_addon.core.lobes.rings import WIDTHS, SheenTable, ring, ring_errors, ring_weights
+from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.families import shipped_sheen
 from rsibr.rsibr_addon.files.kinds.kernel_pyramid import shipped_families
 
@@ -46,6 +49,20 @@ def test_what_is_about_the_normal_is_met_and_what_leans_costs_what_is_stated() -
     errors = ring_errors(leaning, found)
     assert errors[0] > 0.1
     assert errors[1] < 1e-5
+
+
+def test_sheen_that_polynomials_are_comes_back(monkeypatch: pytest.MonkeyPatch) -> None:
+    roughnesses, mu = (0.1, 0.35, 1.0), np.linspace(0.0, 1.0, 9)
+    wanted = [sheen_at(roughness, mu) for roughness in roughnesses]
+    monkeypatch.setattr(sheen_polynomials, "COEFFICIENTS", drain(fit_polynomials(sheen_at)))
+    for roughness, each in zip(roughnesses, wanted, strict=True):
+        albedo = sheen_at(roughness, mu).albedo
+        # What is next to nothing has no transform, and its albedo no logarithm
+        np.testing.assert_allclose(albedo, each.albedo, atol=5e-3)
+        there = each.albedo > 0.05
+        for name in ("a", "b"):
+            found = getattr(sheen_at(roughness, mu), name)
+            np.testing.assert_allclose(found[there], getattr(each, name)[there], atol=5e-3)
 
 
 def test_between_samples_a_table_is_linear() -> None:

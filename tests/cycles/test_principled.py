@@ -32,8 +32,14 @@ SHOWN = [3, 15, 31, 63]
             coat_ior=1.7,
             coat_tint=(0.5, 0.8, 1.0),
         ),
+        Principled(
+            base_color=(0.9, 0.5, 0.2),
+            sheen_weight=0.8,
+            sheen_roughness=0.3,
+            sheen_tint=(0.5, 0.8, 1.0),
+        ),
     ],
-    ids=["metal", "plastic", "rough", "coated"],
+    ids=["metal", "plastic", "rough", "coated", "cloth"],
 )
 def test_it_sends_back_what_cycles_does(material: Principled) -> None:
     cosine = (np.array(SHOWN) + 0.5) / COSINES

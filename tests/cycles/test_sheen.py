@@ -3,7 +3,10 @@
 import bpy
 import numpy as np
 import pytest
+from rsibr.rsibr_addon.core.brdf.albedo import hemisphere_quadrature
 from rsibr.rsibr_addon.core.brdf.principled import Surface, layers_of
+from rsibr.rsibr_addon.core.brdf.sheen import transformed_cosine
+from rsibr.rsibr_addon.core.brdf.sheen_polynomials import sheen_at
 from rsibr.rsibr_addon.core.lobes.rings import ROUGHNESSES, elevations, ring_errors, ring_weights
 from rsibr.rsibr_addon.files.families import shipped_sheen
 from rsibr.rsibr_addon.files.kinds.kernel_pyramid import shipped_families
@@ -25,6 +28,20 @@ def test_its_error_is_that_of_the_page() -> None:
     sheen = measured_sheen(0.5, elevations(4))
     errors = ring_errors(sheen, shipped_sheen().at(0.5, sheen.mu))
     assert np.all(errors < 0.22)
+
+
+@pytest.mark.parametrize("roughness", [0.25, 0.6])
+def test_polynomials_are_as_near_as_they_say(roughness: float) -> None:
+    sheen = measured_sheen(roughness, np.array([0.004, 0.03, 0.2, 0.6]))
+    found = sheen_at(roughness, sheen.mu)
+    np.testing.assert_allclose(found.albedo, sheen.albedo, atol=3e-3)
+    light_dir, weight = hemisphere_quadrature(0.5)
+    for row in np.flatnonzero(sheen.albedo > 0.01):
+        values, exact = (
+            each.albedo[row] * transformed_cosine(*light_dir.T, each.a[row], each.b[row])
+            for each in (found, sheen)
+        )
+        assert weight @ (values - exact) ** 2 < 0.04**2 * (weight @ exact**2)
 
 
 @pytest.mark.slow

@@ -26,6 +26,9 @@ SURFACES = {
         coat_tint=(0.6, 0.8, 1.0),
         emission=(0.0, 0.1, 0.2),
     ),
+    "cloth": Surface(
+        base_color=(0.5, 0.1, 0.2), sheen_weight=0.8, sheen_roughness=0.3, sheen_tint=(1.0, 0.6, 0.3)
+    ),
 }
 
 

@@ -227,8 +227,9 @@ def test_dragging_and_sliders_change_what_the_preview_would(tmp_path: Path) -> N
     await set("metallic", 1);
     const changed = (await set("roughness", 0.25)).pixels;
     const lit = (await set("turn", 45)).pixels;
+    const fibres = (await set("sheen_weight", 1)).pixels;
     const hints = [told, !hint.hidden];
-    answer({ dragged: encoded(dragged), changed: encoded(changed), lit: encoded(lit), hints });
+    answer({ pictures: [dragged, changed, lit, fibres].map(encoded), hints });
     """.replace("SIZE", str(SIZE))
     said = driven(page_of(source), SET_UP + script)
     assert said["hints"] == [True, False]
@@ -236,12 +237,14 @@ def test_dragging_and_sliders_change_what_the_preview_would(tmp_path: Path) -> N
     x, y, z = VIEW
     half = np.sqrt(0.5)
     view = (half * (x + y), half * (y - x), z)
-    check_alike(radiance(said["dragged"]), preview(source, view=view))
+    dragged, changed, lit, fibres = map(radiance, said["pictures"])
+    check_alike(dragged, preview(source, view=view))
     metal = PrincipledLook(metallic=1.0, roughness=0.25)
-    check_alike(radiance(said["changed"]), preview(source, metal, view))
+    check_alike(changed, preview(source, metal, view))
     # Light that turns with the eye looks as before; turned alone by as much, as an eye that turned back
     turned_eye = (half * (view[0] + view[1]), half * (view[1] - view[0]), z)
-    check_alike(radiance(said["lit"]), preview(source, metal, turned_eye))
+    check_alike(lit, preview(source, metal, turned_eye))
+    check_alike(fibres, preview(source, replace(metal, sheen_weight=1.0), turned_eye))
 
 
 @pytest.mark.slow

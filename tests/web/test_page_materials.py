@@ -64,6 +64,7 @@ def objects() -> list[bpy.types.Object]:
     bpy.ops.mesh.primitive_cube_add(size=1.2, location=(2.0, 0.5, 0.0), rotation=(0.3, 0.2, 0.5))
     cube = bpy.context.object
     cube.data.materials.append(bpy.data.materials.new("plain"))
+    cube.data.materials[0].node_tree.nodes["Principled BSDF"].inputs["Sheen Weight"].default_value = 0.25
     bpy.ops.mesh.primitive_uv_sphere_add(segments=24, ring_count=12)
     ball = bpy.context.object
     ball.scale, ball.rotation_euler = (1.0, 1.4, 0.8), (0.4, 0.1, 0.3)
@@ -127,6 +128,6 @@ def test_one_plain_material_keeps_its_sliders() -> None:
     items = objects()
     depsgraph = bpy.context.evaluated_depsgraph_get()
     (cube,) = own_objects(items[:1], depsgraph)
-    look = look_of(PrincipledLook(metallic=1.0), [cube])
-    assert (look.metallic, look.roughness) == (0.0, 0.5)
+    look = look_of(PrincipledLook(metallic=1.0, sheen_weight=1.0), [cube])
+    assert (look.metallic, look.roughness, look.sheen_weight) == (0.0, 0.5, 0.25)
     assert look_of(PrincipledLook(), own_objects(items, depsgraph)) is None

@@ -19,6 +19,7 @@ from .layered import COAT_ELEVATIONS
 from .model import Brdf, Geometry
 from .oren_nayar import bounces, facets, leaning_albedo, tilt
 from .parameters import Color, Range
+from .sheen_polynomials import sheen_at, sheen_brdf
 
 LARGEST = 1e9
 """Greatest factor of what a tinted coat leaves: at grazing, tints above 1 pass all bounds, as Cycles' do."""
@@ -217,7 +218,7 @@ def _left(reflected: Array) -> Array:
 
 @dataclass(frozen=True, kw_only=True)
 class Principled(Brdf):
-    """One material of Cycles' Principled BSDF, without sheen: see `Surface`.
+    """One material of Cycles' Principled BSDF: see `Surface`.
 
     It is not reciprocal, as Cycles' is not: layers take what the view's side reflects, not the light's.
     """
@@ -234,6 +235,9 @@ class Principled(Brdf):
     coat_roughness: Annotated[float, Range(0.0, 1.0, low_open=True)] = 0.03
     coat_ior: Annotated[float, Range(1.0, 4.0)] = 1.5
     coat_tint: Annotated[Color, Range(0.0, 1.0)] = 1.0
+    sheen_weight: Annotated[float, Range(0.0, 1.0)] = 0.0
+    sheen_roughness: Annotated[float, Range(0.0, 1.0)] = 0.5
+    sheen_tint: Annotated[Color, Range(0.0, 1.0)] = 1.0
 
     @cached_property
     def surface(self) -> Surface:
@@ -248,6 +252,8 @@ class Principled(Brdf):
         found = layers.diffuse * diffuse_brdf(self.surface, geometry)
         for coefficients, roughness in ((layers.base, self.roughness), (layers.coat, self.coat_roughness)):
             found += np.einsum("nc,nci->ni", ggx_by_powers(geometry, roughness**2), coefficients)
+        if self.sheen_weight:
+            found += layers.sheen * sheen_brdf(self.sheen_roughness, geometry)[:, None]
         return found
 
 
@@ -270,9 +276,9 @@ def ggx_by_powers(geometry: Geometry, alpha: float) -> Array:
 
 
 class ExactAlbedos:
-    """Albedos of `Principled`, which has no sheen, by quadrature: one width at a time.
+    """Albedos of `Principled`, of one width at a time.
 
-    They are interpolated between `COAT_ELEVATIONS`.
+    Those of GGX come by quadrature, and are interpolated between `COAT_ELEVATIONS`.
     """
 
     def powers(self, alpha: Array, mu: Array) -> Array:
@@ -288,7 +294,7 @@ class ExactAlbedos:
 
     def sheen(self, roughness: Array, mu: Array) -> Array:
         """See `Albedos`."""
-        return np.zeros_like(mu)
+        return sheen_at(float(roughness), mu).albedo
 
 
 @cache

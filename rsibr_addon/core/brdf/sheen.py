@@ -1,7 +1,7 @@
 """The sheen of cloth as Cycles has it: fibres above a surface, as a transformed cosine [Zeltner2022].
 
 Its two parameters and its albedo are tables over roughness and elevation, which lie in Cycles' program.
-`transform_of` finds them from reflectances.
+`transform_of` finds them from reflectances, and `sheen_polynomials.sheen_at` has polynomials for them.
 """
 
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ class Sheen:
     Attributes
     ----------
     mu : ndarray, shape (S,)
-        n.v, ascending, in (0, 1).
+        n.v, in (0, 1).
     a, b : ndarray, shape (S,)
     albedo : ndarray, shape (S,)
         Directional albedo, in [0, 1].

@@ -69,6 +69,11 @@ class PrincipledMaterial(Options):
     coat_tint: tuple[float, float, float] = _colour(
         1.0, "Coat Tint", "Color of what is seen through the coat", advanced=True
     )
+    sheen_weight: float = _share(0.0, "Sheen Weight", "How much light fibres reflect, as of cloth or dust")
+    sheen_roughness: float = _share(
+        0.5, "Sheen Roughness", "How far from the edges sheen reaches", advanced=True
+    )
+    sheen_tint: tuple[float, float, float] = _colour(1.0, "Sheen Tint", "Color of the sheen", advanced=True)
 
     @property
     def spec(self) -> str:

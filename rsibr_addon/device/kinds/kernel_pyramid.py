@@ -35,7 +35,7 @@ SAMPLERS = {
 principled_shader = MeshProgram(
     "principled",
     "PrincipledLook look",
-    "vec4 base; vec4 specular; vec4 coat; vec4 emission; vec4 boundary; vec4 coating;",
+    "vec4 base; vec4 specular; vec4 coat; vec4 sheen; vec4 emission; vec4 boundary; vec4 coating;",
     SAMPLERS,
 )
 """Draws a mesh of one Principled material, the same all over."""
@@ -175,7 +175,8 @@ def look_fields(look: Surface, antialiased: bool) -> tuple[Array, ...]:
         np.append(look.base_color, look.metallic),
         np.append(look.specular_tint, look.specular_level),
         np.append(look.coat_tint, look.coat_weight),
+        np.append(look.sheen_tint, look.sheen_weight),
         np.append(look.emission, look.alpha),
-        np.array([look.roughness, look.ior, look.diffuse_roughness]),
+        np.array([look.roughness, look.ior, look.diffuse_roughness, look.sheen_roughness]),
         np.array([look.coat_roughness, look.coat_ior, antialiased]),
     )

@@ -30,6 +30,9 @@ CHROMIUM = (
 SWIFTSHADER = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 """Has Chromium draw with a driver of its own, which is there everywhere."""
 
+WEBGPU = ("--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader")
+"""Has it have WebGPU by that driver."""
+
 LIKE_BLENDER = ("--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist")
 """Has it draw with the driver that Blender draws with."""
 
@@ -67,7 +70,9 @@ class _Handler(SimpleHTTPRequestHandler):
         pass
 
 
-def asked(page: str, question: dict[str, Any], files: Path) -> dict[str, Any]:
+def asked(
+    page: str, question: dict[str, Any], files: Path, driver: Sequence[str] = SWIFTSHADER
+) -> dict[str, Any]:
     """What a page of this folder answers to a question, which may name /files/NAME.
 
     Raises
@@ -75,7 +80,7 @@ def asked(page: str, question: dict[str, Any], files: Path) -> dict[str, Any]:
     AssertionError
         It did not answer, or something went wrong there.
     """
-    return _answer(lambda host: f"{host}/tests/{page}", {**PLACES, "files": files}, question, SWIFTSHADER)
+    return _answer(lambda host: f"{host}/tests/{page}", {**PLACES, "files": files}, question, driver)
 
 
 def driven(page: Path, script: str, before: str = "", driver: Sequence[str] = LIKE_BLENDER) -> dict[str, Any]:

@@ -1,5 +1,6 @@
 """Lobes for engines, as three.js shades with them in a browser."""
 
+import subprocess
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import principled_radia
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.kinds.kernel_pyramid import shipped_families
 from rsibr.tests.engine_light import from_y_up, sky, sky_file
-from rsibr.tests.web.browser import asked
+from rsibr.tests.web.browser import WEBGPU, asked
 
 MATERIALS: list[dict[str, Any]] = [
     {"color": (0.9, 0.6, 0.3), "metalness": 1.0, "roughness": 0.15},
@@ -33,25 +34,83 @@ def points() -> tuple[np.ndarray, np.ndarray]:
     return normal[seen][:60], view_dir[seen][:60]
 
 
-@pytest.mark.slow
-def test_three_shades_with_lobes_as_core_does(tmp_path: Path) -> None:
+WGSL = """
+struct Point { color: vec3f, metalness: f32, normal: vec3f, roughness: f32, view_dir: vec4f };
+@group(0) @binding(3) var<storage, read> points: array<Point>;
+@group(0) @binding(4) var<storage, read_write> shown: array<vec4f>;
+
+@compute @workgroup_size(1) fn main(@builtin(global_invocation_id) id: vec3u) {
+  let it = points[id.x];
+  shown[id.x] = vec4f(rsibr_shade(it.color, it.metalness, it.roughness, it.normal, it.view_dir.xyz), 1.0);
+}
+"""
+
+HLSL = """
+struct Point { float3 color; float metalness; float3 normal; float roughness; float4 view_dir; };
+StructuredBuffer<Point> points : register(t3);
+RWStructuredBuffer<float4> shown : register(u4);
+
+[numthreads(1, 1, 1)] void main(uint3 id : SV_DispatchThreadID)
+{
+  Point it = points[id.x];
+  shown[id.x] = float4(rsibr_shade(it.color, it.metalness, it.roughness, it.normal, it.view_dir.xyz), 1.0);
+}
+"""
+
+
+def check(shown: list[Any], normal: np.ndarray, view_dir: np.ndarray) -> None:
     """Half floats and 8-bit weights of texels cost less than 1 %; the lookups are core's own."""
-    light = str(sky_file(tmp_path))
-    assert run(["export", light, "--for", "lobes", "--widest", "128", "-o", str(tmp_path / "sky.ktx2")]) == 0
-    normal, view_dir = points()
-    question = {
-        "name": "/files/sky",
-        "materials": MATERIALS,
-        "points": np.stack([normal, view_dir], axis=1).tolist(),
-    }
-    said = asked("lobes.html", question, tmp_path)
     pyramid, families = drain(bake_pyramid(sky(), 128)).pyramid, shipped_families()
-    for material, shown in zip(MATERIALS, said["radiance"], strict=True):
+    for material, found in zip(MATERIALS, shown, strict=True):
         surface = Surface(
             base_color=np.array(material["color"]),
             metallic=np.array(material["metalness"]),
             roughness=np.array(material["roughness"]),
         )
         wanted = principled_radiance(pyramid, families, surface, from_y_up(normal), from_y_up(view_dir))
-        error = np.array(shown) - wanted
+        error = np.array(found) - wanted
         assert np.sqrt(np.mean(error**2) / np.mean(wanted**2)) < 0.01, material
+
+
+def export(folder: Path) -> None:
+    light = str(sky_file(folder))
+    assert run(["export", light, "--for", "lobes", "--widest", "128", "-o", str(folder / "sky.ktx2")]) == 0
+
+
+@pytest.mark.slow
+def test_three_shades_with_lobes_as_core_does(tmp_path: Path) -> None:
+    export(tmp_path)
+    normal, view_dir = points()
+    question = {
+        "name": "/files/sky",
+        "materials": MATERIALS,
+        "points": np.stack([normal, view_dir], axis=1).tolist(),
+    }
+    check(asked("lobes.html", question, tmp_path)["radiance"], normal, view_dir)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "language",
+    ["wgsl", pytest.param("hlsl", marks=[pytest.mark.needs("naga"), pytest.mark.needs("glslangValidator")])],
+)
+def test_webgpu_shades_with_lobes_as_core_does(language: str, tmp_path: Path) -> None:
+    """HLSL is compiled to SPIR-V, and that is told in WGSL."""
+    export(tmp_path)
+    entry = {"wgsl": WGSL, "hlsl": HLSL}[language]
+    program = tmp_path / f"entry.{language}"
+    program.write_text((tmp_path / f"sky.{language}").read_text() + entry)
+    if language == "hlsl":
+        compiled = "glslangValidator -D -e main -V -S comp --shift-sampler-binding 2 -o entry.spv entry.hlsl"
+        for command in (compiled, "naga entry.spv entry.wgsl"):
+            done = subprocess.run(command.split(), cwd=tmp_path, capture_output=True, text=True)
+            assert done.returncode == 0, done.stdout + done.stderr
+    normal, view_dir = points()
+    given = [
+        [[*material["color"], material["metalness"]], [*n, material["roughness"]], [*v, 0.0]]
+        for material in MATERIALS
+        for n, v in zip(normal.tolist(), view_dir.tolist(), strict=True)
+    ]
+    question = {"name": "/files/sky", "program": "/files/entry.wgsl", "points": given}
+    shown = asked("lobes_webgpu.html", question, tmp_path, WEBGPU)["radiance"]
+    check(np.reshape(shown, (len(MATERIALS), len(normal), 3)).tolist(), normal, view_dir)

@@ -1,6 +1,7 @@
 """Properties of Blender, made of options; and the options that properties say."""
 
 import math
+import re
 from collections.abc import Callable, Collection
 from dataclasses import MISSING
 from enum import Enum
@@ -332,7 +333,7 @@ def _value(declared: Declared, group: Any, own: str) -> Any:
     if value == told.none_as and declared.optional:
         return None
     if isinstance(value, str):
-        value = bpy.path.abspath(value)  # Blender's own window writes paths with //
+        value = _absolute(value)
     if _is_list(declared):
         try:
             return value_from_text(declared, ",".join(value.replace(",", " ").split()))
@@ -345,6 +346,11 @@ def _value(declared: Declared, group: Any, own: str) -> Any:
         chosen = value if not isinstance(value, set) else [each for each in told.choices if each in value]
         return (chosen,) if isinstance(chosen, int) else tuple(chosen)
     return value
+
+
+def _absolute(text: str) -> str:
+    """A path, or a text that names files, without the ``//`` of Blender's own window."""
+    return re.sub(r"(^|=\s*)(//[^,;)]*)", lambda found: found[1] + bpy.path.abspath(found[2]), text)
 
 
 def _plain(value: Any, subtype: str) -> Any:
@@ -364,11 +370,11 @@ def _material(declared: Declared, group: Any, own: str) -> str | None:
         case "FILE":
             return measured_spec(existing(group.path, "measured material", "its file"))
         case "MODEL":
-            return str(text)
+            return _absolute(str(text))
         case other if other == materials.instead.upper():
             return None
         case "OWN":
             return materials.own.format(own)
         case None if materials.own:  # by its text
-            return str(text) or (materials.own.format(own) if own else None)
+            return _absolute(str(text)) or (materials.own.format(own) if own else None)
     return None if group.preset == NONE else str(group.preset)

@@ -79,9 +79,9 @@ class MipChainSettings(MethodSettings):
     probes: str | None = option(
         None,
         label="Probes",
-        help="Light of rooms, for the points in them; between rooms it is blended, and beyond them it is the "
-        "light of the bake: box:light=hall.exr,size=6/5/3,middle=0/0/1.5,at=1/0/1.5,blend=0.5;sphere:... in "
-        "world coordinates",
+        help="Light of rooms, by files or names, for the points in them; between rooms it is blended, and "
+        "beyond them it is the light of the bake: box:light=hall.exr,size=6/5/3,middle=0/0/1.5,at=1/0/1.5,"
+        "blend=0.5;sphere:... in world coordinates",
         none="none",
         none_as="",
         metavar="ROOM:KEY=VALUE,...;...",

@@ -6,7 +6,9 @@ import bpy
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.geometry.near_room import Room
+from rsibr.rsibr_addon.host.option_properties import options_of
 from rsibr.rsibr_addon.host.rooms import room_of
+from rsibr.rsibr_addon.settings.mip_chain import MipChainSettings
 from rsibr.rsibr_addon.settings.probes import probes_from_text
 
 pytestmark = pytest.mark.usefixtures("registered")
@@ -40,3 +42,12 @@ def test_probes_are_added_one_behind_the_other(tmp_path: Path) -> None:
     assert (second.room, second.middle, second.blend) == (Room.SPHERE, (9.0, 0.0, 0.1), 0.25)
     with pytest.raises(RuntimeError, match="There is no file"):
         bpy.ops.rsibr.add_probe(light=str(tmp_path / "none.exr"))
+
+
+def test_files_in_texts_are_beside_the_blender_file(tmp_path: Path) -> None:
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "house.blend"))
+    chosen = bpy.context.scene.rsibr_bake
+    chosen.kind = "mip_chain"
+    chosen.mip_chain.probes = "box:light=//hall.exr,size=4/4/4; sphere: light = //rooms/b.exr , blend=1"
+    settings = options_of(MipChainSettings, chosen.mip_chain)
+    assert [each.light for each in settings.rooms] == [f"{tmp_path}/hall.exr", f"{tmp_path}/rooms/b.exr"]

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import InputFileError
+from rsibr.rsibr_addon.files.map_set import read_map_set
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.host.installation import studio_environments
 from rsibr.rsibr_addon.tasks.light.environments import load_environment
@@ -42,3 +43,16 @@ def test_a_map_set_is_no_environment(
     assert run([*MIPS, "--environment", f"sky.rsibr.exr{layer}", "-o", "new.rsibr.exr"]) == 1
     told = f"sky.rsibr.exr{layer} is a map set, not a picture: give the picture that it was made of."
     assert capfd.readouterr().err == f"rsibr: error: {told}\n"
+
+
+def test_a_probe_has_the_light_of_a_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    write_radiance("sky.hdr", np.ones((4, 8, 3)))
+    forest = studio_environments()["forest"]
+    for light, output in (("forest", "name"), (forest, "path")):
+        probe = f"box:light={light},size=4/4/4"
+        assert run([*MIPS, "--environment", "sky.hdr", "--probes", probe, "-o", f"{output}.rsibr.exr"]) == 0
+    by_name, by_path = (read_map_set(Path(f"{name}.rsibr.exr")) for name in ("name", "path"))
+    assert by_name.maps.keys() == by_path.maps.keys()
+    for name, values in by_name.maps.items():
+        np.testing.assert_array_equal(values, by_path.maps[name])

@@ -129,7 +129,7 @@ def test_files_that_settings_name_are_beside_the_batch(
     )
     probes = {
         "kind": "mip-chain",
-        "probes": "box:light=hall.exr,size=6/5/3;sphere:size=1/1/1, light = b/c.exr ",
+        "probes": "box:light=hall.exr,size=6/5/3;sphere:size=1/1/1, light = b/c.exr ;box:light=forest",
     }
     Path("rooms.json").write_text(json.dumps({"environments": ["dark.exr"], "methods": [probes]}))
     monkeypatch.chdir("light")
@@ -139,6 +139,7 @@ def test_files_that_settings_name_are_beside_the_batch(
     assert [each.light for each in rooms.job.settings.rooms] == [
         f"{tmp_path}/hall.exr",
         f"{tmp_path}/b/c.exr",
+        "forest",
     ]
     [spec] = read_batch(tmp_path / "spec.json")
     assert spec.job.settings.brdf == f"merl:path={tmp_path}/a/b.binary"

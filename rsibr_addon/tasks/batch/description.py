@@ -143,7 +143,7 @@ def _with_files_beside(given: dict[str, Any], kind: str, folder: Path) -> dict[s
         if each.option.subtype == "FILE_PATH" and isinstance(given.get(each.name), str)
     ]
     texts = {
-        name: _LIGHT.sub(lambda found: f"light={folder / found[1]}", value)
+        name: _LIGHT.sub(lambda found: f"light={_environment(found[1].strip(), folder)}", value)
         for name, value in given.items()
         if isinstance(value, str)
     }
@@ -155,8 +155,13 @@ def _environments(text: str, folder: Path) -> Sequence[str]:
     if is_pattern(text):
         # Map sets may lie beside environments, and are none
         return [str(path) for path in _files(text, folder) if not path.name.endswith(".rsibr.exr")]
+    return [_environment(text, folder)]
+
+
+def _environment(text: str, folder: Path) -> str:
+    """What a text names: a file beside the batch, or itself, as one of Blender's own."""
     is_file = split_layer(folder / text)[0].is_file() or Path(split_layer(text)[0]).suffix
-    return [str(folder / text) if is_file else text]
+    return str(folder / text) if is_file else text
 
 
 def _materials(text: str, folder: Path) -> Sequence[str]:

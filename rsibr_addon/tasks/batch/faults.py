@@ -31,9 +31,9 @@ def fault_of(bake: BatchBake) -> str:
             return _unknown(text)
     try:
         METHODS[settings.KIND].cost(settings)
-        files = list(METHODS[settings.KIND].sources(settings).files)
+        files = [*METHODS[settings.KIND].sources(settings).named.values()]
         if bake.job.light.environment is not None:
-            files.append(str(split_layer(environment_file(bake.job.light.environment))[0]))
+            files.append(split_layer(environment_file(bake.job.light.environment))[0])
         for file in files:
             with opened(file):
                 pass

@@ -166,7 +166,7 @@ class _Copies:
             if sources.listed:
                 replaced = {sources.files[0]: self._copy_list(Path(sources.files[0]), sources.listed)}
             else:
-                replaced = {file: self._copy(Path(file)) for file in sources.files if file}
+                replaced = {named: self._copy(file) for named, file in sources.named.items()}
             if blend := _blend_file(sources.material):
                 replaced[blend] = self._packed(Path(blend))
             light = job.light

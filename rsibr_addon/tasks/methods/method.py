@@ -16,7 +16,7 @@ from ...files.map_set_header import Recipe
 from ...files.memory import check_memory
 from ...files.version import rsibr
 from ...job import BakeJob
-from ..light.environments import load_environment
+from ..light.environments import environment_file, load_environment
 
 BLENDER_MEMORY = 350e6
 """Bytes that a background Blender takes with a small file, before any work."""
@@ -119,11 +119,26 @@ class Sources:
         The material that Blender makes or holds, as `host.materials.load_material` names it.
     listed : tuple of str
         Where the first of `files` lists the others: their names in it, relative to its folder.
+    lights : tuple of str
+        Environments that they name, as `light.environments.environment_file` takes them.
     """
 
     files: tuple[str, ...] = ()
     material: str | None = None
     listed: tuple[str, ...] = ()
+    lights: tuple[str, ...] = ()
+
+    @property
+    def named(self) -> dict[str, Path]:
+        """Each of `files` and `lights` as the settings name it -> its file.
+
+        Raises
+        ------
+        InputFileError
+            There is no environment of this name.
+        """
+        lights = {light: Path(environment_file(light)) for light in self.lights}
+        return {file: Path(file) for file in self.files if file} | lights
 
 
 @dataclass(frozen=True)

@@ -17,12 +17,12 @@ from ...core.maps.representation import representation
 from ...core.options import to_plain
 from ...core.progress import Progress, Steps
 from ...core.resample import resample
-from ...files.environments import read_environment
 from ...files.kinds.mip_chain import to_map_set
 from ...files.map_set_header import Origin, Recipe
 from ...files.memory import check_memory
 from ...job import BakeJob
 from ...settings.mip_chain import MipChainSettings
+from ..light.environments import load_environment
 from .method import (
     RGB,
     STORED,
@@ -78,7 +78,7 @@ def bake(job: BakeJob[MipChainSettings], recipe: Recipe) -> Steps[Baked]:
     chain, largest = yield from _chain(light, settings)
     probes = []
     for room in settings.rooms:
-        of_room, bound_there = yield from _chain(read_environment(room.light, job.light.clamp), settings)
+        of_room, bound_there = yield from _chain(load_environment(room.light, job.light.clamp), settings)
         probes.append(Probe(room.place, of_room.mips))
         largest = max(largest, bound_there)
     chain = replace(chain, probes=tuple(probes))
@@ -140,7 +140,7 @@ def _texture_space(light: Environment, settings: MipChainSettings) -> MipChain:
 
 def sources(settings: MipChainSettings) -> Sources:
     """See `Method`."""
-    return Sources(tuple(room.light for room in settings.rooms))
+    return Sources(lights=tuple(room.light for room in settings.rooms))
 
 
 METHOD = Method(bake, cost, sources=sources)

@@ -90,7 +90,7 @@ def make_recipe(
         clamp=light.clamp,
         light=light_hash,
         material=material,
-        files=[digest(Path(path)) for path in sources.files],
+        files=[digest(file) for file in sources.named.values()],
         software=_software(light, sources),
     )
 
@@ -203,12 +203,13 @@ def _told(value: Any) -> str:
 
 def _without_folders(settings: dict[str, Any], sources: Sources) -> dict[str, Any]:
     """Settings in which files have their names alone: machines have the same file in different folders."""
-    files = sources.files
+    names = {named: file.name for named, file in sources.named.items()}
     if sources.material is not None and sources.material not in PRESETS:
         from ...host.materials import material_file
 
-        files += (material_file(sources.material),)
-    return with_files_named(settings, {file: Path(file).name for file in files if file})
+        if blend := material_file(sources.material):
+            names[blend] = Path(blend).name
+    return with_files_named(settings, names)
 
 
 def _software(light: Light, sources: Sources) -> str:

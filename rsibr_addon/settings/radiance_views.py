@@ -5,6 +5,7 @@ from typing import ClassVar
 
 from ..core.brdf.cycles_presets import PRESETS, preset_title
 from ..core.brdf.gallery import GALLERY
+from ..core.errors import RangeError
 from ..core.kinds.radiance_views.shading import Mode
 from ..core.kinds.radiance_views.warping import Warping
 from ..core.options import Choice, Materials, option
@@ -56,6 +57,28 @@ class RadianceViewsSettings(MethodSettings):
         advanced=True,
         metavar="FILE",
     )
+    more_views: int | None = option(
+        None,
+        label="More Views",
+        help="Capture so many more views at most, each where it tells lobes that are fitted to them most",
+        least=1,
+        most=150,
+        none="none",
+        none_as=0,
+        advanced=True,
+        metavar="N",
+    )
+    goal: float | None = option(
+        None,
+        label="Goal",
+        help="Capture no more views once the lobes predict views that are left out with this relative error",
+        least=0.001,
+        most=1.0,
+        none="all of them",
+        none_as=0.0,
+        advanced=True,
+        metavar="ERROR",
+    )
     photographs: str | None = option(
         None,
         label="Photographs",
@@ -95,6 +118,13 @@ class RadianceViewsSettings(MethodSettings):
     seed: int = option(
         0, label="Seed", help="Seed of Cycles' noise", least=0, most=(1 << 31) - 1, advanced=True
     )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.goal is not None and self.more_views is None:
+            raise RangeError("A goal ends the capture of more views: say how many there may be (More Views).")
+        if self.photographs is not None and self.more_views is not None:
+            raise RangeError("Photographs are what they are: leave More Views out.")
 
     @property
     def only_names_material(self) -> bool:

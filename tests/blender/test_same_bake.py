@@ -40,6 +40,7 @@ TOGETHER = {
     "seek": {"method": "greedy"},
     "cosine": {"method": "single"},
     "fit": {"brdf": None},
+    "goal": {"more_views": 1},
     "exponents": {"filter": "phong"},
 }
 """Option -> others that it cannot be without."""

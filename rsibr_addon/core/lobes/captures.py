@@ -28,6 +28,7 @@ from .captured_texels import CapturedTexels, Equations, captured_texels, equatio
 from .family import Family
 from .fit import Fit, joined
 from .likeness import factors, likeness
+from .next_views import Weighed
 from .tridiagonal import Tridiagonal
 
 METHOD = "captured"
@@ -70,10 +71,13 @@ class CapturedFit:
         Its `left_out` is None with fewer than `FEWEST_VIEWS`.
     widths : tuple of float
         alpha of the glossy likeness's members; empty without glossy light.
+    weighed : tuple of Weighed
+        Of the diffuse and of the glossy part, of those that are not black.
     """
 
     fit: Fit
     widths: tuple[float, ...]
+    weighed: tuple[Weighed, ...]
 
 
 def fit_captures(
@@ -114,6 +118,7 @@ def fit_captures(
     few = captured_texels(views, count, SEARCHED, light.sun_dir)
     thinnest, folds = _THINNEST * texel_angle(views.size), _folds(texels, count)
     fits: list[Fit] = []
+    weighed: list[Weighed] = []
     errors: Array = np.zeros_like(texels.glossy)
     widths: tuple[float, ...] = ()
     mu = families[0].mu
@@ -131,13 +136,15 @@ def fit_captures(
         weights = _side_by_side([each.weights(bank) for each in members])
         seen = seen_functions(texels, light, mu, tilts, weights)
         equations = equations_of(texels, light, mu, tilts)
-        fitted, left = _Corrector(equations, bank, weights, seen, texels, radiance, folds).best()
+        corrector = _Corrector(equations, bank, weights, seen, texels, radiance, folds)
+        fitted, left, price = corrector.best()
         fits.append(_fit(mu, bank, tilts, fitted, brdf))
         errors += left
+        weighed.append(Weighed(mu, tilts, corrector.precision(price), _power(texels, left)))
         if part == "glossy":
             widths = tuple(each.alpha for each in members)
     left_out = float(np.sqrt(_power(texels, errors) / power)) if count >= FEWEST_VIEWS else None
-    return CapturedFit(replace(joined(fits, brdf), left_out=left_out), widths)
+    return CapturedFit(replace(joined(fits, brdf), left_out=left_out), widths, tuple(weighed))
 
 
 def _power(texels: CapturedTexels, values: Array) -> float:
@@ -253,8 +260,8 @@ class _Corrector:
         self._rights, self._own = rights[..., :-1], rights[..., -1]
         self._price = self._prices(bank, np.sum((self._root[:, None] * radiance) ** 2, axis=0))
 
-    def best(self) -> tuple[Array, Array]:
-        """All weights, shape (S, M, 3), and the errors of texels when they are left out, shape (N, 3)."""
+    def best(self) -> tuple[Array, Array, float]:
+        """All weights, shape (S, M, 3), errors of texels left out, shape (N, 3), and the price."""
         total, rights = self._systems.sum(), self._rights.sum(axis=0)
         without = Tridiagonal(total.diagonal[None], total.above[None]) - self._systems
         left = np.stack(
@@ -274,7 +281,14 @@ class _Corrector:
         for fold, those in enumerate(unknowns):
             chosen = self._folds == fold
             rest[chosen] -= self._equations.radiance(chosen, np.moveaxis(those, 0, -1))
-        return self._functions @ self._factors + np.moveaxis(correction, 0, -1), rest
+        return self._functions @ self._factors + np.moveaxis(correction, 0, -1), rest, price
+
+    def precision(self, price: float) -> Array:
+        """What a price, or the highest of `PRICES`, costs weights in the mean of all channels."""
+        finite = min(price, PRICES[0])
+        mean = Tridiagonal(self._price.diagonal.mean(axis=0), self._price.above.mean(axis=0))
+        precision: Array = finite * mean.dense()
+        return precision
 
     def _prices(self, bank: KernelBank, captured: Array) -> Tridiagonal:
         """The price of a correction that costs 1, of captured power in each channel."""

@@ -1,6 +1,6 @@
 """Radiance views of a material, rendered or integrated, into a map set."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -20,10 +20,7 @@ from ...core.kinds.radiance_views.left_out import LeftOut
 from ...core.options import to_plain
 from ...core.progress import Progress, Steps, drain
 from ...core.warned import warn
-from ...files.atomic import written_aside
 from ...files.ball_list import BallPhotograph, read_ball_list
-from ...files.exr import read_parts, write_parts
-from ...files.exr_part import Part
 from ...files.kinds.radiance_views import LEFT_OUT
 from ...files.map_set_data import ENVIRONMENT, MapsInTurn
 from ...files.map_set_header import Origin, Recipe, make_header
@@ -31,6 +28,7 @@ from ...files.view_directions import read_view_dirs
 from ...files.work_folder import kept_parts, work_folder_beside
 from ...job import BakeJob
 from ...settings.radiance_views import RENDERING, RadianceViewsSettings
+from .kept_views import NOISE, KeptViews
 from .method import (
     ENVIRONMENT_MEMORY,
     ENVIRONMENT_ROWS,
@@ -46,6 +44,7 @@ from .method import (
     software_of,
     written,
 )
+from .more_views import capture_views, most_views
 from .views_by_model import TOGETHER, ViewsByModel
 from .views_by_photographs import ViewsByPhotographs
 
@@ -54,9 +53,6 @@ if TYPE_CHECKING:
 
 ALBEDO = "albedo"
 """Name and role of the part that holds the material's directional albedo."""
-
-NOISE = "noise"
-"""Attribute of a finished view: its relative standard error."""
 
 
 def material(settings: RadianceViewsSettings) -> str:
@@ -79,7 +75,7 @@ def sources(settings: RadianceViewsSettings) -> Sources:
 def cost(settings: RadianceViewsSettings) -> Cost:
     """See `Method`; measured on a sphere in Blender's `forest`."""
     try:
-        views = len(_sphere(settings).vertices)
+        views = most_views(settings, len(_sphere(settings).vertices))
     except InputFileError:  # which the bake tells
         views = settings.views
     texels = views * settings.size**2
@@ -117,30 +113,34 @@ def bake(job: BakeJob[RadianceViewsSettings], recipe: Recipe) -> Steps[Baked]:
     -----
     Each finished view is kept in OUTPUT.partial until the map set is whole. A job that was
     interrupted, even killed, goes on with them, and the result is the same, bit by bit. Never more than
-    one view is in memory.
+    one view is in memory, but where lobes are fitted to choose more views.
     """
     asked = job.settings
     sphere = _sphere(asked)
-    count = len(sphere.vertices)
+    most = most_views(asked, len(sphere.vertices))
     # Its own steps would be of another total than the views
-    yield Progress(0, count, "reading the environment")
+    yield Progress(0, most, "reading the environment")
     light = drain(read_light(job))
-    if not sphere.surrounds:
+    if not sphere.surrounds and asked.more_views is None:
         warn(
             f"The views of {asked.photographs or asked.view_file} do not surround the object, so none are "
             "blended and the nearest is shown: give views from all sides."
         )
-    captured = _captured(asked, light, sphere.vertices)
-    captured.check_memory(job.output)
+    lit = _lit_material(asked, light, most)
+    lit.check_memory(job.output)
     folder = work_folder_beside(Path(job.output))
+    kept = KeptViews(folder)
     with kept_parts(folder, {**recipe}):
-        paths = [folder / f"view{view:03d}.exr" for view in range(count)]
-        missing = [view for view, path in enumerate(paths) if not _is_finished(path)]
-        yield from captured.capture(missing, partial(_keep_view, paths))
+        capture = partial(lit.capture, kept.keep)
+        captured = yield from capture_views(asked, light, sphere.vertices, kept, capture)
         software = software_of(job, measured=_is_rendered(asked))
-        path = drain(written(job, recipe, _map_set(captured, asked, light, sphere, paths, software)))
-    figures = {"views": count, "size": asked.size}
-    return Baked(path, f"{counted(count, 'view')} of {asked.size}x{asked.size}", figures)
+        sphere = view_sphere(captured.view_dirs)
+        path = drain(written(job, recipe, _map_set(lit, asked, light, sphere, kept, software)))
+    told, figures = captured.report()
+    size = f"{asked.size}x{asked.size}"
+    return Baked(
+        path, f"{counted(len(sphere.vertices), 'view')} of {size}{told}", {"size": asked.size, **figures}
+    )
 
 
 def _is_rendered(settings: RadianceViewsSettings) -> bool:
@@ -166,69 +166,53 @@ def _photographs_if_there(path: str) -> list[BallPhotograph]:
         return []
 
 
-def _captured(
-    settings: RadianceViewsSettings, light: Environment, view_dirs: Array
+def _lit_material(
+    settings: RadianceViewsSettings, light: Environment, most: int
 ) -> "ViewsByModel | ViewsByCycles | ViewsByPhotographs":
     if settings.photographs is not None:
         return ViewsByPhotographs(settings, read_ball_list(settings.photographs))
     if is_model(settings.material):
-        return ViewsByModel(settings, light, view_dirs)
+        return ViewsByModel(settings, light)
     from .views_by_cycles import ViewsByCycles
 
-    return ViewsByCycles(settings, light, view_dirs)
-
-
-def _keep_view(paths: Sequence[Path], view: int, diffuse: Array, glossy: Array, noise: float) -> None:
-    parts = [
-        Part(name, {"RGB": radiance}, {NOISE: repr(noise)})
-        for name, radiance in {"diffuse": diffuse, "glossy": glossy}.items()
-    ]
-    with written_aside(paths[view], force=True) as aside:
-        write_parts(aside, parts)
-
-
-def _is_finished(path: Path) -> bool:
-    try:
-        return len(read_parts(path)) == 2
-    except InputFileError:
-        return False
+    return ViewsByCycles(settings, light, most)
 
 
 def _map_set(
-    captured: "ViewsByModel | ViewsByCycles | ViewsByPhotographs",
+    lit: "ViewsByModel | ViewsByCycles | ViewsByPhotographs",
     settings: RadianceViewsSettings,
     light: Environment,
     sphere: GeodesicSphere,
-    paths: list[Path],
+    kept: KeptViews,
     software: str,
 ) -> MapsInTurn:
-    albedo = captured.albedo()
+    albedo, count = lit.albedo(), len(sphere.vertices)
     shapes = {ENVIRONMENT: light.radiance.shape[:2], ALBEDO: albedo.shape[:2]}
     parts: list[dict[str, Any]] = [{"name": name, "role": name} for name in shapes]
     variance = 0.0
     left_out = LeftOut(sphere, settings.size, albedo)
-    for view, path in enumerate(paths):
+    for view in range(count):
         view_dir = sphere.vertices[view].tolist()
-        finished = read_parts(path)
+        finished = kept.parts(view)
         for part in finished:
             name = f"view{view:03d}.{part.name}"
             shapes[name] = (settings.size,) * 2
             parts.append({"name": name, "role": part.name, "view": view, "view_dir": view_dir})
-        variance += float(finished[0].attributes[NOISE]) ** 2 / len(paths)
+        variance += float(finished[0].attributes[NOISE]) ** 2 / count
         left_out.add(view, *(part.side_by_side("RGB") for part in finished))
     errors = {"relative_noise": variance**0.5}
     errors |= {f"{LEFT_OUT}{warping}": error for warping, error in left_out.errors().items()}
 
     def maps() -> Iterator[Array]:
         yield from (light.radiance, albedo)
-        for path in paths:
-            yield from (part.side_by_side("RGB") for part in read_parts(path))
+        for view in range(count):
+            yield from (part.side_by_side("RGB") for part in kept.parts(view))
 
     by_file = settings.view_file is not None or settings.photographs is not None
     untold = ("material", *(["views"] if by_file else []), *([] if _is_rendered(settings) else RENDERING))
     given = {name: value for name, value in to_plain(settings).items() if value is not None}
     stated = {name: value for name, value in given.items() if name not in untold}
-    origin = Origin(light, stated, software, captured.material, errors)
+    origin = Origin(light, stated, software, lit.material, errors)
     header = make_header("sphere_map", (settings.size, settings.size), parts, origin)
     return MapsInTurn("radiance_views", shapes, maps(), header)
 

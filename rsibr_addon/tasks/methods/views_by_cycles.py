@@ -37,12 +37,12 @@ class ViewsByCycles:
         The material depends on more than normal and view.
     """
 
-    def __init__(self, settings: RadianceViewsSettings, light: Environment, view_dirs: Array) -> None:
-        self._settings, self._environment, self._view_dirs = settings, light, view_dirs
+    def __init__(self, settings: RadianceViewsSettings, light: Environment, most: int) -> None:
+        self._settings, self._environment = settings, light
         # All of them at once: a seed that is out of range is found before the first view is rendered
         self._renders = [
             RenderSettings(settings.size, settings.samples, settings.denoise, settings.seed + view)
-            for view in range(len(view_dirs))
+            for view in range(most)
         ]
         with temporary_scene():
             material = load_material(settings.material)
@@ -67,7 +67,7 @@ class ViewsByCycles:
         view = bytes_needed(size**2, self._settings.denoise)
         check_memory(view, output, (size, size), BYTES_BESIDES + light)
 
-    def capture(self, numbers: Sequence[int], keep: KeepView) -> Steps[None]:
+    def capture(self, keep: KeepView, view_dirs: Array, numbers: Sequence[int]) -> Steps[None]:
         """Render some of the views.
 
         Raises
@@ -76,9 +76,9 @@ class ViewsByCycles:
             Cycles did not deliver; the material was changed meanwhile.
         """
         for view in numbers:
-            count = len(self._view_dirs)
+            count = len(self._renders)
             yield Progress(view, count, f"rendering view {view + 1} of {count}")
-            seen = self._render(view)
+            seen = self._render(view_dirs[view], self._renders[view])
             diffuse, glossy = (fill_rim(part, seen.coverage) for part in (seen.diffuse, seen.glossy))
             keep(view, diffuse, glossy, seen.noise)
 
@@ -87,13 +87,13 @@ class ViewsByCycles:
         with temporary_scene() as scene:
             return directional_albedo(scene, self._material(), self._settings.seed)
 
-    def _render(self, view: int) -> RenderedView:
+    def _render(self, view_dir: Array, how: RenderSettings) -> RenderedView:
         with temporary_scene() as scene:
             material = self._material()
             light_with(scene, self._environment)
             add_sphere(scene, material)
-            add_camera(scene, Camera(tuple(self._view_dirs[view])))
-            return render_view(scene, self._renders[view])
+            add_camera(scene, Camera(tuple(view_dir)))
+            return render_view(scene, how)
 
     def _material(self) -> Any:
         """The material in Blender, if it has not changed."""

@@ -38,8 +38,6 @@ class ViewsByModel:
     ----------
     settings : RadianceViewsSettings
     light : Environment
-    view_dirs : ndarray, shape (V, 3)
-        Unit vectors from the object to the camera.
 
     Attributes
     ----------
@@ -57,8 +55,8 @@ class ViewsByModel:
         Likewise; or the light is too coarse for a lobe.
     """
 
-    def __init__(self, settings: RadianceViewsSettings, light: Environment, view_dirs: Array) -> None:
-        self._settings, self._radiance, self._view_dirs = settings, light.radiance, view_dirs
+    def __init__(self, settings: RadianceViewsSettings, light: Environment) -> None:
+        self._settings, self._radiance = settings, light.radiance
         brdf = brdf_from_spec(settings.material)
         self._parts, self._alpha = parts_of(brdf), narrowest_alpha(brdf)
         height, width = light.radiance.shape[:2]
@@ -74,17 +72,25 @@ class ViewsByModel:
         size = self._settings.size
         check_memory(bytes_needed(len(self._radiance), TOGETHER, size, self._alpha), output, (size, size))
 
-    def capture(self, numbers: Sequence[int], keep: KeepView) -> Steps[None]:
-        """Integrate some of the views."""
+    def capture(self, keep: KeepView, view_dirs: Array, numbers: Sequence[int]) -> Steps[None]:
+        """Integrate some of the views.
+
+        Parameters
+        ----------
+        keep : callable
+            Takes each.
+        view_dirs : ndarray, shape (V, 3)
+            Unit vectors from the object to the camera.
+        numbers : sequence of int
+            Of the views.
+        """
         size = self._settings.size
         for first in range(0, len(numbers), TOGETHER):
             together = numbers[first : first + TOGETHER]
             maps = []
             for part in self._parts:
                 black = [np.zeros((size, size, 3), np.float32)] * len(together)
-                seen = (
-                    exact_maps(part, self._radiance, list(self._view_dirs[together]), size) if part else None
-                )
+                seen = exact_maps(part, self._radiance, list(view_dirs[together]), size) if part else None
                 maps.append(black if seen is None else (yield from seen))
             for view, diffuse, glossy in zip(together, *maps, strict=True):
                 keep(view, diffuse, glossy, 0.0)

@@ -33,7 +33,7 @@ class ViewsByPhotographs:
     def check_memory(self, output: str) -> None:
         """A photograph is checked as it is read."""
 
-    def capture(self, numbers: Sequence[int], keep: KeepView) -> Steps[None]:
+    def capture(self, keep: KeepView, view_dirs: Array, numbers: Sequence[int]) -> Steps[None]:
         """Read some of the photographs.
 
         Raises

@@ -1,0 +1,85 @@
+"""The next view: what it is expected to tell is what it tells, and it is the best of all."""
+
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.core.conventions import Array
+from rsibr.rsibr_addon.core.geometry.geodesic import geodesic_sphere
+from rsibr.rsibr_addon.core.lobes.bake import filter_environment
+from rsibr.rsibr_addon.core.lobes.bank import KernelBank
+from rsibr.rsibr_addon.core.lobes.captured_light import CapturedLight, captured_light
+from rsibr.rsibr_addon.core.lobes.next_views import (
+    NEAREST,
+    Known,
+    Weighed,
+    candidate_dirs,
+    next_views,
+    rows_of_views,
+)
+
+SIZE = 8
+MU = np.array([0.2, 0.6, 1.0])
+PART = Weighed(MU, np.zeros((3, 1)), 1e-3 * np.eye(6), 3.0)
+
+
+@pytest.fixture(scope="module")
+def light() -> CapturedLight:
+    """Dim light with a few bright texels, filtered with two kernels."""
+    radiance = np.random.default_rng(1).random((32, 64, 3)) ** 16
+    return captured_light(
+        radiance,
+        KernelBank((4.0, 32.0)),
+        lambda light, bank: filter_environment(light, bank, "octahedral", 16),
+    )
+
+
+def rows(light: CapturedLight, view_dirs: Array) -> list[Array]:
+    return rows_of_views(view_dirs, SIZE, light, PART)
+
+
+def refitted(told: list[Array], candidates: list[Array], draws: int) -> Array:
+    """Squared errors in candidates of weights fitted to the texels of some views, for random true weights."""
+    rng = np.random.default_rng(2)
+    weights = rng.multivariate_normal(np.zeros(6), np.linalg.inv(PART.precision), draws).T
+    seen = np.concatenate(told)
+    captured = seen @ weights + rng.normal(size=(len(seen), draws))
+    found = np.linalg.solve(seen.T @ seen + PART.precision, seen.T @ captured)
+    errors: Array = np.sum((np.concatenate(candidates) @ (found - weights)) ** 2, axis=0)
+    return errors
+
+
+def test_a_view_tells_what_fits_with_it_gain(light: CapturedLight) -> None:
+    captured, candidates = rows(light, geodesic_sphere(12).vertices[:2]), rows(light, np.eye(3))
+    known = Known(PART, captured, candidates)
+    before, falls, draws = known.expected, known.falls(), 4000
+    for candidate, fall in enumerate(falls):
+        errors = PART.variance * refitted([*captured, candidates[candidate]], candidates, draws)
+        # Means of so many draws
+        assert abs(errors.mean() - (before - fall)) < 5.0 * errors.std() / np.sqrt(draws)
+    assert falls.min() > 0.2 * before
+    known.see(1)
+    assert known.expected == pytest.approx(before - falls[1], rel=1e-9)
+
+
+def test_the_next_view_is_the_best_of_all(light: CapturedLight) -> None:
+    view_dirs = geodesic_sphere(12).vertices[[0, 4]]
+    chosen = next_views(view_dirs, SIZE, light, [PART, PART], 3)
+    candidates = candidate_dirs(5)
+    every = rows(light, candidates)
+    wanted = sum(each.T @ each for each in every)
+    told = PART.precision + sum(each.T @ each for each in rows(light, view_dirs))
+    for view_dir in chosen:
+        left = [np.trace(np.linalg.solve(told + each.T @ each, wanted)) for each in every]
+        free = np.max(candidates @ view_dirs.T, axis=1) < np.cos(NEAREST)
+        best = int(np.argmin(np.where(free, left, np.inf)))
+        np.testing.assert_array_equal(view_dir, candidates[best])
+        told, view_dirs = told + every[best].T @ every[best], np.vstack([view_dirs, view_dir])
+
+
+def test_no_view_is_chosen_where_there_is_no_room(light: CapturedLight) -> None:
+    assert next_views(geodesic_sphere(162).vertices, SIZE, light, [PART], 2).shape == (0, 3)
+
+
+def test_texels_stand_for_all_of_a_view(light: CapturedLight) -> None:
+    # One kernel is nearly uniform light: each view sees as much
+    powers = [np.sum(each**2) for each in rows(light, geodesic_sphere(12).vertices)]
+    assert max(powers) < 10.0 * min(powers)

@@ -1,0 +1,88 @@
+"""Captures that go on where their views tell least of the material's lobes."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.core.errors import RangeError, RsibrWarning
+from rsibr.rsibr_addon.core.geometry.geodesic import geodesic_sphere
+from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.files.fits import read_fit
+from rsibr.rsibr_addon.files.kinds.radiance_views import from_map_set
+from rsibr.rsibr_addon.files.map_set import read_map_set
+from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
+from rsibr.rsibr_addon.job import BakeJob
+from rsibr.rsibr_addon.settings.light import Light
+from rsibr.rsibr_addon.settings.radiance_views import RadianceViewsSettings
+from rsibr.rsibr_addon.tasks.methods import more_views
+from rsibr.rsibr_addon.tasks.methods.bake import bake
+from rsibr.rsibr_addon.tasks.methods.fit_captures import fit_to_captures
+
+FOUR = np.array([[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]]) / 3.0**0.5
+
+
+@pytest.fixture
+def job(tmp_path: Path) -> Any:
+    """A function of more settings: a job of four views."""
+    radiance = np.random.default_rng(3).random((16, 32, 3), dtype=np.float32) ** 8
+    write_radiance(tmp_path / "light.exr", radiance)
+    (tmp_path / "four.txt").write_text("\n".join(" ".join(map(str, row)) for row in FOUR.tolist()))
+
+    def with_settings(**more: Any) -> BakeJob[RadianceViewsSettings]:
+        views = {"view_file": str(tmp_path / "four.txt"), "size": 8, "material": "lambert:kd=0.5"}
+        settings = RadianceViewsSettings(**{**views, **more})
+        return BakeJob(
+            settings, str(tmp_path / "more.rsibr.exr"), Light(environment=str(tmp_path / "light.exr"))
+        )
+
+    return with_settings
+
+
+def view_dirs(path: str) -> np.ndarray:
+    return from_map_set(Path(path), read_map_set(Path(path), "radiance_views")).sphere.vertices
+
+
+@pytest.mark.slow
+def test_views_are_added_and_lobes_fitted_to_all_state_the_same_error(job: Any, tmp_path: Path) -> None:
+    wanted = job(more_views=5, goal=0.001)
+    with pytest.warns(RsibrWarning, match=r"9 views have an error of .* fit --brdf lambert:kd=0.5"):
+        baked = drain(bake(wanted))
+    views = view_dirs(wanted.output)
+    np.testing.assert_allclose(views[:4], FOUR, atol=1e-12)
+    # Four of one fit and one of the next, all of the sphere of which there are enough
+    np.testing.assert_array_less(
+        np.linalg.norm(views[4:, None] - geodesic_sphere(42).vertices, axis=2).min(1), 1e-6
+    )
+    assert (baked.figures["views"], baked.figures["chosen"]) == (9, 5)
+    drain(fit_to_captures(Path(wanted.output), tmp_path / "fit.json"))
+    # Directions go through the file's decimals
+    assert read_fit(tmp_path / "fit.json").left_out == pytest.approx(baked.figures["left_out"], rel=1e-6)
+
+
+@pytest.mark.slow
+def test_an_interrupted_choice_is_kept(job: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    wanted = job(more_views=2)
+    kept = more_views.KeptViews(Path(f"{wanted.output}.partial"))
+    work = bake(wanted)
+    while not len(kept.chosen()):
+        next(work)
+    chosen = kept.chosen()
+    work.close()
+    monkeypatch.setattr(more_views, "next_views", None)
+    drain(bake(wanted))
+    np.testing.assert_allclose(view_dirs(wanted.output)[4:], chosen, rtol=0, atol=1e-12)
+
+
+@pytest.mark.slow
+def test_no_view_is_added_once_the_goal_is_reached(job: Any) -> None:
+    baked = drain(bake(job(more_views=6, goal=1.0)))
+    assert (baked.figures["views"], baked.figures["chosen"]) == (4, 0)
+    assert ", 0 of them chosen; error of lobes in views left out 0.0" in baked.told
+
+
+def test_what_cannot_go_on_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(RangeError, match="A goal ends the capture of more views"):
+        RadianceViewsSettings(material="copper", goal=0.1)
+    with pytest.raises(RangeError, match="Photographs are what they are: leave More Views out"):
+        RadianceViewsSettings(material="paint", photographs="balls.json", more_views=2)

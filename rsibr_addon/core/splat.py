@@ -143,7 +143,7 @@ class Splat:
         source : Representation
         """
         sectors: Sectors = [(WORLD, image)]
-        if self._target.has_sectors(self._width):
+        if self._target.is_symmetric(self._width):
             sectors = source.sectors(image)
         sheets, height, width = sectors[0][1].shape[:3]
         solid_angle = source.texel_solid_angle(image.shape[2])

@@ -67,7 +67,7 @@ def read_family(path: Path) -> Family:
     InputFileError
         The file is missing, or no family of lobes.
     """
-    with _arrays(path) as arrays:
+    with _arrays(path, "family of lobes") as arrays:
         alpha, mu, concentrations, tilts, weights = (
             arrays[name].astype(np.float64) for name in ("alpha", "mu", "concentrations", "tilts", "weights")
         )
@@ -83,7 +83,7 @@ def shipped_sheen() -> SheenTable:
     InputFileError
         Its file is damaged.
     """
-    with _arrays(SHIPPED / "sheen.npz") as arrays:
+    with _arrays(SHIPPED / "sheen.npz", "table of sheen") as arrays:
         return SheenTable(arrays["weights"].astype(np.float64))
 
 
@@ -94,10 +94,10 @@ def write_sheen(path: Path, table: SheenTable) -> None:
 
 
 @contextmanager
-def _arrays(path: Path) -> Iterator[Mapping[str, Array]]:
+def _arrays(path: Path, what: str) -> Iterator[Mapping[str, Array]]:
     """The arrays of a file; what goes wrong within is told as its fault."""
     try:
         with np.load(path, allow_pickle=False) as arrays:
             yield arrays
     except (OSError, EOFError, KeyError, ValueError, BadZipFile, RangeError, ShapeError) as error:
-        raise InputFileError(f"{path} is no family of lobes: install RSIBR again. ({error})") from error
+        raise InputFileError(f"{path} is no {what}: install RSIBR again. ({error})") from error

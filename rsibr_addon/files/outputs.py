@@ -115,14 +115,14 @@ def outputs_now() -> contextlib.AbstractContextManager[Outputs]:
     return Outputs() if outer is None else contextlib.nullcontext(outer)
 
 
-def not_written(path: Path, error: OSError) -> OutputFileError:
-    """The error to raise when the system refuses to write `path`."""
+def not_written(path: Path, error: OSError, done: str = "written") -> OutputFileError:
+    """The error to raise when the system refuses to write `path`; done: what was not done to it."""
     if error.errno in FULL:
         return NotNowError(
-            f"{path} was not written because the disk is full: free some space, or write elsewhere."
+            f"{path} was not {done} because the disk is full: free some space, or write elsewhere."
         )
     kind = NotNowError if error.errno in MAY_PASS else OutputFileError
-    return kind(f"{path} was not written ({error.strerror}): check its folder, or write elsewhere.")
+    return kind(f"{path} was not {done} ({error.strerror}): check its folder, or write elsewhere.")
 
 
 def make_folder(folder: Path) -> None:
@@ -136,10 +136,28 @@ def make_folder(folder: Path) -> None:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        kind = NotNowError if error.errno in MAY_PASS else OutputFileError
-        raise kind(
-            f"{folder} cannot be made ({error.strerror}): check what is there, or write elsewhere."
-        ) from error
+        raise not_written(folder, error, "made") from error
+
+
+@contextlib.contextmanager
+def made_folders(*folders: Path) -> Iterator[None]:
+    """Have folders for outputs; those of them that are empty when anything is raised are removed.
+
+    Raises
+    ------
+    OutputFileError
+        See `make_folder`.
+    """
+    missing = [each for folder in folders for each in (folder, *folder.parents) if not each.exists()]
+    try:
+        for folder in folders:
+            make_folder(folder)
+        yield
+    except BaseException:
+        for each in sorted(set(missing), reverse=True):
+            with contextlib.suppress(OSError):
+                each.rmdir()
+        raise
 
 
 def _appear(outputs: list[Output]) -> None:

@@ -124,7 +124,11 @@ def test_files_that_settings_name_are_beside_the_batch(
     ).resolve()
     Path("spec.json").write_text(
         json.dumps(
-            {"environments": ["dark.exr"], "methods": ["lobe-stack"], "materials": ["merl:path=a/b.binary"]}
+            {
+                "environments": ["dark.exr"],
+                "methods": ["lobe-stack"],
+                "materials": ["merl:path = a/b.binary"],
+            }
         )
     )
     probes = {

@@ -161,6 +161,7 @@ def test_a_world_of_no_file_is_refused(capfd: pytest.CaptureFixture[str]) -> Non
     )
     assert run(["submit", "job.json", "--openjd", "bundle"]) == 1
     assert "No file is open whose world or material could be sent" in capfd.readouterr().err
+    assert not Path("bundle").exists()
 
 
 @pytest.mark.slow

@@ -108,7 +108,7 @@ def test_a_pattern_sends_all_objects_that_need_a_bake(tmp_path: Path) -> None:
     noise = tree.nodes.new("ShaderNodeTexNoise").outputs["Color"]
     tree.links.new(noise, tree.nodes["Principled BSDF"].inputs["Base Color"])
     job, outputs = tmp_path / "cups.json", "{object}.exr"
-    for name, wanted in (("*", ["Cube", "Cup: old"]), ("Cup*", ["Cup: old"])):
+    for name, wanted in (("*", ["Cube", "Cup: old"]), ("Cup*", ["Cup: old"]), ("Cup: old", ["Cup: old"])):
         job.write_text(BakeJob(ObjectInputsSettings(object=name), str(tmp_path / outputs)).to_json())
         _, folder, bakes = bakes_to_send(job)
         assert folder == tmp_path

@@ -16,7 +16,8 @@ from rsibr.rsibr_addon.core.lobes.accuracy import fit_errors
 from rsibr.rsibr_addon.core.lobes.family import Family
 from rsibr.rsibr_addon.core.lobes.family_fit import WIDTHS, fit_gaussian, fit_ggx
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.files.families import read_family, shipped_family, write_family
+from rsibr.rsibr_addon.files import families
+from rsibr.rsibr_addon.files.families import read_family, shipped_family, shipped_sheen, write_family
 
 PAGE = (Path(__file__).parents[2] / "docs" / "materials.md").read_text(encoding="utf-8")
 TERMS = {
@@ -95,3 +96,10 @@ def test_another_file_is_no_family(tmp_path: Path) -> None:
             read_family(path)
     with pytest.raises(InputFileError, match=r"is no family of lobes"):
         read_family(tmp_path / "missing.npz")
+
+
+def test_another_file_is_no_table_of_sheen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(families, "SHIPPED", tmp_path)
+    (tmp_path / "sheen.npz").write_bytes(b"no arrays")
+    with pytest.raises(InputFileError, match=r"sheen\.npz is no table of sheen: install RSIBR again"):
+        shipped_sheen.__wrapped__()

@@ -163,8 +163,8 @@ class Representation:
             return [(WORLD, image)]
         return self.own_sectors(image)
 
-    def has_sectors(self, size: int) -> bool:
-        """Whether a map, `size` texels wide, has `turned_texels`."""
+    def is_symmetric(self, size: int) -> bool:
+        """Whether a map, `size` texels wide, is `symmetric`, and so has `turned_texels`."""
         return self.symmetric and size % 4 == 0
 
     def turned_texels(self, texel: Indices, size: int, matrices: Array) -> Indices:

@@ -30,7 +30,8 @@ def look_fields(look: MipLook, lobes: MipLobes, probes: int = 0) -> tuple[Array,
     clamped = look.borders is Borders.CLAMPED
     numbers = np.array([look.level(lobes), lobes.count - 1.0, float(clamped), float(look.antialiased)])
     room, middle, _ = place_rows(look.place)
-    middle[3] = look.diffuse_level(lobes, probes > 0)
+    if probes or look.room is not Room.DISTANT:
+        middle[3] = look.diffuse_level(lobes)
     return np.array(look.f0), np.array(look.kd), numbers, room, middle, np.array([*look.captured_at, probes])
 
 

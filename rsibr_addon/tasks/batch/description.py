@@ -2,7 +2,7 @@
 
 import os
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 from pathlib import Path
@@ -31,7 +31,7 @@ FIELDS = ("environment", "material", "method", "size")
 """What a pattern may name."""
 
 _BLEND = re.compile(r"(.+?\.blend\d*):(.+)", re.IGNORECASE)
-_PATH = re.compile(r"\bpath=([^,]+)")
+_PATH = re.compile(r"\bpath\s*=\s*([^,]*[^,\s])")  # of a measurement
 _LIGHT = re.compile(r"\blight\s*=\s*([^,;]+)")  # of a probe
 _MODELS = {name: text for models in GALLERY.values() for name, text in models.items()}
 
@@ -170,9 +170,9 @@ def _materials(text: str, folder: Path) -> Sequence[str]:
     if blend is None:
         if is_pattern(text):
             return [str(path) for path in _files(text, folder)]
-        if Path(text).suffix.lower() in MEASURED_FORMATS and "path=" not in text:
+        if Path(text).suffix.lower() in MEASURED_FORMATS and not _PATH.search(text):
             return [str(folder / text)]
-        return [_PATH.sub(lambda found: f"path={folder / found[1]}", text)]
+        return [_with_path(text, lambda path: folder / path)]
     files = _files(blend[1], folder) if is_pattern(blend[1]) else [folder / blend[1]]
     names = {file: _names(file, blend[2]) for file in files}
     if not any(names.values()):
@@ -213,7 +213,7 @@ def _text(chooser: Declared, material: str) -> str:
         return f"{measured}{material}"
     if not taken.model:
         return material
-    if Path(material).suffix.lower() in MEASURED_FORMATS and ":path=" not in material:
+    if Path(material).suffix.lower() in MEASURED_FORMATS and not _PATH.search(material):
         return measured_spec(material)
     return f"{measured}{material}" if material in PRESETS else _MODELS.get(material, material)
 
@@ -222,18 +222,23 @@ def _title(material: str) -> str:
     blend = _BLEND.fullmatch(material)
     if blend:
         return blend[2]
-    if "path=" in material:
-        return _PATH.sub(lambda found: f"path={Path(found[1]).name}", material)
+    if _PATH.search(material):
+        return _with_path(material, lambda path: path.name)
     return Path(material).stem if Path(material).suffix.lower() in MEASURED_FORMATS else material
 
 
 def _name(text: str) -> str:
     """A name of an environment or a material, as a part of a file's name."""
     blend = _BLEND.fullmatch(text)
-    name = blend[2] if blend else _PATH.sub(lambda found: f"path={Path(found[1]).name}", text)
+    name = blend[2] if blend else _with_path(text, lambda path: path.name)
     if not blend and ("=" not in text) and Path(text).suffix:
         name = Path(text).stem
     return portable_name(name)
+
+
+def _with_path(text: str, changed: Callable[[Path], Path | str]) -> str:
+    """A model's text with another path in it, if it has one."""
+    return _PATH.sub(lambda found: f"path={changed(Path(found[1]))}", text)
 
 
 def _filled(pattern: str, names: dict[str, str]) -> str:

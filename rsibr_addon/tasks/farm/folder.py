@@ -312,12 +312,15 @@ def _read_job(path: Path) -> BakeJob[Any] | None:
 
 def _jobs_of(job: BakeJob[Any]) -> list[BakeJob[Any]]:
     """The job, or one for each object that its pattern means."""
-    if job.settings.KIND != ObjectInputsSettings.KIND or not is_pattern(job.settings.object):
+    if job.settings.KIND != ObjectInputsSettings.KIND:
         return [job]
-    from ..baked_inputs import objects_to_bake
+    names = [job.settings.object]
+    if is_pattern(job.settings.object):
+        from ..baked_inputs import objects_to_bake
 
+        names = objects_to_bake(job.settings.object)
     jobs: dict[str, BakeJob[Any]] = {}
-    for name in objects_to_bake(job.settings.object):
+    for name in names:
         output = job.output.replace(OBJECT, portable_name(name))
         if output in jobs:
             raise InputFileError(

@@ -8,7 +8,7 @@ from string import Template
 from ...core.errors import RangeError
 from ...core.progress import Steps
 from ...files.atomic import written_aside
-from ...files.outputs import make_folder
+from ...files.outputs import made_folders
 from ..batch.bakes import BatchBake, parts_of
 from .folder import INPUTS, MAPS, batch_name, write_inputs
 
@@ -51,10 +51,9 @@ def write_bundle(folder: Path, title: str, bakes: Sequence[BatchBake], program: 
     A step for the bakes has a task for each environment and method: bakes of one environment share its
     reading, and the start of Python and Blender. YAML takes each value as JSON.
     """
-    make_folder(folder / INPUTS)
-    make_folder(folder / MAPS)
     name = batch_name(title)[:LONGEST_NAME]
-    placed = yield from write_inputs(folder / INPUTS, name, bakes)
+    with made_folders(folder / INPUTS, folder / MAPS):
+        placed = yield from write_inputs(folder / INPUTS, name, bakes)
     parts = list(parts_of(placed))
     if len(parts) > MOST_PARTS:
         raise RangeError(

@@ -13,7 +13,7 @@ from ...core.progress import Progress, Steps
 from ...core.warned import warn
 from ...files.atomic import written_aside
 from ...files.map_set import read_map_set, read_map_set_header
-from ...files.outputs import make_folder
+from ...files.outputs import made_folders, make_folder
 from ...settings.baked_inputs import ObjectInputsSettings
 from ..batch.bakes import BatchBake, parts_of
 from ..batch.notes import Failure, batch_folder
@@ -101,9 +101,8 @@ def send(
             f"The farm's shared storage {root} is no folder here: mount it, or give its path by --shared."
         )
     folder, name = root.absolute() / folder_name(title, bakes), batch_name(title)
-    make_folder(folder / INPUTS)
-    make_folder(folder / MAPS)
-    placed = yield from write_inputs(folder / INPUTS, name, bakes)
+    with made_folders(folder / INPUTS, folder / MAPS):
+        placed = yield from write_inputs(folder / INPUTS, name, bakes)
     settings = {
         "folder": str(folder),
         "batch": name,

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from ...core.counted import counted
 from ...core.progress import Steps
 from ...files.map_set_header import Recipe
 from ...job import BakeJob
@@ -51,7 +52,7 @@ def bake(job: BakeJob[ObjectInputsSettings], recipe: Recipe) -> Steps[Baked]:
     output = Path(job.output)
     baked = yield from bake_inputs(job.settings.object, job.settings, output, job.force)
     count = len(baked.pictures)
-    return Baked(output, "a picture" if count == 1 else f"{count} pictures", {"pictures": count})
+    return Baked(output, counted(count, "picture"), {"pictures": count})
 
 
 METHOD = Method(bake, cost, material, recipe=recipe)

@@ -185,23 +185,15 @@ class MipLook(Options):
             return lobes.level_of_roughness(self.roughness)
         return min(self.mip, lobes.count - 1.0)
 
-    def diffuse_level(self, lobes: MipLobes, has_probes: bool) -> float:
-        """The level of detail to look up the lobes of `near_diffuse` at; 0 where they are not needed.
-
-        Parameters
-        ----------
-        lobes : MipLobes
-        has_probes : bool
-            Whether the chain has light of rooms.
+    def diffuse_level(self, lobes: MipLobes) -> float:
+        """The level of detail to look up the lobes of `near_diffuse` at; 0 without diffuse reflection.
 
         Raises
         ------
         RangeError
             See `MipLobes.level_of_exponent`.
         """
-        if (self.room is Room.DISTANT and not has_probes) or not any(self.kd):
-            return 0.0
-        return lobes.level_of_exponent(EXPONENT)
+        return lobes.level_of_exponent(EXPONENT) if any(self.kd) else 0.0
 
 
 def mip_chain_radiance(
@@ -306,7 +298,7 @@ def near_diffuse_radiance(
     -----
     GLSL twin: gpu_shaders/lib/near_diffuse_lib.glsl `near_diffuse`.
     """
-    level = look.diffuse_level(chain.lobes, has_probes=True)
+    level = look.diffuse_level(chain.lobes)
     light = np.zeros(normal.shape)
     for towards, share in cosine_lobes(normal):
         direction = place.near_direction(position, towards)

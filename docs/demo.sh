@@ -30,6 +30,7 @@ compare() {
     ours compare "$@" | tee -a errors.txt
 }
 
+echo "This takes about three minutes on two cores."
 # Cabral, Olano & Nemec 1999: what Cycles sees of a material, turned and held against Cycles
 for material in copper plastic; do
     step "Capturing $material" \
@@ -79,7 +80,8 @@ echo
 echo "Pictures in $PWD:"
 echo "  systems.png: captured plastic, copper from lobes, varnish from reflection tables, a glossy green from mips,"
 echo "  gold from a kernel bank; mips.ktx2 is the mip chain for engines"
-echo "  copper-monkey.png, plastic-monkey.png and their .mp4: a turn around Suzanne"
+echo "  copper-monkey.png, plastic-monkey.png and their .mp4: a turn around Suzanne; what is pale on the plastic is the sky"
+echo "  between trees"
 echo "  lobes.html: all of a map set on one page"
 echo "  look.html: copper on Suzanne, to be turned in a browser"
 echo "  copper-compare/index.html, plastic-compare/index.html: previews beside Cycles' own pictures, and the errors;"

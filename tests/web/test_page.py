@@ -204,7 +204,9 @@ def test_normals_of_a_mesh_are_those_of_the_preview(tmp_path: Path) -> None:
 def test_a_kernel_banks_page_has_sliders_of_its_material(tmp_path: Path) -> None:
     """They take lobes of the families, as a pyramid of the bank's light does; a model's text has a fit."""
     source = light_file(tmp_path, "kernel_bank")
-    said = driven(page_of(source), SET_UP + 'answer({pixels: encoded((await set("metallic", 1)).pixels)});')
+    page = page_of(source)
+    assert "This page has its maps as they are." in page.read_text(encoding="utf-8")
+    said = driven(page, SET_UP + 'answer({pixels: encoded((await set("metallic", 1)).pixels)});')
     pyramid = tmp_path / "pyramid.rsibr.exr"
     light = ("--environment", str(tmp_path / "sky.exr"), "--size", "512")
     assert run(["bake", "kernel-pyramid", *light, "-o", str(pyramid)]) == 0

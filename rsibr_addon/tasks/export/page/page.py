@@ -187,7 +187,9 @@ def _packed_split_sum(drawable: WithInputs, inputs: Inputs) -> dict[str, Any]:
 
 def _told(map_set: Path, opened: OpenedMapSet, error: float) -> tuple[str, str]:
     """What the page shows, and what is said of its errors."""
-    rounding = f"This page rounds its maps by {error:.1g} of themselves (root mean square)."
+    rounding = "This page has its maps as they are."
+    if error:
+        rounding = f"This page rounds its maps by {error:.1g} of themselves (root mean square)."
     if is_environment(map_set):
         return in_words(map_set.stem), rounding
     header = opened.header

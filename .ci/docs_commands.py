@@ -2,6 +2,7 @@
 
 import argparse
 from collections.abc import Iterator
+from itertools import groupby
 from pathlib import Path
 
 from rsibr.rsibr_addon.command_line.commands import parser
@@ -19,20 +20,36 @@ def written_anew(page: str) -> str:
 
 
 def _reference() -> Iterator[str]:
-    every = [command for _, command in _commands(parser())]
-    first = _names(every[0])
-    shared = [name for name in first if all(name in _names(command) for command in every)]
+    commands = list(_commands(parser()))
+    shared = _common([command for _, command in commands])
     yield "## Options of every command\n"
-    yield from _table(every[0], [action for action in every[0]._actions if _name(action) in shared], [])
-    for title, command in _commands(parser()):
+    yield from _table(commands[0][1], [each for each in commands[0][1]._actions if _name(each) in shared], [])
+    for family, members in groupby(commands, lambda command: command[0].rpartition(" ")[0]):
+        yield from _family(family, list(members), shared)
+
+
+def _family(family: str, members: list[tuple[str, Parser]], shared: list[str]) -> Iterator[str]:
+    """Commands such as `rsibr bake KIND`: what they have in common first, then each with the rest."""
+    told, first = shared, members[0][1]
+    if len(family.split()) > 1:
+        told = _common([command for _, command in members])
+        yield f"## Options of every {family}\n"
+        yield from _table(first, [each for each in first._actions if _name(each) in told], shared)
+    for title, command in members:
         yield f"## {title}\n"
         yield f"{command.description}\n"
         yield f"```text\n{_usage(command, shared)}\n```\n"
         positionals, options, *groups = command._action_groups
-        yield from _table(command, positionals._group_actions + options._group_actions, shared)
+        yield from _table(command, positionals._group_actions + options._group_actions, told)
         for group in groups:
             yield f"{group.title}:\n"
-            yield from _table(command, group._group_actions, shared)
+            yield from _table(command, group._group_actions, told)
+
+
+def _common(commands: list[Parser]) -> list[str]:
+    """Names of the options that all of these have, with the same words."""
+    rows = [{_name(each): _row(command, each) for each in command._actions} for command in commands]
+    return [name for name, row in rows[0].items() if all(other.get(name) == row for other in rows)]
 
 
 def _commands(parent: Parser) -> Iterator[tuple[str, Parser]]:
@@ -44,10 +61,6 @@ def _commands(parent: Parser) -> Iterator[tuple[str, Parser]]:
     for family in families:
         for command in family.choices.values():
             yield from _commands(command)
-
-
-def _names(command: argparse.ArgumentParser) -> list[str]:
-    return [_name(action) for action in command._actions]
 
 
 def _name(action: argparse.Action) -> str:
@@ -65,13 +78,17 @@ def _usage(command: argparse.ArgumentParser, shared: list[str]) -> str:
 def _table(
     command: argparse.ArgumentParser, actions: list[argparse.Action], without: list[str]
 ) -> Iterator[str]:
+    rows = [_row(command, action) for action in actions if _name(action) not in without]
+    if rows:
+        yield "| option | what |\n|---|---|"
+        yield from rows
+        yield ""
+
+
+def _row(command: argparse.ArgumentParser, action: argparse.Action) -> str:
     formatter = argparse.HelpFormatter(command.prog, width=100)
-    yield "| option | what |\n|---|---|"
-    for action in actions:
-        if _name(action) not in without:
-            invocation = formatter._format_action_invocation(action)
-            yield f"| `{_cell(invocation)}` | {_cell(formatter._expand_help(action))} |"
-    yield ""
+    invocation = formatter._format_action_invocation(action)
+    return f"| `{_cell(invocation)}` | {_cell(formatter._expand_help(action))} |"
 
 
 def _cell(text: str) -> str:

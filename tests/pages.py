@@ -6,10 +6,14 @@ from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
+DOCS = ROOT / "docs"
+MADE = [DOCS / "references.md", *(DOCS / "api").rglob("*.md")]
+"""By `make docs`, from what people write."""
+
 PAGES = [
     "README.md",
     "CONTRIBUTING.md",
-    *sorted(str(path.relative_to(ROOT)) for path in (ROOT / "docs").rglob("*.md")),
+    *sorted(str(path.relative_to(ROOT)) for path in DOCS.rglob("*.md") if path not in MADE),
 ]
 
 

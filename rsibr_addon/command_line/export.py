@@ -20,13 +20,7 @@ PAGE, PAGE_ENDING = "page", ".html"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what `run` reads."""
-    parser.add_argument(
-        "map_set",
-        metavar="NAME.rsibr.exr|PICTURE",
-        type=Path,
-        help="a map set, or a picture of an environment, OpenEXR or Radiance HDR; for an engine a mip chain "
-        "or a picture",
-    )
+    options.add_map_set_or_light(parser, "which engines take, as they take mip chains")
     uses = "; ".join(f"{name}, {each.use}" for name, each in ENGINES.items())
     parser.add_argument(
         "--for",
@@ -61,9 +55,9 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     from ..tasks.export.engines.export import export_for_engine
     from ..tasks.export.export import export, format_of
 
-    source, output, engine = arguments.map_set, arguments.output, arguments.engine
+    source, output, engine = options.map_set_or_light(arguments), arguments.output, arguments.engine
     if not engine and output.suffix.lower() == PAGE_ENDING:
-        textures = console.steps(_page(arguments))
+        textures = console.steps(_page(source, arguments))
     else:
         if not engine and output.suffix.lower() not in _own_endings():
             raise OutputFileError(
@@ -91,17 +85,17 @@ def _engine_endings() -> list[str]:
     return list(dict.fromkeys(ending for each in ENGINES.values() for ending in each.endings))
 
 
-def _page(arguments: argparse.Namespace) -> Steps[list[Path]]:
+def _page(source: Path, arguments: argparse.Namespace) -> Steps[list[Path]]:
     """Export a web page."""
     from ..tasks.export.page.named import named_meshes
     from ..tasks.export.page.page import export_page
     from ..tasks.methods.kinds import kind_of
 
-    kind = kind_of(arguments.map_set)
+    kind = kind_of(source)
     settings = options.given_of(arguments, _owners(), PAGE, beside=kind)
     look = options.given_of(arguments, _owners(), kind, beside=PAGE)
     shown, look = named_meshes(settings.mesh, kind, look)
-    return export_page(arguments.map_set, arguments.output, settings, shown, look, arguments.force)
+    return export_page(source, arguments.output, settings, shown, look, arguments.force)
 
 
 def _owners() -> dict[str, type[Options]]:

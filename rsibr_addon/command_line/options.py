@@ -182,6 +182,29 @@ def add_map_set(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("map_set", metavar="NAME.rsibr.exr", type=Path, help="a map set")
 
 
+def add_map_set_or_light(parser: argparse.ArgumentParser, remark: str) -> None:
+    """Declare the file that `map_set_or_light` gives; remark: the end of the help."""
+    parser.add_argument(
+        "map_set",
+        metavar="NAME.rsibr.exr|PICTURE",
+        help="a map set; or an environment, a picture in OpenEXR or Radiance HDR or one of Blender's by its "
+        f"name, {remark}",
+    )
+
+
+def map_set_or_light(arguments: argparse.Namespace) -> Path:
+    """The file that a command works on.
+
+    Raises
+    ------
+    InputFileError
+        See `tasks.light.environments.environment_file`.
+    """
+    from ..tasks.light.environments import environment_file
+
+    return Path(environment_file(arguments.map_set))
+
+
 def add_output(parser: argparse.ArgumentParser, metavar: str, description: str) -> Any:
     """Declare where the result goes, `output`, and whether it replaces what is there, `force`.
 

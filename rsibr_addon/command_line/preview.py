@@ -1,7 +1,6 @@
 """The command `rsibr preview`."""
 
 import argparse
-from pathlib import Path
 from typing import Any
 
 from ..files.kinds.registry import look_types
@@ -12,12 +11,7 @@ from .console import Console
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what `run` reads."""
-    parser.add_argument(
-        "map_set",
-        metavar="NAME.rsibr.exr|PICTURE",
-        type=Path,
-        help="a map set; or a picture of an environment, OpenEXR or Radiance HDR, to be mirrored",
-    )
+    options.add_map_set_or_light(parser, "to be mirrored")
     options.add_options(parser, PreviewOptions)
     options.add_options_of(parser, look_types())
     options.add_output(parser, "OUT.exr|OUT.png", "EXR holds linear radiance, and coverage in alpha")
@@ -39,9 +33,9 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     from ..tasks.methods.kinds import kind_of
     from ..tasks.preview import preview, turntable
 
-    settings = options.given(arguments, PreviewOptions)
-    look = options.given_of(arguments, look_types(), kind_of(arguments.map_set))
-    asked = arguments.map_set, settings, arguments.output, arguments.force, look
+    source, settings = options.map_set_or_light(arguments), options.given(arguments, PreviewOptions)
+    look = options.given_of(arguments, look_types(), kind_of(source))
+    asked = source, settings, arguments.output, arguments.force, look
     if settings.turntable is None:
         made = [console.steps(preview(*asked))]
     else:

@@ -45,6 +45,22 @@ def test_a_map_set_is_no_environment(
     assert capfd.readouterr().err == f"rsibr: error: {told}\n"
 
 
+@pytest.mark.slow
+def test_previews_and_exports_show_the_light_of_a_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    forest = str(studio_environments()["forest"])
+    for light, output in (("forest", "name"), (forest, "path")):
+        assert run(["export", light, "--for", "any", "--size", "16", "-o", f"{output}.ktx2"]) == 0
+        assert run(["preview", light, "--size", "8", "-o", f"{output}.exr"]) == 0
+    for ending in ("ktx2", "exr"):
+        assert Path(f"name.{ending}").read_bytes() == Path(f"path.{ending}").read_bytes()
+    capfd.readouterr()
+    assert run(["export", "grove", "--for", "any", "-o", "grove.ktx2"]) == 1
+    assert "There is no environment grove" in capfd.readouterr().err
+
+
 def test_a_probe_has_the_light_of_a_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     write_radiance("sky.hdr", np.ones((4, 8, 3)))

@@ -11,12 +11,13 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.companded import STEPS
-from rsibr.rsibr_addon.core.errors import RangeError, RsibrError
+from rsibr.rsibr_addon.core.errors import RangeError, RsibrError, RsibrWarning
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.look import PrincipledLook
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
 from rsibr.rsibr_addon.core.kinds.mip_chain.shading import Borders, MipLook
 from rsibr.rsibr_addon.core.maps.octahedral import direction_from_uv, uv_from_direction
 from rsibr.rsibr_addon.device.kinds.mip_chain import GpuMipChain
+from rsibr.rsibr_addon.device.textures import GpuTexture
 from rsibr.rsibr_addon.files.png import png_of
 from rsibr.rsibr_addon.host.meshes import TriangleMesh, load_mesh, mesh_row
 from rsibr.rsibr_addon.tasks.export.page import contents, meshes, own_objects
@@ -186,6 +187,13 @@ def test_a_mesh_that_is_too_large_is_refused(monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.setattr(meshes, "MOST_TRIANGLES", 0)
     with pytest.raises(RangeError, match=r"Rock has 1 triangles, and a page takes 0 at most: decimate it\."):
         packed_mesh(mesh)
+
+
+def test_a_texture_that_few_devices_take_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(contents, "WIDEST", 3)
+    packed_texture(GpuTexture("map", np.ones((3, 3, 4), np.float32)))
+    with pytest.warns(RsibrWarning, match="a texture of 2 x 4 texels, and many devices take 3 at most"):
+        packed_texture(GpuTexture("map", np.ones((4, 2, 4), np.float32)))
 
 
 def mesh_in(page: Path) -> dict[str, Any]:

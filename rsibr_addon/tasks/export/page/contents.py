@@ -9,6 +9,7 @@ from ....core.companded import companded
 from ....core.conventions import Array, Indices
 from ....core.half_floats import half_holds
 from ....core.pictures.display import table_radiance
+from ....core.warned import warn
 from ....device.textures import GpuTexture
 from ....files.packed_arrays import packed_floats, packed_integers
 from ....host.display import displayed_colours
@@ -16,6 +17,9 @@ from ....host.scenes import temporary_scene
 
 EXACT = 2**14
 """Textures of at most so many numbers are not rounded, nor those whose alpha is not 1, which are no maps."""
+
+WIDEST = 8192
+"""Texels along a texture that most devices take."""
 
 
 def packed_texture(texture: GpuTexture, exact_from: int | None = None) -> tuple[dict[str, Any], float]:
@@ -36,11 +40,21 @@ def packed_texture(texture: GpuTexture, exact_from: int | None = None) -> tuple[
         `Companded`, or None where codes are the bits of half floats.
     error : float
         Root mean square of what rounding changed, relative to that of the values.
+
+    Warns
+    -----
+    RsibrWarning
+        It is wider or higher than `WIDEST`.
     """
     values = texture.values
     layers = values.shape[0] if values.ndim == 4 else 0
     height, width, _ = values.shape[-3:]
     size = [width, height, layers]
+    if max(width, height) > WIDEST:
+        warn(
+            f"The page has a texture of {width} x {height} texels, and many devices take {WIDEST} at most: "
+            f"bake smaller maps, or make the environment smaller by rsibr convert."
+        )
     if values.size <= EXACT or not np.all(values[..., 3] == 1.0):
         return {"size": size, "half": False, "floats": packed_floats(values)}, 0.0
     is_half = half_holds([values])

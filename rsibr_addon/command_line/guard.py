@@ -6,6 +6,7 @@ it in time, removes its temporary files and tells what happened.
 
 import contextlib
 import ctypes
+import gc
 import math
 import os
 import signal
@@ -50,6 +51,7 @@ def guarded(work: Callable[[], int], argv: Sequence[str]) -> int:
     before = signal.pthread_sigmask(signal.SIG_BLOCK, asking | {signal.SIGCHLD, signal.SIGALRM})
     reader, writer = os.pipe()
     with _temporary_folder():
+        gc.freeze()  # else the child's first collection would write to, and so copy, all that both share
         child = os.fork()
         if not child:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)

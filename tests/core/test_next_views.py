@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.conventions import Array
 from rsibr.rsibr_addon.core.geometry.geodesic import geodesic_sphere
+from rsibr.rsibr_addon.core.lobes import next_views as next_views_module
 from rsibr.rsibr_addon.core.lobes.bake import filter_environment
 from rsibr.rsibr_addon.core.lobes.bank import KernelBank
 from rsibr.rsibr_addon.core.lobes.captured_light import CapturedLight, captured_light
@@ -18,7 +19,8 @@ from rsibr.rsibr_addon.core.lobes.next_views import (
 
 SIZE = 8
 MU = np.array([0.2, 0.6, 1.0])
-PART = Weighed(MU, np.zeros((3, 1)), 1e-3 * np.eye(6), 3.0)
+PART = Weighed(MU, np.zeros((3, 1)), np.eye(6), 3.0)
+TEXELS = 0.25 * np.pi * SIZE**2
 
 
 @pytest.fixture(scope="module")
@@ -36,28 +38,38 @@ def rows(light: CapturedLight, view_dirs: Array) -> list[Array]:
     return rows_of_views(view_dirs, SIZE, light, PART)
 
 
-def refitted(told: list[Array], candidates: list[Array], draws: int) -> Array:
+def refitted(precision: Array, told: list[Array], candidates: list[Array], draws: int) -> Array:
     """Squared errors in candidates of weights fitted to the texels of some views, for random true weights."""
     rng = np.random.default_rng(2)
-    weights = rng.multivariate_normal(np.zeros(6), np.linalg.inv(PART.precision), draws).T
+    weights = rng.multivariate_normal(np.zeros(6), np.linalg.inv(precision), draws).T
     seen = np.concatenate(told)
     captured = seen @ weights + rng.normal(size=(len(seen), draws))
-    found = np.linalg.solve(seen.T @ seen + PART.precision, seen.T @ captured)
+    found = np.linalg.solve(seen.T @ seen + precision, seen.T @ captured)
     errors: Array = np.sum((np.concatenate(candidates) @ (found - weights)) ** 2, axis=0)
     return errors
 
 
 def test_a_view_tells_what_fits_with_it_gain(light: CapturedLight) -> None:
     captured, candidates = rows(light, geodesic_sphere(12).vertices[:2]), rows(light, np.eye(3))
-    known = Known(PART, captured, candidates)
+    known = Known(PART, captured, candidates, TEXELS)
     before, falls, draws = known.expected, known.falls(), 4000
     for candidate, fall in enumerate(falls):
-        errors = PART.variance * refitted([*captured, candidates[candidate]], candidates, draws)
+        told = [*captured, candidates[candidate]]
+        errors = PART.variance / (2.0 * TEXELS) * refitted(known.precision, told, candidates, draws)
         # Means of so many draws
         assert abs(errors.mean() - (before - fall)) < 5.0 * errors.std() / np.sqrt(draws)
     assert falls.min() > 0.2 * before
     known.see(1)
     assert known.expected == pytest.approx(before - falls[1], rel=1e-9)
+
+
+def test_weights_vary_by_as_much_as_views_left_out_say(light: CapturedLight) -> None:
+    (seen,) = captured = rows(light, geodesic_sphere(12).vertices[:1])
+    precision = Known(PART, captured, captured, TEXELS).precision
+    # Without its one view nothing is known
+    left_out = np.trace(seen @ np.linalg.inv(precision) @ seen.T)
+    # In units of the error of a texel; factors are ten times apart
+    assert TEXELS <= left_out < 10.0 * TEXELS
 
 
 def test_the_next_view_is_the_best_of_all(light: CapturedLight) -> None:
@@ -66,7 +78,8 @@ def test_the_next_view_is_the_best_of_all(light: CapturedLight) -> None:
     candidates = candidate_dirs(5)
     every = rows(light, candidates)
     wanted = sum(each.T @ each for each in every)
-    told = PART.precision + sum(each.T @ each for each in rows(light, view_dirs))
+    captured = rows(light, view_dirs)
+    told = Known(PART, captured, every, TEXELS).precision + sum(each.T @ each for each in captured)
     for view_dir in chosen:
         left = [np.trace(np.linalg.solve(told + each.T @ each, wanted)) for each in every]
         free = np.max(candidates @ view_dirs.T, axis=1) < np.cos(NEAREST)
@@ -75,8 +88,13 @@ def test_the_next_view_is_the_best_of_all(light: CapturedLight) -> None:
         told, view_dirs = told + every[best].T @ every[best], np.vstack([view_dirs, view_dir])
 
 
-def test_no_view_is_chosen_where_there_is_no_room(light: CapturedLight) -> None:
-    assert next_views(geodesic_sphere(162).vertices, SIZE, light, [PART], 2).shape == (0, 3)
+def test_no_view_is_chosen_where_there_is_no_room(
+    light: CapturedLight, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    twelve = geodesic_sphere(12).vertices
+    monkeypatch.setattr(next_views_module, "candidate_dirs", lambda views: twelve)
+    assert next_views(twelve, SIZE, light, [PART], 2).shape == (0, 3)
+    np.testing.assert_array_equal(next_views(twelve[:11], SIZE, light, [PART], 2), twelve[11:])
 
 
 def test_texels_stand_for_all_of_a_view(light: CapturedLight) -> None:

@@ -137,10 +137,10 @@ def fit_captures(
         seen = seen_functions(texels, light, mu, tilts, weights)
         equations = equations_of(texels, light, mu, tilts)
         corrector = _Corrector(equations, bank, weights, seen, texels, radiance, folds)
-        fitted, left, price = corrector.best()
+        fitted, left = corrector.best()
         fits.append(_fit(mu, bank, tilts, fitted, brdf))
         errors += left
-        weighed.append(Weighed(mu, tilts, corrector.precision(price), _power(texels, left)))
+        weighed.append(Weighed(mu, tilts, corrector.precision(bank), _power(texels, left)))
         if part == "glossy":
             widths = tuple(each.alpha for each in members)
     left_out = float(np.sqrt(_power(texels, errors) / power)) if count >= FEWEST_VIEWS else None
@@ -260,8 +260,8 @@ class _Corrector:
         self._rights, self._own = rights[..., :-1], rights[..., -1]
         self._price = self._prices(bank, np.sum((self._root[:, None] * radiance) ** 2, axis=0))
 
-    def best(self) -> tuple[Array, Array, float]:
-        """All weights, shape (S, M, 3), errors of texels left out, shape (N, 3), and the price."""
+    def best(self) -> tuple[Array, Array]:
+        """All weights, shape (S, M, 3), and the errors of texels when they are left out, shape (N, 3)."""
         total, rights = self._systems.sum(), self._rights.sum(axis=0)
         without = Tridiagonal(total.diagonal[None], total.above[None]) - self._systems
         left = np.stack(
@@ -281,28 +281,35 @@ class _Corrector:
         for fold, those in enumerate(unknowns):
             chosen = self._folds == fold
             rest[chosen] -= self._equations.radiance(chosen, np.moveaxis(those, 0, -1))
-        return self._functions @ self._factors + np.moveaxis(correction, 0, -1), rest, price
+        return self._functions @ self._factors + np.moveaxis(correction, 0, -1), rest
 
-    def precision(self, price: float) -> Array:
-        """What a price, or the highest of `PRICES`, costs weights in the mean of all channels."""
-        finite = min(price, PRICES[0])
-        mean = Tridiagonal(self._price.diagonal.mean(axis=0), self._price.above.mean(axis=0))
-        precision: Array = finite * mean.dense()
+    def precision(self, bank: KernelBank) -> Array:
+        """See `Weighed`: at each elevation, weights vary in proportion to the likeness's lobes there."""
+        power, along = self._power_and_evenness(bank)
+        alike = self._functions @ self._factors
+        own = np.einsum("smc,mn,snc->s", alike, power, alike)
+        size = np.sqrt(np.maximum(own, _FAINTEST**2 * own.max()))
+        relative = along / (size[:, None] * size)
+        precision: Array = np.einsum("st,mn->smtn", relative, power).reshape(2 * [len(own) * len(power)])
         return precision
 
     def _prices(self, bank: KernelBank, captured: Array) -> Tridiagonal:
         """The price of a correction that costs 1, of captured power in each channel."""
         alike = self._functions @ self._factors
-        slices, size, _ = alike.shape
-        power = np.kron(np.eye(size // len(bank)), bank.products(np.zeros(()))[0])
-        steps = np.diff(np.eye(slices), axis=0)
-        along = (np.eye(slices) + EVENNESS * steps.T @ steps) / slices
+        slices, (power, along) = len(alike), self._power_and_evenness(bank)
         own = np.einsum("smc,mn,snc->c", alike, power, alike) / slices
         unit = captured / np.maximum(own, _FAINTEST * own.max())
         return Tridiagonal(
             unit[:, None, None, None] * np.diag(along)[:, None, None] * power,
             unit[:, None, None, None] * np.diag(along, 1)[:, None, None] * power,
         )
+
+    def _power_and_evenness(self, bank: KernelBank) -> tuple[Array, Array]:
+        """Scalar products of all kernels, shape (M, M), and what they cost by elevation, shape (S, S)."""
+        slices, size, _ = self._functions.shape
+        power = np.kron(np.eye(size // len(bank)), bank.products(np.zeros(()))[0])
+        steps = np.diff(np.eye(slices), axis=0)
+        return power, (np.eye(slices) + EVENNESS * steps.T @ steps) / slices
 
     def _priced(self, price: float) -> Tridiagonal:
         return Tridiagonal(price * self._price.diagonal, price * self._price.above)

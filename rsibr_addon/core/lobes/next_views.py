@@ -1,9 +1,10 @@
 """Where to capture a material next: the views that tell most of its lobes.
 
 A texel is a linear equation of the lobes' weights. Its factors depend on the view and the light alone, so
-that it is known what a view will tell before it is captured. The normal matrix of all views, with the price
-of weights added, is the inverse of the covariance of the weights that the views allow. Among some directions
-all around, the next view is the one that lowers the expected squared error of all of them most.
+that it is known what a view will tell before it is captured. Weights may differ from those of the likeness by
+a share of these: that is their covariance before any view, and the normal matrix of the views gives the one
+after them. Views that were left out say how large the share is. Of some directions all around, the next view
+is the one that lowers the expected squared error of all of them most.
 """
 
 from collections.abc import Sequence
@@ -21,6 +22,9 @@ from .captured_texels import captured_texels, equations_of
 TEXELS = 100
 """Texels that stand for a view, about; those that mirror suns are taken besides."""
 
+PRICES = 10.0 ** np.arange(2, -10, -1)
+"""Factors of a precision that are tried, in units of what the views tell."""
+
 NEAREST = np.radians(9.0)
 """Least angle from a captured view to a next one [rad], half of that between 162 views."""
 
@@ -35,9 +39,9 @@ class Weighed:
     tilts : ndarray, shape (S, J)
         See `captured_texels.equations_of`.
     precision : ndarray, shape (S * J * K, S * J * K)
-        Inverse of their covariance, relative to `variance`.
+        Inverse of their covariance, but for a factor.
     variance : float
-        What the lobes leave of captured texels: a number that is comparable between parts.
+        Squared error of captured texels whose views were left out, the sum over them.
     """
 
     mu: Array
@@ -69,7 +73,12 @@ def next_views(
     """
     candidates = candidate_dirs(len(view_dirs) + count)
     known = [
-        Known(part, rows_of_views(view_dirs, size, light, part), rows_of_views(candidates, size, light, part))
+        Known(
+            part,
+            rows_of_views(view_dirs, size, light, part),
+            rows_of_views(candidates, size, light, part),
+            0.25 * np.pi * size**2,
+        )
         for part in parts
     ]
     chosen = view_dirs
@@ -122,12 +131,23 @@ class Known:
     part : Weighed
     captured, candidates : sequence of ndarray, shapes (N, S * J * K)
         Equations of the captured views, and of those that may follow: see `rows_of_views`.
+    texels : float
+        How many texels a view has.
     """
 
-    def __init__(self, part: Weighed, captured: Sequence[Array], candidates: Sequence[Array]) -> None:
-        self._candidates, self._variance = candidates, part.variance
+    def __init__(
+        self, part: Weighed, captured: Sequence[Array], candidates: Sequence[Array], texels: float
+    ) -> None:
+        self._candidates, self._variance = candidates, part.variance / (texels * len(captured))
         self._seen = sum((rows.T @ rows for rows in candidates), np.zeros_like(part.precision))
-        self._covariance = np.linalg.inv(sum((rows.T @ rows for rows in captured), part.precision))
+        told = sum((rows.T @ rows for rows in captured), np.zeros_like(part.precision))
+        unit = np.trace(told) / np.trace(part.precision)
+        for price in PRICES:
+            self.precision = price * unit * part.precision
+            self._covariance = np.linalg.inv(self.precision + told)
+            # Weights that vary by so much explain all of the error of views left out
+            if sum(map(self._left_out, captured)) >= texels * len(captured):
+                break
 
     @property
     def expected(self) -> float:
@@ -148,6 +168,11 @@ class Known:
         rows = self._candidates[candidate]
         told = rows @ self._covariance
         self._covariance = self._covariance - told.T @ np.linalg.solve(self._with_noise(rows), told)
+
+    def _left_out(self, rows: Array) -> float:
+        """Expected squared error of a captured view, were it left out, in units of that of a texel."""
+        covariance = rows @ self._covariance @ rows.T
+        return float(np.trace(np.linalg.solve(np.eye(len(rows)) - covariance, covariance)))
 
     def _with_noise(self, rows: Array) -> Array:
         """Covariance of texels with their noise, which is 1."""

@@ -31,18 +31,6 @@ class Tridiagonal:
         """The sum over the first axis."""
         return Tridiagonal(self.diagonal.sum(axis=0), self.above.sum(axis=0))
 
-    def dense(self) -> Array:
-        """The matrices, shape (..., S * M, S * M)."""
-        blocks, size = self.diagonal.shape[-3:-1]
-        matrix = np.zeros((*self.diagonal.shape[:-3], blocks, size, blocks, size))
-        for block in range(blocks):
-            matrix[..., block, :, block, :] = self.diagonal[..., block, :, :]
-        for block in range(blocks - 1):
-            above = self.above[..., block, :, :]
-            matrix[..., block, :, block + 1, :] = above
-            matrix[..., block + 1, :, block, :] = np.swapaxes(above, -1, -2)
-        return matrix.reshape(*matrix.shape[:-4], blocks * size, blocks * size)
-
     def solve(self, right: Array) -> Array:
         """The unknowns, by elimination from block to block.
 

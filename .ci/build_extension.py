@@ -4,9 +4,11 @@ import re
 import subprocess
 import sys
 import tomllib
+from fnmatch import fnmatch
 from pathlib import Path
 
 import bpy
+from own_symbols import bind_wheel_to_itself
 
 ROOT = Path(__file__).resolve().parents[1]
 SCRIPTS = Path(bpy.utils.resource_path("LOCAL")) / "scripts"
@@ -36,6 +38,9 @@ def main() -> None:
         if not (ROOT / wheel).exists():
             print(f"Fetching {Path(wheel).name}")
             fetch_wheel(ROOT / wheel)
+        # Blender has an OpenEXR of its own
+        if fnmatch(Path(wheel).name, "openexr-*linux*"):
+            bind_wheel_to_itself(ROOT / wheel)
     archive = ROOT / "dist" / f"{manifest['id']}-{manifest['version']}.zip"
     archive.parent.mkdir(exist_ok=True)
     blender_ext(

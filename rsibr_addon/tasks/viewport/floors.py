@@ -70,10 +70,10 @@ class Floors:
             for each in contents.catchers
             if each.plane is None
         ]
-        shown: Shadows = {}
-        known = ChainMap(shown, self._shadows.pop(view.number, {}), *self._shadows.values())
         if not contents.catchers:
             return []
+        shown: Shadows = {}
+        known = ChainMap(shown, self._shadows.pop(view.number, {}), *self._shadows.values())
         casters, turn = contents.casters(view), view.world_light.turn
         caught = [(each, self._of(known, each, casters, light, turn, eye)) for each in contents.catchers]
         self._shadows[view.number] = shown  # the newest last

@@ -82,8 +82,8 @@ def test_twelve_views_tell_the_material(views: RadianceViews, twelve: CapturedFi
     assert twelve.widths == pytest.approx((0.3,), rel=0.03)
     # A sphere averages over many lights, so that the family's own error, E .05 to .1, counts little
     assert error_of(twelve.fit, light(1), views) < 0.02
-    # Four glossy lobes and a diffuse one
-    assert twelve.fit.weights.shape[:2] == (5, 16)
+    # Six glossy lobes and a diffuse one
+    assert twelve.fit.weights.shape[:2] == (7, 16)
     assert twelve.fit.method == "captured"
 
 

@@ -1,6 +1,7 @@
 """The family of lobes that comes with us: as accurate as the page says, and as its command makes it."""
 
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -10,12 +11,19 @@ from rsibr.rsibr_addon.core.brdf.cook_torrance import CookTorrance
 from rsibr.rsibr_addon.core.brdf.fresnel import Fresnel, Index, Schlick
 from rsibr.rsibr_addon.core.brdf.fresnel_powers import dielectric, schlick
 from rsibr.rsibr_addon.core.brdf.ggx import Ggx
+from rsibr.rsibr_addon.core.brdf.model import Brdf
 from rsibr.rsibr_addon.core.brdf.ward import Ward
 from rsibr.rsibr_addon.core.errors import InputFileError
 from rsibr.rsibr_addon.core.lobes.accuracy import fit_errors
 from rsibr.rsibr_addon.core.lobes.family import Family
-from rsibr.rsibr_addon.core.lobes.family_fit import WIDTHS, fit_gaussian, fit_ggx
-from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.core.lobes.family_fit import (
+    WIDTHS,
+    fit_closer_gaussian,
+    fit_closer_ggx,
+    fit_gaussian,
+    fit_ggx,
+)
+from rsibr.rsibr_addon.core.progress import Steps, drain
 from rsibr.rsibr_addon.files import families
 from rsibr.rsibr_addon.files.families import read_family, shipped_family, shipped_sheen, write_family
 
@@ -68,6 +76,29 @@ def test_wards_and_beckmanns_lobes_fitted_anew_are_as_good() -> None:
         assert shipped < 0.2
         # Fewer neighbours smooth the tilts, so they differ a little
         assert ours == pytest.approx(shipped, rel=0.1)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "closer", "model", "coefficients"),
+    [
+        ("ggx", fit_closer_ggx, Ggx(alpha=0.1, fresnel=Schlick(f0=1.0)), schlick(1.0)),
+        ("gaussian", fit_closer_gaussian, Ward(alpha=0.1, ks=1.0), np.array([1.0, 0.0, 0.0])),
+    ],
+)
+def test_closer_lobes_of_one_width_are_closer_at_grazing(
+    name: str, closer: Callable[[float], Steps[Family]], model: Brdf, coefficients: np.ndarray
+) -> None:
+    of_all = np.repeat(coefficients[:, None], 3, axis=1)
+    shipped, ours = (
+        fit_errors(family.fit(0.1, of_all, name), model)
+        for family in (shipped_family(name), drain(closer(0.1)))
+    )
+    # Half as many lobes again; what captures do not tell is as wrong as this
+    assert ours.grazing_error < 0.75 * shipped.grazing_error
+    assert ours.error < 0.75 * shipped.error
+    # The limit of joint fits, by another quadrature
+    assert ours.amplification.max() < 8.1
 
 
 def test_albedos_are_sums_of_weights() -> None:

@@ -11,7 +11,7 @@ Each part of the radiance, diffuse and glossy, is fitted in two steps.
 Normal equations are kept for each view, so that those of all others are a difference.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -27,7 +27,7 @@ from .captured_light import CapturedLight
 from .captured_texels import CapturedTexels, Equations, captured_texels, equations_of, seen_functions
 from .family import Family
 from .fit import Fit, joined
-from .likeness import factors, likeness
+from .likeness import Member, factors, likeness
 from .next_views import Weighed
 from .tridiagonal import Tridiagonal
 
@@ -49,7 +49,7 @@ FOLDS = 12
 FEWEST_VIEWS = 3
 """Views with which one that is left out tells how well a new one is predicted."""
 
-TEXELS, SEARCHED = 24000, 4000
+TEXELS, SEARCHED = 24000, 2000
 """Texels that the correction, and that the search for a likeness takes."""
 
 NEGLIGIBLE = 1e-6
@@ -83,7 +83,7 @@ class CapturedFit:
 def fit_captures(
     views: RadianceViews,
     light: CapturedLight,
-    families: Sequence[Family],
+    families: Mapping[Family, Callable[[float], Steps[Family]]],
     brdf: str,
     count: int | None = None,
 ) -> Steps[CapturedFit]:
@@ -94,8 +94,9 @@ def fit_captures(
     views : RadianceViews
     light : CapturedLight
         The environment of the captures, filtered with the first kernels of the families.
-    families : sequence of Family
-        Kinds of glossy reflection, of the same kernels and elevations.
+    families : mapping of Family to callable
+        Kinds of glossy reflection, of the same kernels and elevations; and what fits one width of each anew,
+        closer.
     brdf : str
         The text of the material.
     count : int, optional
@@ -121,16 +122,18 @@ def fit_captures(
     weighed: list[Weighed] = []
     errors: Array = np.zeros_like(texels.glossy)
     widths: tuple[float, ...] = ()
-    mu = families[0].mu
+    mu = next(iter(families)).mu
     bank = light.filtered.bank
     lambert = lambert_family(mu, bank)
-    for number, (part, kinds) in enumerate({"diffuse": [lambert], "glossy": families}.items()):
+    for number, (part, kinds) in enumerate({"diffuse": [lambert], "glossy": list(families)}.items()):
         radiance = getattr(texels, part)
         if _power(texels, radiance) <= NEGLIGIBLE * power:
             errors += radiance
             continue
         yield Progress(2 * number, 4, f"finding what {part} light is like")
         members = likeness(few, getattr(few, part), light, kinds, thinnest)
+        if part == "glossy":
+            members = yield from _closer(members, families)
         yield Progress(2 * number + 1, 4, f"fitting lobes to {part} light")
         tilts = np.concatenate([each.tilts for each in members], axis=1)
         weights = _side_by_side([each.weights(bank) for each in members])
@@ -145,6 +148,17 @@ def fit_captures(
             widths = tuple(each.alpha for each in members)
     left_out = float(np.sqrt(_power(texels, errors) / power)) if count >= FEWEST_VIEWS else None
     return CapturedFit(replace(joined(fits, brdf), left_out=left_out), widths, tuple(weighed))
+
+
+def _closer(
+    members: Sequence[Member], families: Mapping[Family, Callable[[float], Steps[Family]]]
+) -> Steps[list[Member]]:
+    """The same widths with closer lobes: where no capture sees a sun at grazing, these stay as they are."""
+    closer = []
+    for each in members:
+        family = yield from families[each.family](each.alpha)
+        closer.append(Member(family, each.alpha))
+    return closer
 
 
 def _power(texels: CapturedTexels, values: Array) -> float:

@@ -31,7 +31,7 @@ from .thinning import Equations, solution, thinned
 WIDTHS = 2.0 ** np.linspace(-8.0, 0.0, 33)
 """alpha of the rows of the GGX family, four an octave."""
 
-ELEVATIONS, LOBES, LEANING_LOBES = 16, 4, 2
+ELEVATIONS, LOBES, LEANING_LOBES, CLOSER_LOBES = 16, 4, 2, 6
 
 GUIDES = np.stack([schlick(1.0), dielectric(1.5)], axis=1)
 """A white metal and glass, as coefficients of `POWERS`, shape (C, 2)."""
@@ -74,6 +74,22 @@ def fit_gaussian(
 ) -> Steps[Family]:
     """The family of lobes that end sooner than GGX's: Ward's, and Beckmann's times 1 and (1 - cos)^5."""
     return (yield from fit_family(_gaussian, GAUSSIAN_GUIDES, widths, elevation_slices(elevations), lobes))
+
+
+def fit_closer_ggx(alpha: float) -> Steps[Family]:
+    """The family of `fit_ggx` of one width, with `CLOSER_LOBES`, which are closer at grazing above all."""
+    return (yield from _fit_closer(_ggx, GUIDES, alpha))
+
+
+def fit_closer_gaussian(alpha: float) -> Steps[Family]:
+    """The family of `fit_gaussian` of one width, with `CLOSER_LOBES`."""
+    return (yield from _fit_closer(_gaussian, GAUSSIAN_GUIDES, alpha))
+
+
+def _fit_closer(model: Callable[[float], BrdfFunction], guides: Array, alpha: float) -> Steps[Family]:
+    return (
+        yield from fit_family(model, guides, np.array([alpha]), elevation_slices(ELEVATIONS), CLOSER_LOBES)
+    )
 
 
 def fit_family(

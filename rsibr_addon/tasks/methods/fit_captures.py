@@ -1,6 +1,7 @@
 """Captured views to lobes, in a file."""
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -13,6 +14,7 @@ from ...core.lobes.bank import KernelBank
 from ...core.lobes.captured_light import CapturedLight, captured_light
 from ...core.lobes.captures import CapturedFit, fit_captures
 from ...core.lobes.family import Family
+from ...core.lobes.family_fit import fit_closer_gaussian, fit_closer_ggx
 from ...core.progress import Progress, Steps
 from ...files.atomic import check_target
 from ...files.families import shipped_family
@@ -20,8 +22,8 @@ from ...files.fits import write_fit
 from ...files.kinds import environment, radiance_views
 from ...files.map_set import read_map_set
 
-FAMILIES = ("ggx", "gaussian")
-"""Families of glossy lobes that captures may be like."""
+FAMILIES = {"ggx": fit_closer_ggx, "gaussian": fit_closer_gaussian}
+"""Families of glossy lobes that captures may be like, and what fits one of their widths closer."""
 
 LAYOUT, SIZE = "octahedral", 256
 """Of the filtered maps in which captured texels look their light up."""
@@ -54,9 +56,9 @@ class CapturedResult:
         }
 
 
-def shipped_families() -> list[Family]:
+def shipped_families() -> dict[Family, Callable[[float], Steps[Family]]]:
     """The `FAMILIES`."""
-    return [shipped_family(name) for name in FAMILIES]
+    return {shipped_family(name): closer for name, closer in FAMILIES.items()}
 
 
 def filtered_light(radiance: Array) -> CapturedLight:
@@ -68,7 +70,7 @@ def filtered_light(radiance: Array) -> CapturedLight:
         It resolves none.
     """
     resolved = sharpest_resolved(len(radiance))
-    kernels = shipped_families()[0].bank.concentrations
+    kernels = shipped_family("ggx").bank.concentrations
     bank = KernelBank(tuple(each for each in kernels if each <= resolved))
     return captured_light(radiance, bank, partial(filter_environment, layout=LAYOUT, size=SIZE))
 

@@ -3,7 +3,8 @@
 Each part of the radiance, diffuse and glossy, is fitted in two steps.
 
 1. Its *likeness* is a sum of a few known reflectances, of widths that fit. Few numbers say it, so that few
-   views tell them, even one; and it gives the lobes' axes.
+   views tell them, even one; and it gives the lobes' axes. As few views see a sun at grazing, what it says of
+   that stays: so more lobes than the families have are fitted to each width that was found.
 2. The *correction* is to the weights of all kernels about these axes, at all elevations, by least squares. A
    price is on its power and on how much it changes from one elevation to the next: the highest at which views
    that were left out are predicted nearly as well as at any.
@@ -95,8 +96,8 @@ def fit_captures(
     light : CapturedLight
         The environment of the captures, filtered with the first kernels of the families.
     families : mapping of Family to callable
-        Kinds of glossy reflection, of the same kernels and elevations; and what fits one width of each anew,
-        closer.
+        Kinds of glossy reflection, of the same kernels and elevations; and what fits lobes to one width of
+        each that are closer.
     brdf : str
         The text of the material.
     count : int, optional
@@ -153,7 +154,7 @@ def fit_captures(
 def _closer(
     members: Sequence[Member], families: Mapping[Family, Callable[[float], Steps[Family]]]
 ) -> Steps[list[Member]]:
-    """The same widths with closer lobes: where no capture sees a sun at grazing, these stay as they are."""
+    """The same widths, with lobes that are closer."""
     closer = []
     for each in members:
         family = yield from families[each.family](each.alpha)

@@ -94,7 +94,7 @@ def write_polynomials(coefficients: Array) -> None:
 def main() -> None:
     """Fit, where asked to, and write the table."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--fit", action="store_true", help="fit anew, a minute of processor time")
+    parser.add_argument("--fit", action="store_true", help="fit anew, three minutes of processor time")
     if parser.parse_args().fit:
         write_family(SHIPPED / "ggx.npz", drain(fit_ggx()))
         write_family(SHIPPED / "gaussian.npz", drain(fit_gaussian()))

@@ -1,11 +1,30 @@
 // Twin of rsibr_addon/core/materials and of core/kinds/kernel_pyramid/shading.py `principled_radiance`: a
 // material whose inputs are affine in the texels of textures. The uniform block `material` and the textures
 // `image_0` to `image_7` are those of device/textured_materials.py.
+//
+// A program for materials without bumps, without textures whose alpha counts before they are interpolated, or
+// of four textures at most, may define UNBUMPED, UNCOVERED or FEW_TEXTURES: see principled_lib.glsl.
 #include "lib/footprint_lib.glsl"
 #include "lib/principled_radiance_lib.glsl"
 #include "lib/shading_normal_lib.glsl"
 #include "lib/sides_lib.glsl"
 #include "lib/spread_lib.glsl"
+
+#ifdef UNBUMPED
+const bool MAY_BE_BUMPED = false;
+#else
+const bool MAY_BE_BUMPED = true;
+#endif
+#ifdef UNCOVERED
+const bool MAY_BE_COVERED = false;
+#else
+const bool MAY_BE_COVERED = true;
+#endif
+#ifdef FEW_TEXTURES
+const bool MAY_HAVE_MANY = false;
+#else
+const bool MAY_HAVE_MANY = true;
+#endif
 
 // Bits of what changes the normal.
 const int NORMAL_MAPPED = 1;
@@ -86,7 +105,7 @@ vec4 texel_of(sampler2D image, int number)
 {
   vec2 place = texture_place(number);
   float degree = material.mapping[2 * number + 1].w;
-  if (degree < COVERED_AND_INTERPOLATED) {
+  if (!MAY_BE_COVERED || degree < COVERED_AND_INTERPOLATED) {
     vec4 texel = texture(image, place);
     return (degree < COVERED) ? texel : times_alpha(texel);
   }
@@ -129,16 +148,16 @@ void evaluate_inputs()
   if (count > 3) {
     add_texels(3, texel_of(image_3, 3));
   }
-  if (count > 4) {
+  if (MAY_HAVE_MANY && count > 4) {
     add_texels(4, texel_of(image_4, 4));
   }
-  if (count > 5) {
+  if (MAY_HAVE_MANY && count > 5) {
     add_texels(5, texel_of(image_5, 5));
   }
-  if (count > 6) {
+  if (MAY_HAVE_MANY && count > 6) {
     add_texels(6, texel_of(image_6, 6));
   }
-  if (count > 7) {
+  if (MAY_HAVE_MANY && count > 7) {
     add_texels(7, texel_of(image_7, 7));
   }
 }
@@ -181,7 +200,7 @@ vec3 shading_normal()
   if ((changes & NORMAL_MAPPED) != 0) {
     normal = world_mapped_normal(color_of(NORMAL_COLOR), numbers[NORMAL_STRENGTH]);
   }
-  if ((changes & BUMPED) != 0) {
+  if (MAY_BE_BUMPED && (changes & BUMPED) != 0) {
     vec3 right, above;
     pixel_sides(world_position, 1.0, right, above);
     // Steps near 1: squares of those of a close view would vanish in single precision

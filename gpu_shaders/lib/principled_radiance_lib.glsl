@@ -1,7 +1,7 @@
 // Twin of rsibr_addon/core/kinds/kernel_pyramid/shading.py. Layer 0 of a family's texture (see
-// device/kinds/kernel_pyramid_texels.py) holds the tilts of its lobes, then come for each four lookups a
-// layer of each function, with their weights. A column of `lookups` tells of a width and the next one how
-// many lookups these need, and of each lookup the place of its map (see pyramid_lib.glsl) and its lobe.
+// device/kinds/kernel_pyramid_texels.py) holds the tilts of its lobes, then come for each kernel a layer of
+// each function, with the lobes' weights. A column of `lookups` tells how many kernels a width and the next
+// one need, and of each the place of its map (see pyramid_lib.glsl) and its number.
 #include "lib/bumped_diffuse_lib.glsl"
 #include "lib/directions_lib.glsl"
 #include "lib/lobe_axes_lib.glsl"
@@ -10,6 +10,8 @@
 #include "lib/pyramid_lib.glsl"
 
 const int FUNCTIONS = 5;
+const int LOBES = 4;
+const int LEANING_LOBES = 2;
 
 // Rising powers of glass, of an index of 1.5, over the first of them: `GLASS` of
 // device/kinds/kernel_pyramid_texels.py.
@@ -24,6 +26,7 @@ vec3 lobes_radiance(sampler2D atlas,
                     sampler2DArray family,
                     int first,
                     int functions,
+                    int lobes,
                     float alpha,
                     float mu,
                     Powers coefficients,
@@ -48,27 +51,23 @@ vec3 lobes_radiance(sampler2D atlas,
   int end = counts.z ? 5 : (counts.y ? 4 : (counts.x ? 3 : 2));
   vec3 radiance = vec3(0.0);
   int column = first + family_column(family, place);
-  int slots = int(texelFetch(lookups, ivec2(column, 0), 0).x);
+  int kernels = int(texelFetch(lookups, ivec2(column, 0), 0).x);
   // Loops end with their test: one that begins with it is run once more in vain, where fragments differ
-  int slot = 0;
+  int kernel = 0;
   do {
+    vec4 map = texelFetch(lookups, ivec2(column, 1 + kernel), 0);
     // Of the first function; a family of one has that of 1 alone
-    int layer = 1 + slot / 4 * functions - ((functions > 1) ? 0 : 1);
+    int layer = 1 + int(map.w) * functions - ((functions > 1) ? 0 : 1);
     mat4x3 weights = mat4x3(0.0);
     int number = begin;
     do {
       vec3 texel = vec3(place, float(layer + number));
       weights += outerProduct(factors[number], textureLod(family, texel, 0.0));
     } while (++number < end);
-    for (int lane = 0; lane < 4; lane++) {
-      vec4 map = texelFetch(lookups, ivec2(column, 1 + slot + lane), 0);
-      // Chosen, as some drivers keep arrays with such an index out of registers
-      vec2 early = (map.w < 0.5) ? uv[0] : uv[1];
-      vec2 late = (map.w < 2.5) ? uv[2] : uv[3];
-      radiance += weights[lane] * atlas_radiance(atlas, map.xyz, (map.w < 1.5) ? early : late);
+    for (int lobe = 0; lobe < lobes; lobe++) {
+      radiance += weights[lobe] * atlas_radiance(atlas, map.xyz, uv[lobe]);
     }
-    slot += 4;
-  } while (slot < slots);
+  } while (++kernel < kernels);
   return radiance;
 }
 
@@ -86,7 +85,7 @@ vec3 ggx_radiance(sampler2D atlas,
   vec3 radiance = vec3(0.0);
   if (share < 1.0) {
     Powers rough = coloured(vec3(1.0 - share), coefficients);
-    radiance = lobes_radiance(atlas, lookups, ggx, 0, 5, alpha, mu, rough, normal, mirror_dir);
+    radiance = lobes_radiance(atlas, lookups, ggx, 0, FUNCTIONS, LOBES, alpha, mu, rough, normal, mirror_dir);
   }
   if (share > 0.0) {
     vec3 factor = coefficients.zeroth + coefficients.rising * powers_of(mu);
@@ -119,7 +118,7 @@ vec3 diffuse_radiance(sampler2D atlas,
     // The column before that of the maps
     int column = textureSize(lookups, 0).x - 2;
     vec3 leant = lobes_radiance(
-        atlas, lookups, leaning, column, 1, 1.0, mu, white_facets, normal, mirror_dir);
+        atlas, lookups, leaning, column, 1, LEANING_LOBES, 1.0, mu, white_facets, normal, mirror_dir);
     radiance += ab.y * (bounces(color, roughness, mu) * lost + leant);
   }
   return left.w * color * max(radiance, 0.0);

@@ -6,7 +6,7 @@ from functools import cached_property
 
 import gpu
 
-from ..core.materials.principled import Baked, Input, PrincipledInputs, Texture
+from ..core.materials.principled import Baked, Bump, Input, PrincipledInputs, Texture
 
 MOST_TEXTURES = 8
 """Textures that a material may sample; OpenGL grants 16 in all, and a pyramid takes 7."""
@@ -15,7 +15,10 @@ MOST_UV_MAPS = 4
 """UV maps that a mesh may have on the GPU."""
 
 TRANSLUCENT, SHEENLESS, UNCOATED, SMOOTH_DIFFUSE = "TRANSLUCENT", "SHEENLESS", "UNCOATED", "SMOOTH_DIFFUSE"
+UNBUMPED, UNCOVERED, FEW_TEXTURES = "UNBUMPED", "UNCOVERED", "FEW_TEXTURES"
 """What programs may have defined: see `DrawnMaterial.defines`."""
+
+_FEW = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,8 +46,9 @@ class DrawnMaterial:
     def defines(self) -> tuple[str, ...]:
         """What its program has defined.
 
-        A program without sheen, a coat or rough facets is a good deal faster than one in which their weight
-        is 0: where fragments may differ, drivers compute both ways of a branch. One with `TRANSLUCENT` leaves
+        A program without sheen, a coat, rough facets, bumps, more textures than `_FEW`, or textures that are
+        multiplied by alpha before they are interpolated, is a good deal faster than one in which nothing
+        comes of them: drivers compute both ways of a branch. One with `TRANSLUCENT` leaves
         out what covers nothing, and draws what covers all if its constant `whole` is 1, and the rest if that
         is 0. A program that leaves fragments out is a fifth slower, everywhere.
         """
@@ -53,6 +57,9 @@ class DrawnMaterial:
             SHEENLESS: _is_zero(self.inputs.sheen_weight),
             UNCOATED: _is_zero(self.inputs.coat_weight),
             SMOOTH_DIFFUSE: _is_zero(self.inputs.diffuse_roughness),
+            UNBUMPED: not isinstance(self.inputs.normal, Bump),
+            UNCOVERED: not any(texture.covered and not texture.closest for texture in self.textures),
+            FEW_TEXTURES: len(self.textures) <= _FEW,
         }
         return tuple(name for name, is_so in wanted.items() if is_so)
 

@@ -51,6 +51,13 @@ def test_samples_are_met_and_between_them_all_is_linear() -> None:
     np.testing.assert_allclose(beyond, family.weights[0, 1])
 
 
+def test_at_other_elevations_a_family_is_what_it_was_between_its_own() -> None:
+    family = small_family(np.random.default_rng(1))
+    middle = family.at_elevations(np.array([0.5]))
+    np.testing.assert_allclose(middle.tilts[:, 0], family.tilts.mean(axis=1))
+    np.testing.assert_allclose(middle.weights[:, 0], family.weights.mean(axis=1))
+
+
 def test_a_material_s_fit_evaluates_to_its_functions() -> None:
     rng = np.random.default_rng(1)
     family = small_family(rng)

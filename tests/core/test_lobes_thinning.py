@@ -3,13 +3,16 @@
 import numpy as np
 from rsibr.rsibr_addon.core.lobes.thinning import Equations, solution, thinned
 
-WIDTHS, ELEVATIONS, UNKNOWNS, NODES = 4, 3, 6, 40
+WIDTHS, ELEVATIONS, LOBES, KERNELS, NODES = 4, 3, 2, 6, 60
 
 
 def problems(rng: np.random.Generator) -> list[list[tuple[np.ndarray, np.ndarray]]]:
     """Least-squares problems of each width and elevation: columns, and two targets."""
     return [
-        [(rng.normal(size=(NODES, UNKNOWNS)), rng.normal(size=(NODES, 2)) + 3.0) for _ in range(ELEVATIONS)]
+        [
+            (rng.normal(size=(NODES, LOBES * KERNELS)), rng.normal(size=(NODES, 2)) + 3.0)
+            for _ in range(ELEVATIONS)
+        ]
         for _ in range(WIDTHS)
     ]
 
@@ -30,16 +33,16 @@ def errors_of(rows: list[list[tuple[np.ndarray, np.ndarray]]], kept: np.ndarray)
 
 def test_no_width_errs_more_than_is_allowed_and_each_by_as_much_as_it_may() -> None:
     rows = problems(np.random.default_rng(1))
-    whole = np.ones((WIDTHS, UNKNOWNS), dtype=bool)
+    whole = np.ones((WIDTHS, KERNELS), dtype=bool)
     before, most = errors_of(rows, whole), 0.03
-    kept = thinned([[equations_of(*each) for each in row] for row in rows], before, most)
+    kept = thinned([[equations_of(*each) for each in row] for row in rows], before, most, KERNELS)
     assert 0 < np.count_nonzero(~kept) < kept.size
     assert np.all(errors_of(rows, kept) <= (1.0 + most) * before * (1.0 + 1e-9))
-    for width, unknown in np.argwhere(kept):
+    for width, kernel in np.argwhere(kept):
         neighbours = [row for row in (width - 1, width + 1) if 0 <= row < WIDTHS]
-        if len(neighbours) < 2 or not all(kept[row, unknown] for row in neighbours):
+        if len(neighbours) < 2 or not all(kept[row, kernel] for row in neighbours):
             less = kept.copy()
-            less[width, unknown] = False
+            less[width, kernel] = False
             assert errors_of(rows, less)[width] > (1.0 + most) * before[width]
 
 
@@ -49,6 +52,7 @@ def test_what_is_needed_is_one_run_of_widths() -> None:
             [[equations_of(*each) for each in row] for row in problems(np.random.default_rng(2))],
             np.full(WIDTHS, 1000.0),
             0.05,
+            KERNELS,
         ),
         ((1, 1), (0, 0)),
     )
@@ -56,10 +60,11 @@ def test_what_is_needed_is_one_run_of_widths() -> None:
     assert begins.max() <= 1
 
 
-def test_an_unknown_that_is_left_out_is_nothing() -> None:
+def test_a_kernel_that_is_left_out_has_no_weight_in_any_lobe() -> None:
     columns, target = problems(np.random.default_rng(3))[0][0]
     kept = np.array([True, False, True, True, False, True])
     found = solution(equations_of(columns, target), kept)
-    expected = np.linalg.lstsq(columns[:, kept], target)[0]
-    np.testing.assert_allclose(found[kept], expected, rtol=1e-9)
-    assert not found[~kept].any()
+    used = np.concatenate([kept, kept])
+    expected = np.linalg.lstsq(columns[:, used], target)[0]
+    np.testing.assert_allclose(found[used], expected, rtol=1e-9)
+    assert not found[~used].any()

@@ -18,7 +18,7 @@ from rsibr.rsibr_addon.core.lobes.bank import KernelBank
 from rsibr.rsibr_addon.core.lobes.family import KERNELS
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.core.resample import lookup
-from rsibr.rsibr_addon.device.kinds.kernel_pyramid_texels import family_texels, lookup_slots
+from rsibr.rsibr_addon.device.kinds.kernel_pyramid_texels import family_texels, lookup_texels
 from rsibr.tests.glsl.evaluation import evaluate
 from rsibr.tests.glsl.principled_inputs import (
     KERNEL_COUNT,
@@ -159,15 +159,16 @@ def test_family_column() -> None:
 
 
 @pytest.mark.parametrize("name", ["ggx", "leaning"])
-def test_every_weight_has_its_slot_alone(name: str) -> None:
-    family = getattr(families(), name)
-    slots = lookup_slots(family)
-    weighs = np.any(family.weights, axis=(1, 4)).reshape(len(family.alpha), -1)
-    for width, pairs in zip(weighs, slots, strict=True):
-        np.testing.assert_array_equal(np.sort(pairs[pairs >= 0]), np.flatnonzero(width))
-    # What is interpolated between two widths is of one lookup
-    both = (slots[1:] >= 0) & (slots[:-1] >= 0)
-    np.testing.assert_array_equal(slots[1:][both], slots[:-1][both])
+def test_a_width_and_the_next_one_have_all_their_kernels_looked_up(name: str) -> None:
+    family, first = getattr(families(), name), 0 if name == "ggx" else len(families().ggx.alpha)
+    _, places = atlas_texels(pyramid())
+    texels = lookup_texels(families(), places)
+    needed = np.any(family.weights, axis=(1, 2, 4))
+    for width, column in enumerate(texels[:, first : first + len(needed)].swapaxes(0, 1)):
+        listed = column[1 : 1 + int(column[0, 0])]
+        kernels = listed[:, 3].astype(int)
+        np.testing.assert_array_equal(kernels, np.flatnonzero(needed[width : width + 2].any(axis=0)))
+        np.testing.assert_array_equal(listed[:, :3], places[0, kernels, :3])
 
 
 def test_lobes_radiance() -> None:
@@ -175,10 +176,10 @@ def test_lobes_radiance() -> None:
     color, edge, alpha = (each[:POINTS] for each in (numbers(45, columns=3), numbers(46), numbers(47)))
     code = (
         "Powers of_metal = schlick(in_0.rgb, in_1.xxx);"
-        "result_0.rgb = lobes_radiance(atlas, lookups, ggx, 0, 5, in_2.x, in_3.x, of_metal, in_4.xyz,"
-        "                              in_5.xyz);"
-        "result_1.rgb = lobes_radiance(atlas, lookups, leaning, textureSize(ggx, 0).x, 1, 1.0, in_3.x,"
-        "                              Powers(vec3(1.0), mat4x3(0.0)), in_4.xyz, in_5.xyz);"
+        "result_0.rgb = lobes_radiance(atlas, lookups, ggx, 0, FUNCTIONS, LOBES, in_2.x, in_3.x, of_metal,"
+        "                              in_4.xyz, in_5.xyz);"
+        "result_1.rgb = lobes_radiance(atlas, lookups, leaning, textureSize(ggx, 0).x, 1, LEANING_LOBES, 1.0,"
+        "                              in_3.x, Powers(vec3(1.0), mat4x3(0.0)), in_4.xyz, in_5.xyz);"
     )
     textures = {name: samplers()[name] for name in ("atlas", "lookups", "ggx", "leaning")}
     found = evaluate(LIBRARY, code, [color, edge, alpha, mu, normal, mirror_dir], 2, textures)[..., :3]

@@ -99,6 +99,18 @@ class Family:
                 found += (of_row * of_column).reshape((*alpha.shape, *rest)) * table[number, other]
         return found
 
+    def at_elevations(self, mu: Array) -> "Family":
+        """The family at other elevations, interpolated.
+
+        Parameters
+        ----------
+        mu : ndarray, shape (T,)
+            Ascending, in (0, 1].
+        """
+        alpha = self.alpha[:, None]
+        tilts, weights = (self.at(table, alpha, mu) for table in (self.tilts, self.weights))
+        return Family(self.alpha, mu, self.bank, tilts, weights)
+
     def fit(self, alpha: float, coefficients: Array, brdf: str) -> Fit:
         """The lobes of one material.
 

@@ -23,6 +23,7 @@ from ..progress import Progress, Steps
 from .bank import KernelBank
 from .family import KERNELS, Family
 from .joint import MOST_AMPLIFICATION, State, added_lobe, amplification, settled, tilts_of, tracked
+from .natural_light import natural_equations
 from .projection import UNIFORM_LIGHT, Lookups, Projector
 from .smoothing import lines
 from .target import TargetSlice, elevation_slices, target_slices
@@ -32,6 +33,9 @@ WIDTHS = 2.0 ** np.linspace(-8.0, 0.0, 33)
 """alpha of the rows of the GGX family, four an octave."""
 
 ELEVATIONS, LOBES, LEANING_LOBES, CLOSER_LOBES = 16, 4, 2, 6
+
+FINER = 2
+"""Elevations of the GGX family from one at which axes are fitted to the next: weights change faster."""
 
 GUIDES = np.stack([schlick(1.0), dielectric(1.5)], axis=1)
 """A white metal and glass, as coefficients of `POWERS`, shape (C, 2)."""
@@ -43,7 +47,10 @@ SMOOTHNESS = 0.1
 """Price of tilts' squared distance from the line between their neighbours'."""
 
 THRIFT = 0.06
-"""Share by which the squared error may rise for fewer kernels of fewer lobes."""
+"""Share by which the squared error may rise for fewer kernels."""
+
+NATURAL_LIGHT = 1.0
+"""Weight of an error in an octave of natural light, relative to the same error of the lobe's shape."""
 
 _SHARPNESS = 16.0
 _FIRST_WIDTH, _FIRST_ELEVATION = 0.25, 0.25
@@ -59,14 +66,15 @@ def fit_leaning(elevations: int = ELEVATIONS, lobes: int = LEANING_LOBES) -> Ste
             np.ones(1),
             elevation_slices(elevations),
             lobes,
-            THRIFT,
+            thrift=THRIFT,
         )
     )
 
 
 def fit_ggx(widths: Array = WIDTHS, elevations: int = ELEVATIONS, lobes: int = LOBES) -> Steps[Family]:
     """The family of GGX reflection of all widths and all Fresnel terms that are sums of `POWERS`."""
-    return (yield from fit_family(_ggx, GUIDES, widths, elevation_slices(elevations), lobes, THRIFT))
+    mu = elevation_slices(elevations)
+    return (yield from fit_family(_ggx, GUIDES, widths, mu, lobes, FINER, THRIFT, NATURAL_LIGHT))
 
 
 def fit_gaussian(
@@ -98,7 +106,9 @@ def fit_family(
     widths: Array,
     mu: Array,
     lobes: int,
+    finer: int = 1,
     thrift: float = 0.0,
+    natural: float = 0.0,
 ) -> Steps[Family]:
     """Fit lobes to functions at all widths.
 
@@ -110,12 +120,39 @@ def fit_family(
         Materials whose lobes the axes are fitted to, as coefficients of the functions.
     widths : ndarray, shape (A,)
     mu : ndarray, shape (S,)
-        Cosines of the view elevations, ascending.
+        Cosines of the view elevations that axes are fitted at, ascending.
     lobes : int
         Number J of lobes.
+    finer : int
+        Elevations of the family for each of them; from 2 onwards they are those of `elevation_slices`.
     thrift : float
         See `thinned`; 0 to keep all kernels that a width needs.
+    natural : float
+        Share of natural light: see `natural_equations`.
     """
+    tilts, rows = yield from _tracked_tilts(model, guides, widths, mu, lobes)
+    tilts = smoothed(tilts, np.log(widths), mu, SMOOTHNESS)
+    if finer > 1:
+        fine = elevation_slices(finer * len(mu))
+        tilts = _between(tilts, mu, fine)
+        rows = {row: list(target_slices(model(float(widths[row])), fine)) for row in rows}
+        mu = fine
+    yield Progress(len(widths), 2 * len(widths), "leaving out what hardly counts")
+    kept = _kept(rows, tilts, widths, guides, thrift, natural)
+    weights = np.zeros((*tilts.shape, len(KERNELS), len(guides)))
+    for row in range(len(widths)):
+        yield Progress(len(widths) + row, 2 * len(widths), f"solving for weights at alpha {widths[row]:.3g}")
+        bank = kernels_of(widths[row])
+        for column, target in enumerate(rows[row]):
+            solved = _solved(target, bank, tilts[row, column], guides, kept[row, : len(bank)], natural)
+            weights[row, column, :, : len(bank)] = solved
+    return Family(widths, mu, KERNELS, tilts, weights)
+
+
+def _tracked_tilts(
+    model: Callable[[float], BrdfFunction], guides: Array, widths: Array, mu: Array, lobes: int
+) -> Steps[tuple[Array, dict[int, list[TargetSlice]]]]:
+    """Tilts of the lobes at each width and elevation, shape (A, S, J), and the targets of each width."""
     start = int(np.argmin(np.abs(np.log(widths / _FIRST_WIDTH))))
     tilts: Array = np.empty((len(widths), len(mu), lobes))
     rows: dict[int, list[TargetSlice]] = {}
@@ -141,17 +178,7 @@ def fit_family(
         tilts[row] = [
             tilts_of(target, state.lookups.angles)[:, 0] for target, state in zip(guided, states, strict=True)
         ]
-    tilts = smoothed(tilts, np.log(widths), mu, SMOOTHNESS)
-    yield Progress(len(widths), 2 * len(widths), "leaving out what hardly counts")
-    kept = _kept(rows, tilts, widths, guides, thrift)
-    weights = np.zeros((*tilts.shape, len(KERNELS), len(guides)))
-    for row in range(len(widths)):
-        yield Progress(len(widths) + row, 2 * len(widths), f"solving for weights at alpha {widths[row]:.3g}")
-        bank = kernels_of(widths[row])
-        for column, target in enumerate(rows[row]):
-            counted = kept[row, :, : len(bank)].ravel()
-            weights[row, column, :, : len(bank)] = _solved(target, bank, tilts[row, column], guides, counted)
-    return Family(widths, mu, KERNELS, tilts, weights)
+    return tilts, rows
 
 
 def _ggx(alpha: float) -> BrdfFunction:
@@ -209,6 +236,15 @@ def smoothed(tilts: Array, rows: Array, columns: Array, price: float) -> Array:
     return smooth
 
 
+def _between(tilts: Array, mu: Array, wanted: Array) -> Array:
+    """Tilts, shape (A, S, J), at other elevations."""
+    found = np.moveaxis(tilts, 1, 0)
+    row = np.interp(wanted, mu, np.arange(len(mu)))
+    below = np.minimum(row.astype(np.intp), len(mu) - 2)
+    share = (row - below)[:, None, None]
+    return np.moveaxis((1.0 - share) * found[below] + share * found[below + 1], 0, 1)
+
+
 def _guided(target: TargetSlice, guides: Array) -> TargetSlice:
     """The guides as a target, each of unit power."""
     power = target.weight @ (target.lobe @ guides) ** 2
@@ -228,26 +264,29 @@ def _lookups(target: TargetSlice, tilts: Array) -> Lookups:
 
 
 def _kept(
-    rows: dict[int, list[TargetSlice]], tilts: Array, widths: Array, guides: Array, thrift: float
+    rows: dict[int, list[TargetSlice]],
+    tilts: Array,
+    widths: Array,
+    guides: Array,
+    thrift: float,
+    natural: float,
 ) -> NDArray[np.bool_]:
-    """Which kernels count of which lobes at each width, shape (A, J, K)."""
-    count, lobes = len(widths), tilts.shape[2]
-    within = np.stack([np.arange(len(KERNELS)) < len(kernels_of(width)) for width in widths])
-    kept = np.repeat(within[:, None], lobes, axis=1)
+    """Which kernels count at each width, shape (A, K)."""
+    kept = np.stack([np.arange(len(KERNELS)) < len(kernels_of(width)) for width in widths])
     if thrift == 0.0:
         return kept
     equations: list[list[Equations]] = []
-    for row in range(count):
-        bank, used = kernels_of(widths[row]), kept[row].ravel()
+    for row, width in enumerate(widths):
+        bank, used = kernels_of(width), np.tile(kept[row], tilts.shape[2])
         equations.append([])
         for target, each in zip(rows[row], tilts[row], strict=True):
-            projector = Projector(_guided(target, guides), bank)
-            system, right = projector.equations(_lookups(target, each))
+            guided, lookups = _guided(target, guides), _lookups(target, each)
+            system, right = Projector(guided, bank).equations(lookups)
             error = 1.0 + UNIFORM_LIGHT - np.sum(right * np.linalg.solve(system, right))
+            system, right = _equations(guided, bank, lookups, natural)
             # Each elevation's error counts by itself: those of steep views are far larger than the others
             equations[row].append(_spread_out(system / error, right / error, used))
-    chosen = thinned(equations, np.full(count, float(len(tilts[0]))), thrift).reshape(kept.shape)
-    return kept & chosen
+    return kept & thinned(equations, np.full(len(widths), float(tilts.shape[1])), thrift, len(KERNELS))
 
 
 def _spread_out(system: Array, right: Array, used: NDArray[np.bool_]) -> Equations:
@@ -257,17 +296,32 @@ def _spread_out(system: Array, right: Array, used: NDArray[np.bool_]) -> Equatio
     return wider, of_all
 
 
+def _equations(target: TargetSlice, bank: KernelBank, lookups: Lookups, natural: float) -> Equations:
+    """Those of `Projector`, with natural light."""
+    system, right = Projector(target, bank).equations(lookups)
+    if natural > 0.0:
+        more, of_more = natural_equations(target, bank, lookups, natural)
+        system, right = system + more, right + of_more
+    return system, right
+
+
 def _solved(
-    target: TargetSlice, bank: KernelBank, tilts: Array, guides: Array, kept: NDArray[np.bool_]
+    target: TargetSlice,
+    bank: KernelBank,
+    tilts: Array,
+    guides: Array,
+    kept: NDArray[np.bool_],
+    natural: float,
 ) -> Array:
     """Weights of kernels, shape (J, K, C), for given axes; no guide is amplified too much.
 
-    kept: shape (J * K,), those that count; the others are 0.
+    kept: shape (K,), those that count; the others are 0.
     """
-    lookups, stiffness = _lookups(target, tilts), 1.0
+    lookups, projector = _lookups(target, tilts), Projector(target, bank)
+    system, right = _equations(target, bank, lookups, natural)
+    stiffness, ridge = 1.0, np.zeros_like(system)
     while True:
-        projector = Projector(target, bank, stiffness)
-        found = solution(projector.equations(lookups), kept)
+        found = solution((system + (stiffness - 1.0) * ridge, right), kept)
         weights = projector.weights(found.reshape(len(tilts), len(bank), -1))
         loudest = max(
             amplification(bank, State(lookups, weights @ guide, np.nan), _mixed(target, guide))
@@ -275,4 +329,7 @@ def _solved(
         )
         if loudest <= MOST_AMPLIFICATION or stiffness > _STIFFEST:
             return weights
+        if stiffness == 1.0:  # To which ridges are proportional
+            stiffer = Projector(target, bank, 2.0).equations(lookups)[0]
+            ridge = stiffer - projector.equations(lookups)[0]
         stiffness *= _STIFFER

@@ -1,11 +1,9 @@
 """The texels of families of lobes, and of what they look up, as gpu_shaders/lib reads them."""
 
-from itertools import groupby
-
 import numpy as np
 
 from ...core.brdf.fresnel_powers import rise
-from ...core.conventions import Array, Indices
+from ...core.conventions import Array
 from ...core.errors import ShapeError
 from ...core.kinds.kernel_pyramid.shading import Families
 from ...core.lobes.family import KERNELS, Family
@@ -23,9 +21,6 @@ one, which metals do not have. So glass costs two lookups of weights, as does a 
 _WIDTHS_AN_OCTAVE = 4
 """As gpu_shaders/lib/family_lib.glsl has it."""
 
-_SLOTS = 4
-"""Lookups whose weights share a texel."""
-
 
 def family_texels(family: Family) -> Array:
     """A family as gpu_shaders/lib/principled_radiance_lib.glsl reads it.
@@ -37,9 +32,9 @@ def family_texels(family: Family) -> Array:
 
     Returns
     -------
-    ndarray, shape (1 + G * C, S, A, 4), float32
-        The tilts of the lobes; for each four of `lookup_slots` and each function, their weights. Those of
-        GGX are `GLASS`, in the place of the first rising power, and the others in their order.
+    ndarray, shape (1 + K * C, S, A, 4), float32
+        The tilts of the lobes; for each kernel and each function, their weights. The functions of GGX are
+        `GLASS`, in the place of the first rising power, and the others in their order.
 
     Raises
     ------
@@ -54,53 +49,14 @@ def family_texels(family: Family) -> Array:
             f"Graphics cards take families of {len(KERNELS)} kernels and {MOST_LOBES} lobes, at "
             f"{_WIDTHS_AN_OCTAVE} widths an octave and regular elevations: fit it anew."
         )
-    functions, slots = family.weights.shape[4], lookup_slots(family)
-    texels = np.zeros((1 + slots.shape[1] // _SLOTS * functions, rows, count, 4), dtype=np.float32)
-    texels[0, ..., :lobes] = family.tilts.swapaxes(0, 1)
-    weights = family.weights.reshape(count, rows, -1, functions).astype(np.float64)
-    if functions > 1:
+    weights = family.weights.astype(np.float64)
+    if weights.shape[4] > 1:
         weights[..., :2] = np.stack([weights[..., 1:] @ GLASS, weights[..., 0]], axis=-1)
-    of_slots = np.zeros((count, rows, slots.shape[1], functions))
-    for width, pairs in enumerate(slots):
-        there = pairs >= 0
-        of_slots[width][:, there] = weights[width][:, pairs[there]]
-    by_four = of_slots.reshape(count, rows, -1, _SLOTS, functions).transpose(2, 4, 1, 0, 3)
-    texels[1:] = by_four.reshape(-1, rows, count, _SLOTS)
+    by_function = weights.transpose(3, 4, 1, 0, 2).reshape(-1, rows, count, lobes)
+    texels = np.zeros((1 + len(by_function), rows, count, MOST_LOBES), dtype=np.float32)
+    texels[0, ..., :lobes] = family.tilts.swapaxes(0, 1)
+    texels[1:, ..., :lobes] = by_function
     return texels
-
-
-def lookup_slots(family: Family) -> Indices:
-    """Where the weights of a family's lookups lie, of each kernel about each axis.
-
-    Returns
-    -------
-    ndarray of int, shape (A, 4 G)
-        The lookup in each slot at a width, lobe * K + kernel; -1 for none. A lookup keeps its slot over
-        neighbouring widths, and a width without any lies between two that share one, so that hardware may
-        interpolate.
-    """
-    weighs = np.any(family.weights, axis=(1, 4)).reshape(len(family.alpha), -1)
-    runs = sorted(
-        (widths[0], widths[-1], pair)
-        for pair, of_pair in enumerate(weighs.T)
-        for widths in _runs(np.flatnonzero(of_pair))
-    )
-    ends: list[int] = []
-    placed = []
-    for first, last, pair in runs:
-        slot = next((slot for slot, end in enumerate(ends) if end < first - 1), len(ends))
-        ends[slot : slot + 1] = [last]
-        placed.append((first, last, slot, pair))
-    slots = np.full((len(weighs), -(-len(ends) // _SLOTS) * _SLOTS), -1)
-    for first, last, slot, pair in placed:
-        slots[first : last + 1, slot] = pair
-    return slots
-
-
-def _runs(numbers: Indices) -> list[list[int]]:
-    """Ascending numbers in runs without gaps."""
-    pairs = enumerate(numbers.tolist())
-    return [[number for _, number in run] for _, run in groupby(pairs, lambda pair: pair[1] - pair[0])]
 
 
 def lookup_texels(families: Families, places: Array) -> Array:
@@ -115,9 +71,9 @@ def lookup_texels(families: Families, places: Array) -> Array:
     Returns
     -------
     ndarray, shape (L, A + A' + 1, 4), float32
-        A column for each width of GGX, and of the leaning facets, and the next one: the number of slots in
-        which either has a lookup, up to the last; then for each slot the place of the map, and the lobe. A
-        column with the places of the mirror's map, both diffuse ones, and the rings.
+        A column for each width of GGX, and of the leaning facets: the number of kernels that it or the next
+        one needs; then of each of them the place of its map, and its number. A column with the places of the
+        mirror's map, both diffuse ones, and the rings.
     """
     of_maps = places[0, :, :3]  # all maps are squares
     columns = [column for family in (families.ggx, families.leaning) for column in _columns(family, of_maps)]
@@ -129,14 +85,13 @@ def lookup_texels(families: Families, places: Array) -> Array:
 
 
 def _columns(family: Family, places: Array) -> list[Array]:
-    slots = lookup_slots(family)
-    wanted = np.maximum(slots, np.concatenate([slots[1:], slots[-1:]]))
-    lobes, kernels = np.divmod(np.maximum(wanted, 0), len(KERNELS))
+    needed = np.any(family.weights, axis=(1, 2, 4))
+    needed[:-1] |= needed[1:]
     columns: list[Array] = []
-    for width, there in enumerate(wanted >= 0):
-        count = 1 + np.max(np.flatnonzero(there), initial=-1)
-        own = np.column_stack([places[kernels[width]], lobes[width]])
-        columns.append(np.vstack([np.array([[count, 0.0, 0.0, 0.0]]), own]))
+    for each in needed:
+        (kernels,) = np.nonzero(each)
+        count = np.array([[len(kernels), 0.0, 0.0, 0.0]])
+        columns.append(np.vstack([count, np.column_stack([places[kernels], kernels])]))
     return columns
 
 

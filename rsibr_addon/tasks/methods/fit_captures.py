@@ -15,6 +15,7 @@ from ...core.lobes.captured_light import CapturedLight, captured_light
 from ...core.lobes.captures import CapturedFit, fit_captures
 from ...core.lobes.family import Family
 from ...core.lobes.family_fit import fit_closer_gaussian, fit_closer_ggx
+from ...core.lobes.target import elevation_slices
 from ...core.progress import Progress, Steps
 from ...files.atomic import check_target
 from ...files.families import shipped_family
@@ -24,6 +25,9 @@ from ...files.map_set import read_map_set
 
 FAMILIES = {"ggx": fit_closer_ggx, "gaussian": fit_closer_gaussian}
 """Families of glossy lobes that captures may be like, and what fits one of their widths closer."""
+
+ELEVATIONS = 16
+"""Elevations of the view that lobes are fitted at."""
 
 LAYOUT, SIZE = "octahedral", 256
 """Of the filtered maps in which captured texels look their light up."""
@@ -57,8 +61,9 @@ class CapturedResult:
 
 
 def shipped_families() -> dict[Family, Callable[[float], Steps[Family]]]:
-    """The `FAMILIES`."""
-    return {shipped_family(name): closer for name, closer in FAMILIES.items()}
+    """The `FAMILIES`, at the elevations of the fit."""
+    mu = elevation_slices(ELEVATIONS)
+    return {shipped_family(name).at_elevations(mu): closer for name, closer in FAMILIES.items()}
 
 
 def filtered_light(radiance: Array) -> CapturedLight:

@@ -26,14 +26,13 @@ def relative_rmse(ours: ArrayLike, reference: ArrayLike, weight: ArrayLike) -> f
     Raises
     ------
     RangeError
-        The reference is black wherever it counts, so that nothing is relative to it.
+        No pixel counts, or the reference is black wherever one does, so that nothing is relative to it.
     """
     reference = np.asarray(reference, dtype=np.float64)
     difference = np.asarray(ours, dtype=np.float64) - reference
     weight = np.asarray(weight, dtype=np.float64)
-    power = np.sum(weight * dot(reference, reference))
-    if not power > 0.0:
-        raise RangeError("A reference that is black all over has no relative error: light the scene.")
+    power = float(np.sum(weight * dot(reference, reference)))
+    _check_power(power, weight)
     return float(np.sqrt(np.sum(weight * dot(difference, difference)) / power))
 
 
@@ -56,7 +55,7 @@ def relative_rmse_beyond_noise(
     Raises
     ------
     RangeError
-        The reference is black, or nothing but noise, wherever it counts.
+        No pixel counts, or the reference is black, or nothing but noise, wherever one does.
 
     Notes
     -----
@@ -65,11 +64,20 @@ def relative_rmse_beyond_noise(
     """
     first, second = np.asarray(first, dtype=np.float64), np.asarray(second, dtype=np.float64)
     ours, weight = np.asarray(ours, dtype=np.float64), np.asarray(weight, dtype=np.float64)
-    power = np.sum(weight * dot(first, second))
-    if not power > 0.0:
-        raise RangeError("A reference that is black all over has no relative error: light the scene.")
+    power = float(np.sum(weight * dot(first, second)))
+    _check_power(power, weight)
     squared_error = np.sum(weight * dot(ours - first, ours - second))
     return float(np.sqrt(np.maximum(squared_error / power, 0.0)))
+
+
+def _check_power(power: float, weight: Array) -> None:
+    if not np.any(weight):
+        raise RangeError(
+            "The views show nothing of the mesh, as of a flat one from its edge: give a larger size or more "
+            "views."
+        )
+    if not power > 0.0:
+        raise RangeError("A reference that is black all over has no relative error: light the scene.")
 
 
 def unpremultiplied(rgba: Array) -> Array:

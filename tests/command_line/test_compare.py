@@ -2,8 +2,12 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+import pytest
 from rsibr.rsibr_addon.command_line.compare import lines
-from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, WayError
+from rsibr.rsibr_addon.core.errors import RangeError
+from rsibr.rsibr_addon.core.metrics import relative_rmse
+from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, WayError, way_error
 
 
 @dataclass(frozen=True)
@@ -26,3 +30,12 @@ def test_errors_fit_into_a_narrow_terminal() -> None:
     ]
     head = next(lines(Comparison(*about, 0.0, errors), "the model itself"))
     assert head == "Relative RMSE against the model itself, 3 views:"
+
+
+def test_a_flat_mesh_from_its_edge_leaves_the_other_views() -> None:
+    true, coverage = np.ones((2, 4, 4, 3)), np.zeros((2, 4, 4))
+    with pytest.raises(RangeError, match="show nothing of the mesh"):
+        way_error(Way("mips"), relative_rmse, true, true, coverage)
+    coverage[1] = 1.0
+    error = way_error(Way("mips"), relative_rmse, 1.5 * true, true, coverage)
+    assert (error.per_view, error.pooled) == ((0.0, 0.5), 0.5)

@@ -80,9 +80,16 @@ def way_error(way: Way, measure: Callable[..., float], *pictures: Array) -> WayE
     measure : callable
         Pictures, or several as one, to an error: a function of `core.metrics`.
     *pictures : ndarray, shape (views, ...)
-        What `measure` takes, of all views.
+        What `measure` takes, of all views; the last are weights. A view in which nothing counts, as that of
+        a flat mesh from its edge, has the error 0.
+
+    Raises
+    ------
+    RangeError
+        Nothing counts in any view: see `measure`.
     """
-    per_view = tuple(measure(*each) for each in zip(*pictures, strict=True))
+    views = zip(*pictures, strict=True)
+    per_view = tuple(measure(*each) if np.any(each[-1]) else 0.0 for each in views)
     return WayError(way, per_view, pooled=measure(*pictures))
 
 

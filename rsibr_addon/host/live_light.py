@@ -101,6 +101,23 @@ def bare(space: bpy.types.SpaceView3D) -> Iterator[None]:
             space.overlay.show_overlays = True
 
 
+@contextmanager
+def hidden(item: bpy.types.Object, layer: bpy.types.ViewLayer) -> Iterator[None]:
+    """Within, an object is hidden in a view layer, with the instances that it makes, and casts no shadow.
+
+    Both ends update the view layer, which tells its handlers of no object, and evaluates no mesh.
+    """
+    selected = item.select_get(view_layer=layer)
+    try:
+        item.hide_set(True, view_layer=layer)
+        layer.update()
+        yield
+    finally:
+        item.hide_set(False, view_layer=layer)
+        item.select_set(selected, view_layer=layer)  # what is hidden is not selected
+        layer.update()
+
+
 def _nearness(space: bpy.types.SpaceView3D) -> int:
     kind = space.shading.type
     foreign = kind == "RENDERED" and not bpy.context.engine.startswith(("BLENDER_EEVEE", "BLENDER_WORKBENCH"))

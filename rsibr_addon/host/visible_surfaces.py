@@ -53,6 +53,11 @@ class Surface:
     path: str
     in_world: bool = False
 
+    @property
+    def is_instance(self) -> bool:
+        """Whether another object makes it."""
+        return bool(self.shown_by != self.item)
+
 
 @dataclass(frozen=True)
 class Side:

@@ -155,7 +155,8 @@ def _stop_timers() -> None:
 @persistent
 @_guarded
 def _scene_changed(running: Session, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    if depsgraph.mode == "VIEWPORT":  # A render evaluates scenes too, in a thread of its own.
+    # A render evaluates scenes too, in a thread of its own
+    if depsgraph.mode == "VIEWPORT" and not running.previews.is_hiding:
         painted_files.changed(each.id for each in depsgraph.updates if isinstance(each.id, bpy.types.Image))
         running.previews.scene_changed(materials_changed(depsgraph))
         if running.previews.has_baked_inputs:

@@ -80,6 +80,19 @@ def scenario(told):
     cube.rsibr.mip_chain.bias, cube.rsibr.mip_chain.use_roughness = 2.0, True
     yield from drawn()
     told["roughness"] = [others((124, 188, 124), among), previews.faults.message(cube)]
+    plate = bpy.data.meshes.new("Plate")
+    corners = (0.2, 0.2), (0.8, 0.2), (0.8, 0.8), (0.2, 0.8)
+    plate.from_pydata([(x, y, 0.5) for x, y in corners], [], [(3, 2, 1, 0)])
+    plate = bpy.data.objects.new("Plate", plate)
+    plate.color = (0.0, 0.0, 1.0, 1.0)
+    bpy.context.collection.objects.link(plate)
+    cube.location = (0.5, 0.5, 0.1)
+    cube.select_set(True)
+    yield from drawn()
+    size = only_light().gpu_map_set.size
+    strip = np.array(only_light().gpu_map_set._faces.texture.read()).reshape(size, 6, size, 4)
+    told["within"] = strip[size // 2, :, size // 2, :3].astype(float).round(2).tolist()
+    told["kept"] = [cube.select_get(), cube.hide_get(), previews.is_hiding]
     cube.rsibr.live.on = False
     yield from drawn()
     map_sets = previews._map_sets
@@ -96,6 +109,9 @@ def test_an_object_shows_its_surroundings_and_follows_them(told: Told) -> None:
     assert answer["idle"] == [0, 0]
     assert answer["faults"] == [None, None, "mip_chain"]
     assert answer["roughness"] == [0, None]
+    # Above the middle, within the cube
+    assert answer["within"] == [[0.2, 0.5, 0.2]] * 4 + [[0.0, 0.0, 1.0], [0.2, 0.5, 0.2]]
+    assert answer["kept"] == [True, False, False]
     assert answer["off"][0] > 2000
     assert answer["off"][1:] == [0, 0, None]
 

@@ -98,7 +98,7 @@ def scenario(told):
     shading = view().spaces.active.shading
     shading.type, cube.rsibr.live.on = "MATERIAL", True
     updates = []
-    bpy.app.handlers.depsgraph_update_post.append(lambda *_: updates.append(0))
+    bpy.app.handlers.depsgraph_update_post.append(lambda *_: previews.is_hiding or updates.append(0))
     told["at first"] = yield from seen()
     updates.clear()
     for name, value in (

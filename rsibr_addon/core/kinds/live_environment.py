@@ -19,6 +19,9 @@ from .mip_chain.texture_space import filtered_mips
 
 FACE_COUNT = 6
 
+NEAREST = 5e-3
+"""Near distance, relative to an object's reach, where the object is hidden: what lies within it is seen."""
+
 FLATNESS = 1e-4
 """Depth of a flat side's vertices below the outermost, relative to an object's reach."""
 
@@ -162,7 +165,7 @@ def face_projection(near: float, far: float) -> Array:
 
 
 def near_distances(points: Array) -> Array:
-    """Near distance of each face, at which an object's surroundings begin.
+    """Near distance of each face, at which the surroundings of an object begin that cannot be hidden.
 
     Parameters
     ----------

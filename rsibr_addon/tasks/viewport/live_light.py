@@ -2,11 +2,13 @@
 
 import time
 from collections import deque
+from contextlib import AbstractContextManager, nullcontext
 
 import numpy as np
 
 from ...core.kinds.live_environment import (
     FACE_COUNT,
+    NEAREST,
     face_projection,
     face_view,
     faces_due,
@@ -15,7 +17,7 @@ from ...core.kinds.live_environment import (
 )
 from ...device.kinds.live_environment import GpuLiveEnvironment
 from ...device.viewport_camera import ViewportCamera
-from ...host.live_light import appearance_of, bare, points_of
+from ...host.live_light import appearance_of, bare, hidden, points_of
 from ...host.visible_surfaces import Surface, View
 
 UPDATES_JUDGED = 5
@@ -93,13 +95,19 @@ class LiveLight:
             self._appearance, self._due = appearance, FACE_COUNT
 
     def _render(self, faces: tuple[int, ...], view: View, surface: Surface) -> None:
-        space = view.space
+        space, layer = view.space, view.scene.view_layers[view.layer[1]]
         reached = points_of(surface.item, view.depsgraph) @ surface.matrix[:3, :3].T + surface.matrix[:3, 3]
         centre = 0.5 * (reached.min(axis=0) + reached.max(axis=0))
         x, y, z = centre.tolist()
         self.gpu_map_set.captured_at = x, y, z
-        nearest = np.maximum(near_distances(reached - centre), space.clip_start)
-        with bare(space):
+        out_of_sight: AbstractContextManager[None]
+        if surface.is_instance:  # it cannot be hidden without all others that the same object makes
+            nearest, out_of_sight = near_distances(reached - centre), nullcontext()
+            nearest = np.maximum(nearest, space.clip_start)
+        else:
+            reach = np.abs(reached - centre).max()
+            nearest, out_of_sight = np.full(FACE_COUNT, NEAREST * reach), hidden(surface.item, layer)
+        with bare(space), out_of_sight:
             for face in faces:
                 projection = face_projection(nearest[face], max(space.clip_end, 2.0 * nearest[face]))
                 seen = self._camera.see(view.scene, view.layer[1], space, face_view(face, centre), projection)

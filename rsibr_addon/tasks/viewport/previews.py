@@ -56,11 +56,14 @@ class Previews:
     behind : BehindObjects
     faults : Faults
         What went wrong. Call `draw`, `render_surroundings` and `add_display` within its `guarded`.
+    is_hiding : bool
+        Whether objects are hidden for a moment by `render_surroundings`: what changes then is no edit.
     """
 
     def __init__(self, fits: LiveFits, reader: Executor) -> None:
         self._fits, self._reader = fits, reader
         self._map_sets = MapSets(fits, reader)
+        self.is_hiding = False
         self.release()
 
     def release(self) -> None:
@@ -259,11 +262,15 @@ class Previews:
             if each.surface.path in lights and each.is_seen(view):
                 first.setdefault(each.surface.path, each.surface)
         changed = False
-        for name, surface in first.items():
-            try:
-                changed |= lights[name].render(view, surface)
-            except Exception as error:
-                self.faults.note(surface.item, error)
+        self.is_hiding = True
+        try:
+            for name, surface in first.items():
+                try:
+                    changed |= lights[name].render(view, surface)
+                except Exception as error:
+                    self.faults.note(surface.item, error)
+        finally:
+            self.is_hiding = False
         return changed
 
     def render_compared(self, view: View) -> bool:

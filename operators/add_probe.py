@@ -8,6 +8,7 @@ import bpy
 from ..rsibr_addon.core.options import Declared, declared_options
 from ..rsibr_addon.files.kinds.registry import STORED
 from ..rsibr_addon.host.bake_settings import existing
+from ..rsibr_addon.host.installation import studio_environments
 from ..rsibr_addon.host.option_properties import options_of, properties_of, show_option
 from ..rsibr_addon.host.rooms import room_of
 from ..rsibr_addon.settings.probes import ADD_PROBE, BETWEEN, ProbeOptions
@@ -45,7 +46,9 @@ class _AddProbe(Undoable):
         (listed,) = _listed(context)
         chosen = getattr(context.scene.rsibr_bake, context.scene.rsibr_bake.kind)
         probe = options_of(ProbeOptions, self)
-        probe = replace(probe, light=existing(probe.light, "picture", "one that was captured in the room"))
+        if probe.light not in studio_environments():
+            light = existing(probe.light, "picture", "one that was captured in the room")
+            probe = replace(probe, light=light)
         there = getattr(chosen, listed.name).strip()
         show_option(listed, chosen, BETWEEN.join([*([there] if there else []), probe.text]))
 

@@ -32,7 +32,7 @@ class ProbeOptions(Options):
 
     light: str = option(
         label="Picture",
-        help="Latitude-longitude picture that was captured in the room",
+        help="Latitude-longitude picture that was captured in the room, or a built-in one by name",
         subtype="FILE_PATH",
     )
     room: Room = option(

@@ -40,6 +40,8 @@ def test_probes_are_added_one_behind_the_other(tmp_path: Path) -> None:
         str(hall), Room.BOX, (4.0, 5.0, 3.0), (0.0, 0.0, 1.5),
     )  # fmt: skip
     assert (second.room, second.middle, second.blend) == (Room.SPHERE, (9.0, 0.0, 0.1), 0.25)
+    bpy.ops.rsibr.add_probe(light="forest")
+    assert probes_from_text(bpy.context.scene.rsibr_bake.mip_chain.probes)[2].light == "forest"
     with pytest.raises(RuntimeError, match="There is no file"):
         bpy.ops.rsibr.add_probe(light=str(tmp_path / "none.exr"))
 

@@ -1,4 +1,4 @@
-"""Lobes for engines, as three.js shades with them in a browser."""
+"""Lobes for engines, as three.js and WebGPU shade with them in a browser."""
 
 import subprocess
 from pathlib import Path

@@ -26,6 +26,7 @@ BAKES = {
     "tables": ["tables", *FOREST, "--material", "varnished"],
     "mips": ["mips", *FOREST, "--size", "128"],
     "stack": ["bake", *FOREST, "--brdf", "ggx:alpha=0.3,metal=copper", "--lobes", "3"],
+    "pyramid": ["bake", "kernel-pyramid", *FOREST, "--size", "256"],
 }
 """Name of a map set -> the command that makes it."""
 
@@ -39,6 +40,7 @@ FRAMES = {
     "views paper": "radiance views, `paper` (Cabral et al. 1999)",
     "views fragment": "radiance views, `fragment`",
     "stack": "lobe stack of three lobes (Kautz & McCool 2000)",
+    "pyramid": "own materials, a grey one",
 }
 """What is measured -> in words."""
 

@@ -18,8 +18,9 @@ in_window.SECONDS = 1500.0
 
 FRAMES = 8
 REDRAWS = 5
+DRAWS = ("draw", "draw_range")
 ALLOCATED = ("GPUTexture", "GPUUniformBuf", "GPUFrameBuffer", "GPUBatch", "GPUVertBuf", "GPUIndexBuf")
-KINDS = ("mips", "tables", "stack", "views")
+KINDS = ("mips", "tables", "stack", "pyramid", "views")
 MODES = ("paper", "texel", "fragment")
 
 stage = importlib.import_module(f"{ROOT}.rsibr_addon.device.preview_stage")
@@ -42,13 +43,14 @@ class Device:
     def _made(self, kind: Callable[..., Any], *arguments: Any, **named: Any) -> Any:
         self.allocations += 1
         made = kind(*arguments, **named)
-        return (
-            types.SimpleNamespace(draw=functools.partial(self._draw, made)) if hasattr(made, "draw") else made
-        )
+        if not hasattr(made, "draw"):
+            return made
+        timed = {name: functools.partial(self._draw, getattr(made, name)) for name in DRAWS}
+        return types.SimpleNamespace(**timed)
 
-    def _draw(self, batch: Any, shader: Any) -> None:
+    def _draw(self, draw: Callable[..., None], *given: Any, **named: Any) -> None:
         start = time.thread_time()
-        batch.draw(shader)
+        draw(*given, **named)
         self.draws += time.thread_time() - start
 
 

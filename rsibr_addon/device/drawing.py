@@ -17,6 +17,9 @@ from .textures import GpuTexture
 LEAST_STRENGTH = 1e-9
 """That of a world without light: not even a sun is seen, and what materials emit stays finite beside it."""
 
+LOOKS_KEPT = 64
+"""Looks of a map set whose inputs are kept."""
+
 
 @dataclass(frozen=True)
 class Draw:
@@ -49,7 +52,8 @@ class Draw:
         view_dir: Array = to_eye / np.sqrt(to_eye @ to_eye)
         return view_dir
 
-    def block(self) -> Array:
+    @cached_property
+    def rows(self) -> Array:
         """The rows of the block `Draw` of the shaders, which stores matrices by column."""
         rows = np.zeros((18, 4), np.float32)
         rows[0:4], rows[4:8], rows[8:12] = self.model.T, self.view.T, self.projection.T
@@ -93,7 +97,7 @@ class GpuMesh:
             A program of `shaders.mesh_interface`, bound, with all that it needs but the block `draw`.
         draw : Draw
         """
-        shader.uniform_block("draw", self._placed.with_rows(draw.block()))
+        shader.uniform_block("draw", self._placed.with_rows(draw.rows))
         self._batch.draw(shader)
 
 
@@ -139,6 +143,11 @@ class Inputs:
     textures: Mapping[str, GpuTexture]
     sums: Mapping[str, tuple[str, Array]] = field(default_factory=dict)
     exact_from: Mapping[str, int] = field(default_factory=dict)
+
+    @cached_property
+    def rows(self) -> Array:
+        """The rows of its block."""
+        return buffers.block_rows(*self.fields)
 
 
 @runtime_checkable
@@ -186,14 +195,26 @@ class ProgramMapSet(ABC):
     def _block(self) -> buffers.KeptBlock:
         return buffers.KeptBlock()
 
+    @cached_property
+    def _lately(self) -> dict[int, tuple[Any, Inputs]]:
+        return {}
+
     def draw(self, mesh: GpuMesh, draw: Draw, look: Any) -> None:
         """See `GpuMapSet.draw`."""
-        self._draw(mesh, draw, self.inputs(look))
+        self._draw(mesh, draw, self._inputs(look))
+
+    def _inputs(self, look: Any) -> Inputs:
+        """The inputs of a look, made once for all redraws that show it."""
+        if id(look) not in self._lately:
+            if len(self._lately) >= LOOKS_KEPT:
+                self._lately.clear()
+            self._lately[id(look)] = look, self.inputs(look)  # a look that is kept has its number to itself
+        return self._lately[id(look)][1]
 
     def _draw(self, mesh: GpuMesh, draw: Draw, inputs: Inputs) -> None:
         shader = inputs.program()
         shader.bind()
-        shader.uniform_block(inputs.program.block, self._block.filled(*inputs.fields))
+        shader.uniform_block(inputs.program.block, self._block.with_rows(inputs.rows))
         for name, texture in inputs.textures.items():
             shader.uniform_sampler(name, texture.whole())
         mesh.draw(shader, draw)

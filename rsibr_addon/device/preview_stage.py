@@ -48,7 +48,11 @@ class Sight:
     @classmethod
     def by(cls, view: Array, projection: Array) -> "Sight":
         """That of matrices."""
-        pose = np.linalg.inv(view)
+        return cls.of_pose(view, projection, np.linalg.inv(view))
+
+    @classmethod
+    def of_pose(cls, view: Array, projection: Array, pose: Array) -> "Sight":
+        """That of matrices, and of the inverse of the first."""
         # The camera's origin, or the direction from which a parallel projection's rays come
         return cls(view, projection, pose[:, 3] if projection[3, 3] == 0.0 else pose[:, 2])
 
@@ -69,7 +73,8 @@ class Sight:
 def current_sight() -> Sight:
     """The view that Blender is drawing now."""
     view, projection = gpu.matrix.get_model_view_matrix(), gpu.matrix.get_projection_matrix()
-    return Sight.by(np.array(view), np.array(projection))
+    # numpy's inverse takes .1 ms, where the processor has forgotten its code since the last redraw
+    return Sight.of_pose(np.array(view), np.array(projection), np.array(view.inverted()))
 
 
 def active_target() -> gpu.types.GPUFrameBuffer:
@@ -184,36 +189,28 @@ class Stage:
             Takes what is covered in full, if no difference is shown.
         """
         compared = difference or Difference(self.radiance, scale, 0.0)
+        viewport = gpu.state.active_framebuffer_get().viewport_get()
+        shader = self._composite(display, span, compared, viewport)
         with _depth_test("LESS_EQUAL" if among_others else "ALWAYS", "ALPHA"):
             if beneath is None or difference is not None:
-                self._composite(display, scale, span, compared, (0.0, 1.0))
+                self._cover(shader, scale, (0.0, 1.0))
                 return
-            viewport = gpu.state.active_framebuffer_get().viewport_get()
             with beneath.target.bind():
                 beneath.target.viewport_set(*viewport)
-                covered = beneath.scale or scale
-                self._composite(display, covered, span, compared, (1.0, 1.0), beneath.scale is not None)
-            self._composite(display, scale, span, compared, (0.0, _BELOW_ONE))
+                self._cover(shader, beneath.scale or scale, (1.0, 1.0), beneath.scale is not None)
+            self._cover(shader, scale, (0.0, _BELOW_ONE))
 
     def _composite(
         self,
         display: gpu.types.GPUTexture,
-        scale: float,
         span: tuple[float, float],
         compared: Difference,
-        coverage: tuple[float, float],
-        as_radiance: bool = False,
-    ) -> None:
-        """Draw the stage's pixels whose coverage is in a range; and lines, if it holds more than 1."""
+        viewport: tuple[int, int, int, int],
+    ) -> gpu.types.GPUShader:
+        """The program that shows the stage, with all that it needs but what `_cover` says."""
         shader = composite_shader()
         shader.bind()
-        x, _, width, _ = gpu.state.active_framebuffer_get().viewport_get()
-        least, most = coverage
-        shader.uniform_float("scale", scale)
-        shader.uniform_float("least", least)
-        shader.uniform_float("most", most)
-        shader.uniform_float("line", 1.0 if least < 1.0 else 0.0)
-        shader.uniform_float("as_radiance", float(as_radiance))
+        x, _, width, _ = viewport
         left, right = span
         shader.uniform_float("left", x + left * width if left > 0.0 else -np.inf)
         shader.uniform_float("right", x + right * width if right < 1.0 else np.inf)
@@ -223,6 +220,22 @@ class Stage:
         shader.uniform_float("others_scale", compared.scale)
         shader.uniform_sampler("display", display)
         shader.uniform_sampler("others", compared.radiance)
+        return shader
+
+    def _cover(
+        self,
+        shader: gpu.types.GPUShader,
+        scale: float,
+        coverage: tuple[float, float],
+        as_radiance: bool = False,
+    ) -> None:
+        """Draw the stage's pixels whose coverage is in a range; and lines, if it holds more than 1."""
+        least, most = coverage
+        shader.uniform_float("scale", scale)
+        shader.uniform_float("least", least)
+        shader.uniform_float("most", most)
+        shader.uniform_float("line", 1.0 if least < 1.0 else 0.0)
+        shader.uniform_float("as_radiance", float(as_radiance))
         self._screen.draw(shader)
 
     def depths(self) -> Array:

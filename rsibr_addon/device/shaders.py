@@ -6,7 +6,7 @@ Each raises a DeviceError where the driver refuses the program.
 import atexit
 from collections.abc import Callable, Mapping
 from functools import cache, wraps
-from threading import current_thread, main_thread
+from threading import get_ident, main_thread
 from typing import Any, ParamSpec
 
 import gpu
@@ -34,7 +34,7 @@ def kept_until_exit(build: Callable[Given, gpu.types.GPUShader]) -> Callable[Giv
 
     @wraps(build)
     def program(*given: Given.args, **named: Given.kwargs) -> gpu.types.GPUShader:
-        shader: gpu.types.GPUShader = cached(current_thread() is not main_thread(), *given, **named)
+        shader: gpu.types.GPUShader = cached(get_ident() != main_thread().ident, *given, **named)
         return shader
 
     return program

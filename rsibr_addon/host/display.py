@@ -9,13 +9,14 @@ from ..core.conventions import Array
 from ..files.photographs import read_photograph
 from ..files.temporary import temporary_folder
 from .scenes import temporary_copy
-from .working_space import working_from_rec709, works_in_rec709
+from .working_space import working_from_rec709
 
 WIDTH = 1024
 """Width of the picture through which colours are sent, in pixels."""
 
 Display = tuple[object, ...]
-"""All settings that determine the display of radiance; equal for scenes that show it equally."""
+"""All settings that determine the display of radiance, the device first; equal for scenes that show it
+equally."""
 
 
 def display_of(scene: bpy.types.Scene) -> Display:
@@ -70,13 +71,17 @@ class SurfaceDisplay:
     scale: float = 1.0
 
 
-def surface_display(scene: bpy.types.Scene, space: bpy.types.SpaceView3D) -> SurfaceDisplay | None:
-    """How the colours of a viewport's surfaces come to the display.
+def surface_display(
+    scene: bpy.types.Scene, space: bpy.types.SpaceView3D, display: Display
+) -> SurfaceDisplay | None:
+    """How the colours of a viewport's surfaces come to the display, in a file that works in Rec. 709.
 
     Parameters
     ----------
     scene : bpy.types.Scene
     space : bpy.types.SpaceView3D
+    display : Display
+        The scene's.
 
     Returns
     -------
@@ -85,11 +90,9 @@ def surface_display(scene: bpy.types.Scene, space: bpy.types.SpaceView3D) -> Sur
         Blender may leave a surface out: then its background covers them.
     """
     shading, view = space.shading, scene.view_settings
-    if not works_in_rec709():
-        return None
     match shading.type:
         case "SOLID":
-            is_encoded = scene.display_settings.display_device == "sRGB" and not shading.show_xray
+            is_encoded = display[0] == "sRGB" and not shading.show_xray
             return SurfaceDisplay(transforms=False) if is_encoded else None
         case "MATERIAL":
             lit = shading.use_scene_lights or shading.use_scene_world

@@ -1,6 +1,6 @@
 """The content of a 3D viewport: the surfaces of a scene, with instances, and the view on them."""
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
 import bpy
@@ -43,6 +43,8 @@ class Surface:
         The file that shades it, see `map_set_of`; empty for none.
     in_world : bool
         Whether that is the world's own, as the object has none.
+    follows : bool
+        Whether what shades it is turned and scaled as the world is: see `follows_world`.
     """
 
     item: bpy.types.Object
@@ -52,6 +54,7 @@ class Surface:
     matrix: Array
     path: str
     in_world: bool = False
+    follows: bool = False
 
     @property
     def is_instance(self) -> bool:
@@ -172,11 +175,6 @@ class View:
         """The world's turn and strength, as far as its map set does not hold them."""
         return world_light(self.scene.world) or AS_IT_IS
 
-    def lights_of(self, surfaces: Iterable[Surface]) -> list[WorldLight]:
-        """The world's turn and strength for surfaces' map sets; none for those that do not follow it."""
-        of_world = self.world_light
-        return [of_world if each.in_world or follows_world(each.item) else AS_IT_IS for each in surfaces]
-
 
 def camera_frame(
     camera: bpy.types.Object, depsgraph: bpy.types.Depsgraph, resolution: tuple[int, int]
@@ -263,4 +261,5 @@ def surfaces(depsgraph: bpy.types.Depsgraph) -> Iterator[tuple[Surface, bpy.type
         if rendered:  # A render sets no key's value but in its own copies
             item = item.evaluated_get(depsgraph)
         mesh, matrix = evaluated.data.session_uid, np.array(instance.matrix_world)
-        yield Surface(item, number, shown_by, mesh, matrix, map_set_of(item)), evaluated
+        follows = follows_world(item)
+        yield Surface(item, number, shown_by, mesh, matrix, map_set_of(item), follows=follows), evaluated

@@ -34,11 +34,11 @@ def scene(heights: list[float]) -> Any:
         return Drawable(surface, mesh, corners=CORNERS)
 
     catchers = [Catcher(placed(height), UP) for height in heights]
-    return SimpleNamespace(catchers=catchers, casters=lambda _: [placed(0.0)])
+    return SimpleNamespace(catchers=catchers, light=AS_IT_IS, casters=lambda _: [placed(0.0)])
 
 
 def viewport(number: int) -> Any:
-    return SimpleNamespace(number=number, world_light=AS_IT_IS)
+    return SimpleNamespace(number=number)
 
 
 @pytest.fixture

@@ -18,6 +18,7 @@ from rsibr.rsibr_addon.host.visible_surfaces import is_wanted, map_set_of, surfa
 from rsibr.rsibr_addon.host.world_light import WorldLight, follows_world, world_light
 from rsibr.rsibr_addon.settings.lobe_stack import LobeStackSettings
 from rsibr.rsibr_addon.settings.radiance_views import RadianceViewsSettings
+from rsibr.rsibr_addon.tasks.viewport.contents import Contents
 from rsibr.rsibr_addon.tasks.viewport.faults import settings_of
 
 pytestmark = pytest.mark.usefixtures("registered")
@@ -157,17 +158,17 @@ def test_an_object_follows_the_world_unless_that_was_baked() -> None:
     assert not follows_world(cube)
 
 
-def test_the_world_is_read_once_for_all_objects_of_a_frame(monkeypatch: pytest.MonkeyPatch) -> None:
-    scene, read = bpy.context.scene, []
-    light = WorldLight(2.0, np.eye(3))
-    monkeypatch.setattr(visible_surfaces, "world_light", lambda world: read.append(world) or light)
+def test_objects_that_follow_the_world_have_its_light() -> None:
     other = bpy.data.objects["Cube"].copy()
     other.rsibr.follow_world = False
-    view = visible_surfaces.View(scene, visible_surfaces.layer_of(bpy.context), None, None)
-    items = [bpy.data.objects["Cube"]] * 2 + [other]
-    lights = view.lights_of([visible_surfaces.Surface(each, 0, each, 0, np.eye(4), "set") for each in items])
-    assert [each.strength for each in lights] == [2.0, 2.0, 1.0]
-    assert read == [scene.world]
+    bpy.context.scene.collection.objects.link(other)
+    contents = Contents([], None, WorldLight(2.0, np.eye(3)))
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    lights = {
+        surface.item.name: contents.light_of(surface).strength
+        for surface, _ in visible_surfaces.surfaces(depsgraph)
+    }
+    assert lights == {"Cube": 2.0, other.name: 1.0}
 
 
 def test_paths_are_those_of_the_open_file(tmp_path: Path) -> None:

@@ -291,13 +291,16 @@ def test_a_look_that_needs_another_table_leaves_the_last_one(
     first, look = draw(previews), item.rsibr.reflection_tables
     assert first.any()
     look.diffuse = "lambert:kd=0.2"
+    previews.scene_changed()
     darker = draw(previews)
     assert not np.array_equal(darker, first)
     assert not previews.messages(item)
     look.specular = "phong:ks=0.5,n=7"
+    previews.scene_changed()
     assert np.array_equal(draw(previews), darker)
     (message,) = previews.messages(item)
     assert "specular table is another one" in message
     look.specular, look.diffuse = "", ""
+    previews.scene_changed()
     assert np.array_equal(draw(previews), first)
     assert not previews.messages(item)

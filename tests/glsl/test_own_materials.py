@@ -16,6 +16,7 @@ from rsibr.rsibr_addon.host.visible_surfaces import View
 from rsibr.rsibr_addon.host.world_light import WorldLight
 from rsibr.rsibr_addon.tasks.methods.live_materials import LiveFits
 from rsibr.rsibr_addon.tasks.viewport import own_materials
+from rsibr.rsibr_addon.tasks.viewport.contents import Contents
 from rsibr.rsibr_addon.tasks.viewport.previews import Previews
 from rsibr.tests.faults.small_map_sets import map_sets
 
@@ -300,9 +301,7 @@ def test_what_is_in_front_hides_what_has_another_strength_of_light(
     space.shading.type, space.overlay.show_overlays = "MATERIAL", False  # Blender leaves no depths
     strengths = {"sheet": 1.0, above.name: 2.0}
     monkeypatch.setattr(
-        View,
-        "lights_of",
-        lambda _, surfaces: [WorldLight(strengths[each.item.name], np.eye(3)) for each in surfaces],
+        Contents, "light_of", lambda _, surface: WorldLight(strengths[surface.item.name], np.eye(3))
     )
     check(draw(), GREEN, RED)
     above.location.z = -1.0
@@ -313,7 +312,7 @@ def test_what_is_in_front_hides_what_has_another_strength_of_light(
 def test_what_is_emitted_shows_in_a_world_without_light(
     sheet: bpy.types.Object, draw: Draw, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(View, "lights_of", lambda _, surfaces: [WorldLight(0.0, np.eye(3)) for _ in surfaces])
+    monkeypatch.setattr(Contents, "light_of", lambda *_: WorldLight(0.0, np.eye(3)))
     check(draw(), RED, GREEN)
 
 

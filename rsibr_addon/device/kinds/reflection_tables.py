@@ -1,7 +1,6 @@
 """Reflection tables on the GPU [Miller1984]: a texture for each, looked up for each fragment."""
 
 from dataclasses import replace
-from functools import cached_property
 
 import numpy as np
 
@@ -11,7 +10,7 @@ from ...core.kinds.reflection_tables.shading import AVERAGED, TablesLook
 from ...core.kinds.reflection_tables.tables import ReflectionTables, Role
 from .. import buffers
 from ..drawing import Draw, GpuMesh, Inputs, ProgramMapSet
-from ..equirect import Sums, averaging_number, map_sums, map_texture, no_map, no_sums
+from ..equirect import averaging_number, map_sums, map_texture, no_map, no_sums
 from ..shaders import MeshProgram
 from ..textures import GpuTexture
 
@@ -37,7 +36,7 @@ UNCHANGED = np.ones(3)
 
 
 class GpuReflectionTables(ProgramMapSet):
-    """A map set's reflection tables."""
+    """A map set's reflection tables, and their sums, as looks are antialiased unless one asks for points."""
 
     def __init__(self, tables: ReflectionTables) -> None:
         black = no_map()
@@ -46,16 +45,12 @@ class GpuReflectionTables(ProgramMapSet):
             for role in Role
         }
         self._weights = _weights(tables)
-        self.textures = (*self._textures.values(), self._weights)
+        self._sums = {role: map_sums(tables.maps[role]) for role in AVERAGED if role in tables.maps}
+        summed = (each.texture for each in self._sums.values())
+        self.textures = (*self._textures.values(), self._weights, *summed)
         self._tables = tables
         self._looks: dict[TablesLook, tuple[ReflectionTables, GpuTexture]] = {}
         self._no_sums = no_sums()
-
-    @cached_property
-    def _sums(self) -> dict[Role, Sums]:
-        """The tables' sums, made for the first antialiased look: they take three times the tables' memory."""
-        there = [role for role in AVERAGED if role in self._tables.maps]
-        return {role: map_sums(self._tables.maps[role]) for role in there}
 
     def inputs(self, look: TablesLook) -> Inputs:
         """See `ProgramMapSet.inputs`.

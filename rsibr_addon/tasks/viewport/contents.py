@@ -19,6 +19,7 @@ from ...host.visible_surfaces import (
     shown_layers,
     surfaces,
 )
+from ...host.world_light import AS_IT_IS, WorldLight
 from .baked_inputs import InputBakes
 from .faults import Faults
 from .meshes import UploadedMeshes
@@ -85,6 +86,8 @@ class Contents:
         Surfaces that make holes in the picture, where all are shaded.
     catchers : list of Catcher
         Surfaces that show the shadows on them, there.
+    light : WorldLight
+        The world's turn and strength.
     world : str
         What surfaces without a map set of their own are shaded from; empty where they are left to Blender.
     changed : bool
@@ -93,6 +96,7 @@ class Contents:
 
     previews: list[Drawable]
     others: list[Drawable] | None
+    light: WorldLight = AS_IT_IS
     holes: list[Drawable] = field(default_factory=list)
     catchers: list[Catcher] = field(default_factory=list)
     world: str = ""
@@ -103,6 +107,10 @@ class Contents:
         """Everything that is on the GPU."""
         floors = [each.drawable for each in self.catchers]
         return [*self.previews, *(self.others or ()), *self.holes, *floors]
+
+    def light_of(self, surface: Surface) -> WorldLight:
+        """The world's turn and strength for a surface's map set; none for one that does not follow it."""
+        return self.light if surface.follows else AS_IT_IS
 
     def casters(self, view: View) -> list[Drawable]:
         """What casts shadows on catchers in a view."""
@@ -161,7 +169,7 @@ class LayerContents:
     def collect(self, view: View, with_others: bool, faults: Faults) -> Contents:
         """Find what a view layer shows, upload the meshes that are new, and let go of what nobody shows."""
         world = self._worlds.of(view.scene) if view.shades_all else ""
-        contents = Contents([], [] if with_others else None, world=world)
+        contents = Contents([], [] if with_others else None, view.world_light, world=world)
         if view.shades_all or is_wanted():
             self._fill(contents, view, faults)
         else:
@@ -184,7 +192,7 @@ class LayerContents:
                 continue
             lit = bool(surface.path) and not is_live_name(surface.path) and not faults.stands(surface.item)
             if contents.world and not lit:
-                surface = replace(surface, path=contents.world, in_world=True)
+                surface = replace(surface, path=contents.world, in_world=True, follows=True)
             if not surface.path:
                 faults.forget(surface.item)
             found = contents.previews if surface.path else contents.others

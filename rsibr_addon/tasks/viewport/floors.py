@@ -74,7 +74,7 @@ class Floors:
             return []
         shown: Shadows = {}
         known = ChainMap(shown, self._shadows.pop(view.number, {}), *self._shadows.values())
-        casters, turn = contents.casters(view), view.world_light.turn
+        casters, turn = contents.casters(view), contents.light.turn
         caught = [(each, self._of(known, each, casters, light, turn, eye)) for each in contents.catchers]
         self._shadows[view.number] = shown  # the newest last
         if len(self._shadows) > KEPT:

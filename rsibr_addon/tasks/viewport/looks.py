@@ -65,9 +65,14 @@ class Looks:
 
     def __init__(self) -> None:
         self._types = look_types()
-        self._made: dict[tuple[int, bool], tuple[object, Any]] = {}  # what was said last, and the look
+        self._made: dict[tuple[int, bool, str], tuple[object, Any]] = {}  # what was said last, and the look
+        self._read: set[tuple[int, bool, str]] = set()  # what has been read since the scene changed
         self._drawn: dict[tuple[int, bool], _Drawn] = {}
         self.asked: dict[tuple[int, str, bool], list[Any]] = {}
+
+    def scene_changed(self) -> None:
+        """Read what objects say of their looks anew, when they are drawn next."""
+        self._read.clear()
 
     def of(self, surface: Surface, map_set: ViewportMapSet, other: bool) -> Any:
         """An object's look: as before, while a new one is being made; None before there is any.
@@ -112,13 +117,16 @@ class Looks:
         return drawn.look
 
     def _said(self, item: Any, kind: str, other: bool) -> Any:
-        """The look that an object's properties say; it is checked once, as every frame asks for it."""
-        group = _settings(item, kind, other)
-        said, shown = (kind, said_by(self._types[kind], group)), (item.original.session_uid, other)
+        """The look that an object's properties say; read once, as every frame asks for it."""
+        shown = item.original.session_uid, other, kind
         before, look = self._made.get(shown, (None, None))
-        if before != said:
-            look = options_of(self._types[kind], group)
-            self._made[shown] = said, look
+        if shown not in self._read:
+            group = _settings(item, kind, other)
+            said = said_by(self._types[kind], group)
+            if before != said:
+                look = options_of(self._types[kind], group)
+                self._made[shown] = said, look
+            self._read.add(shown)
         return look
 
 

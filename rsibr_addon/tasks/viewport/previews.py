@@ -16,7 +16,6 @@ from ...device.preview_stage import (
     draw_scale_numbers,
 )
 from ...host.bake_settings import bakes_inputs_by_itself
-from ...host.display import surface_display
 from ...host.live_light import is_readable, shows_surroundings
 from ...host.visible_surfaces import Layer, Side, Surface, View, map_set_of, objects_numbered
 from ..methods.kinds import KINDS
@@ -98,6 +97,8 @@ class Previews:
         if materials:
             self.worlds.changed()
         self._layers.scene_changed(materials)
+        self._looks.scene_changed()
+        self._displays.scene_changed()
         self._blender_pictures.scene_changed()
         self.behind.backgrounds.files_changed()
         for light in self._map_sets.lights.values():
@@ -222,10 +223,10 @@ class Previews:
             for each, map_set in seen
             if (looks := self._looks_of(each, map_set, wanted))
         ]
-        lights = view.lights_of([each.surface for each, *_ in looked])
         shown = [
             Shown(each, map_set, sight.on(each.surface.matrix, light.turn, light.strength), looks)
-            for (each, map_set, looks), light in zip(looked, lights, strict=True)
+            for each, map_set, looks in looked
+            for light in [contents.light_of(each.surface)]
         ]
         hiding = placed(contents.others or [], view, sight)
         behind = self.behind.of(contents, view, sight, self._world(view), self.faults)
@@ -347,7 +348,7 @@ class Previews:
 
     def _beneath(self, view: View, strength: float) -> Beneath | None:
         """Where previews lie beneath overlays; None where they have to lie over them."""
-        blenders = surface_display(view.scene, view.space)
+        blenders = self._displays.of_surfaces(view.scene, view.space)
         if blenders is None or self._surfaces is None:
             return None
         return Beneath(self._surfaces, strength * blenders.scale if blenders.transforms else None)

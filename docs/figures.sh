@@ -76,7 +76,7 @@ miller1984() {
         draw "monkey-$ball" "$ball" "${monkey[@]}"
     done
     drawn=("${balls[@]/#/ball-}" "${balls[@]/#/monkey-}")
-    sheet miller1984-6 5 0 "${drawn[@]/%/.exr}"
+    sheet miller1984-6 5 -1.3 "${drawn[@]/%/.exr}"
     # Section 6.2's varnish and section 7's weights, by one set of tables
     bake varnished --material varnished-wood
     draw wood varnished "${monkey[@]}" --coat none
@@ -95,7 +95,7 @@ miller1984() {
     bake glossy --specular phong:n=5,ks=1
     draw paper glossy --background light
     draw faded glossy --background light --fade
-    sheet miller1984-horizon 2 0 {paper,faded}.exr
+    sheet miller1984-horizon 2 -1.3 {paper,faded}.exr
 }
 
 # A painted table, which stays in its world, and a matcap, which turns with the eye; docs/reflection-tables.md

@@ -85,7 +85,8 @@ vec3 ggx_radiance(sampler2D atlas,
   vec3 radiance = vec3(0.0);
   if (share < 1.0) {
     Powers rough = coloured(vec3(1.0 - share), coefficients);
-    radiance = lobes_radiance(atlas, lookups, ggx, 0, FUNCTIONS, LOBES, alpha, mu, rough, normal, mirror_dir);
+    radiance = lobes_radiance(
+        atlas, lookups, ggx, 0, FUNCTIONS, LOBES, alpha, mu, rough, normal, mirror_dir);
   }
   if (share > 0.0) {
     vec3 factor = coefficients.zeroth + coefficients.rising * powers_of(mu);

@@ -161,9 +161,8 @@ class Fit:
         taps = self.taps.shape[2]
         for index, (axis, weights) in enumerate(zip(*self.at(mu), strict=True)):
             chord = light_dir - axis
-            falls = self.bank.falls(0.25 * dot(chord, chord))
-            for fall, weight in zip(falls, self.bank.peaks[:, None] * weights, strict=True):
-                values[index // taps] += fall[..., None] * weight
+            falls = np.stack([fall.copy() for fall in self.bank.falls(0.25 * dot(chord, chord))], axis=-1)
+            values[index // taps] += falls @ (self.bank.peaks[:, None] * weights)
         return values
 
     def _neighbours(self, mu: float) -> tuple[int, float]:

@@ -73,7 +73,7 @@ class Parser(argparse.ArgumentParser):
 
     def _get_value(self, action: argparse.Action, arg_string: str) -> Any:
         """The value of a word; an empty one is mostly a variable of a script that is not set."""
-        if not arg_string:
+        if not arg_string and action.nargs != argparse.PARSER:  # whose words are a command's own
             raise argparse.ArgumentError(action, "it is empty: give a value, or leave it out")
         return super()._get_value(action, arg_string)
 

@@ -25,10 +25,19 @@ def test_wrong_usage_is_told_as_json_too(argv: list[str], capfd: pytest.CaptureF
     assert capfd.readouterr().out == ""
 
 
-@pytest.mark.parametrize("words", [("info", ""), ("bake", "mip-chain", "--environment", "", "-o", "x.exr")])
-def test_an_empty_word_is_refused(words: tuple[str, ...], capfd: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize(
+    ("words", "name"),
+    [
+        (("info", ""), "NAME.rsibr.exr|PICTURE"),
+        (("bake", "mip-chain", "--environment", "", "-o", "x.exr"), "--environment"),
+        (("preview", "x.rsibr.exr", "--tables", "", "-o", "x.png"), "--tables"),
+    ],
+)
+def test_an_empty_word_is_refused(
+    words: tuple[str, ...], name: str, capfd: pytest.CaptureFixture[str]
+) -> None:
     assert run(list(words)) == 2
-    assert "it is empty: give a value, or leave it out" in capfd.readouterr().err
+    assert f"argument {name}: it is empty: give a value, or leave it out" in capfd.readouterr().err
 
 
 def test_all_commands_are_listed_and_all_kinds(capfd: pytest.CaptureFixture[str]) -> None:

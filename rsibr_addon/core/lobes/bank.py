@@ -14,7 +14,7 @@ import numpy as np
 from ..conventions import Array
 from ..errors import RangeError
 from ..filtering.radial_lobes import von_mises_fisher_lobe
-from ..filtering.zonal import ZonalLobe, graded_knots
+from ..filtering.zonal import ZonalLobe, graded_knots, zonal_coefficients
 from ..ties import TIE
 
 BROADEST = 0.5
@@ -163,8 +163,8 @@ class KernelBank:
         def coefficients(degree: int) -> Array:
             total = np.zeros(degree + 1)
             for weight, kernel in zip(weights, kernels, strict=True):
-                if weight != 0.0 and kernel.closed_form is not None:
-                    total += weight * kernel.closed_form(degree)
+                if weight != 0.0:
+                    total += weight * zonal_coefficients(kernel, degree)
             return total
 
         sharpest = self.concentrations[int(np.flatnonzero(weights)[-1])] if np.any(weights) else BROADEST

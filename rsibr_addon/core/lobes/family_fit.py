@@ -133,10 +133,9 @@ def fit_family(
     tilts, rows = yield from _tracked_tilts(model, guides, widths, mu, lobes)
     tilts = smoothed(tilts, np.log(widths), mu, SMOOTHNESS)
     if finer > 1:
-        fine = elevation_slices(finer * len(mu))
-        tilts = _between(tilts, mu, fine)
-        rows = {row: list(target_slices(model(float(widths[row])), fine)) for row in rows}
-        mu = fine
+        coarse, mu = mu, elevation_slices(finer * len(mu))
+        tilts = np.apply_along_axis(lambda column: np.interp(mu, coarse, column), 1, tilts)
+        rows = {row: list(target_slices(model(float(widths[row])), mu)) for row in rows}
     yield Progress(len(widths), 2 * len(widths), "leaving out what hardly counts")
     kept = _kept(rows, tilts, widths, guides, thrift, natural)
     weights = np.zeros((*tilts.shape, len(KERNELS), len(guides)))
@@ -236,15 +235,6 @@ def smoothed(tilts: Array, rows: Array, columns: Array, price: float) -> Array:
     return smooth
 
 
-def _between(tilts: Array, mu: Array, wanted: Array) -> Array:
-    """Tilts, shape (A, S, J), at other elevations."""
-    found = np.moveaxis(tilts, 1, 0)
-    row = np.interp(wanted, mu, np.arange(len(mu)))
-    below = np.minimum(row.astype(np.intp), len(mu) - 2)
-    share = (row - below)[:, None, None]
-    return np.moveaxis((1.0 - share) * found[below] + share * found[below + 1], 0, 1)
-
-
 def _guided(target: TargetSlice, guides: Array) -> TargetSlice:
     """The guides as a target, each of unit power."""
     power = target.weight @ (target.lobe @ guides) ** 2
@@ -280,10 +270,10 @@ def _kept(
         bank, used = kernels_of(width), np.tile(kept[row], tilts.shape[2])
         equations.append([])
         for target, each in zip(rows[row], tilts[row], strict=True):
-            guided, lookups = _guided(target, guides), _lookups(target, each)
-            system, right = Projector(guided, bank).equations(lookups)
+            projector, lookups = Projector(_guided(target, guides), bank), _lookups(target, each)
+            system, right = projector.equations(lookups)
             error = 1.0 + UNIFORM_LIGHT - np.sum(right * np.linalg.solve(system, right))
-            system, right = _equations(guided, bank, lookups, natural)
+            system, right = _equations(projector, lookups, natural)
             # Each elevation's error counts by itself: those of steep views are far larger than the others
             equations[row].append(_spread_out(system / error, right / error, used))
     return kept & thinned(equations, np.full(len(widths), float(tilts.shape[1])), thrift, len(KERNELS))
@@ -296,11 +286,11 @@ def _spread_out(system: Array, right: Array, used: NDArray[np.bool_]) -> Equatio
     return wider, of_all
 
 
-def _equations(target: TargetSlice, bank: KernelBank, lookups: Lookups, natural: float) -> Equations:
-    """Those of `Projector`, with natural light."""
-    system, right = Projector(target, bank).equations(lookups)
+def _equations(projector: Projector, lookups: Lookups, natural: float) -> Equations:
+    """Those of a projector, with natural light."""
+    system, right = projector.equations(lookups)
     if natural > 0.0:
-        more, of_more = natural_equations(target, bank, lookups, natural)
+        more, of_more = natural_equations(projector.target, projector.bank, lookups, natural)
         system, right = system + more, right + of_more
     return system, right
 
@@ -318,7 +308,7 @@ def _solved(
     kept: shape (K,), those that count; the others are 0.
     """
     lookups, projector = _lookups(target, tilts), Projector(target, bank)
-    system, right = _equations(target, bank, lookups, natural)
+    system, right = _equations(projector, lookups, natural)
     stiffness, ridge = 1.0, np.zeros_like(system)
     while True:
         found = solution((system + (stiffness - 1.0) * ridge, right), kept)
@@ -329,7 +319,7 @@ def _solved(
         )
         if loudest <= MOST_AMPLIFICATION or stiffness > _STIFFEST:
             return weights
-        if stiffness == 1.0:  # To which ridges are proportional
+        if stiffness == 1.0:  # ridges are in proportion to it
             stiffer = Projector(target, bank, 2.0).equations(lookups)[0]
             ridge = stiffer - projector.equations(lookups)[0]
         stiffness *= _STIFFER

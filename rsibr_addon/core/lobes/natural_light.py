@@ -7,6 +7,7 @@ frequencies. There the broad feet of narrow lobes count, which hold much light a
 import numpy as np
 
 from ..conventions import Array
+from ..filtering.zonal import zonal_coefficients
 from .bank import KernelBank
 from .projection import Lookups
 from .target import TargetSlice
@@ -43,7 +44,7 @@ def natural_equations(
     degree = np.arange(1, DEGREE + 1)
     weight = share * target.power / np.sum(target.albedo**2) / (degree + 1.0)
     unit = 1.0 / np.sqrt(bank.products(np.zeros(()))[0].diagonal())
-    series = np.array([kernel.closed_form(DEGREE)[1:] for kernel in bank.lobes() if kernel.closed_form])
+    series = np.array([zonal_coefficients(kernel, DEGREE)[1:] for kernel in bank.lobes()])
     kernels = series * unit[:, None]
     angles = lookups.angles[:, 0]
     axes = np.stack([np.sin(angles), np.zeros_like(angles), np.cos(angles)], axis=-1)

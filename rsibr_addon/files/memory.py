@@ -12,7 +12,7 @@ ROOT = Path("/")
 """Root of the file system in which Linux describes itself."""
 
 M_TRIM_THRESHOLD, M_MMAP_THRESHOLD = -1, -3
-"""Parameters of glibc's mallopt: how much freed memory it gives back, and what size it gives back at once."""
+"""Parameters of glibc's mallopt: how much freed memory it keeps, and from what size on it keeps none."""
 
 KEPT_BYTES, LARGEST_KEPT = 1 << 25, 1 << 24
 """What is kept at most, and its largest piece [bytes]: a few faces of a cube, as they are filtered."""

@@ -141,7 +141,7 @@ def make_folder(folder: Path) -> None:
 
 @contextlib.contextmanager
 def made_folders(*folders: Path) -> Iterator[None]:
-    """Have folders for outputs; those of them that are empty when anything is raised are removed.
+    """Make folders for outputs; those made that are still empty when anything is raised are removed.
 
     Raises
     ------

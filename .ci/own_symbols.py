@@ -35,10 +35,7 @@ def bind_wheel_to_itself(path: Path) -> None:
         for each, content in files.items()
         if _is_library(each.filename)
     }
-    changed = {
-        each.filename for each, content in files.items() if bound.get(each.filename, content) != content
-    }
-    if not changed:
+    if all(bound.get(each.filename, content) == content for each, content in files.items()):
         return
     aside = path.with_suffix(".aside")
     with zipfile.ZipFile(aside, "w") as wheel:

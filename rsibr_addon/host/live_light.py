@@ -101,6 +101,11 @@ def bare(space: bpy.types.SpaceView3D) -> Iterator[None]:
             space.overlay.show_overlays = True
 
 
+def can_hide(item: bpy.types.Object, layer: bpy.types.ViewLayer) -> bool:
+    """Whether `hidden` takes an object: one that the view layer has and shows, none of a background scene."""
+    return bool(item.visible_get(view_layer=layer))
+
+
 @contextmanager
 def hidden(item: bpy.types.Object, layer: bpy.types.ViewLayer) -> Iterator[None]:
     """Within, an object is hidden in a view layer, with the instances that it makes, and casts no shadow.

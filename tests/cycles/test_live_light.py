@@ -119,6 +119,20 @@ def test_an_instance_is_cut_off_alone(view: View) -> None:
     assert not np.any(np.all(seen == RED, axis=-1))
 
 
+def test_what_a_background_scene_lends_is_cut_off(view: View) -> None:
+    """It is in none of the view layer's collections, and cannot be hidden there."""
+    stage = bpy.data.scenes.new("Stage")
+    bpy.ops.mesh.primitive_cube_add()
+    cube = coloured(RED)
+    _move(cube, stage.collection)
+    bpy.ops.mesh.primitive_plane_add(location=(0.0, 0.0, -1.0), size=20.0)
+    _move(coloured(WHITE), stage.collection)
+    view.scene.background_set = stage
+    seen = live_faces(view, cube)
+    assert np.any(np.all(seen == WHITE, axis=-1))
+    assert not np.any(np.all(seen == RED, axis=-1))
+
+
 def _move(item: bpy.types.Object, collection: bpy.types.Collection) -> None:
     item.users_collection[0].objects.unlink(item)
     collection.objects.link(item)

@@ -17,7 +17,7 @@ from ...core.kinds.live_environment import (
 )
 from ...device.kinds.live_environment import GpuLiveEnvironment
 from ...device.viewport_camera import ViewportCamera
-from ...host.live_light import appearance_of, bare, hidden, points_of
+from ...host.live_light import appearance_of, bare, can_hide, hidden, points_of
 from ...host.visible_surfaces import Surface, View
 
 UPDATES_JUDGED = 5
@@ -101,12 +101,13 @@ class LiveLight:
         x, y, z = centre.tolist()
         self.gpu_map_set.captured_at = x, y, z
         out_of_sight: AbstractContextManager[None]
-        if surface.is_instance:  # it cannot be hidden without all others that the same object makes
-            nearest, out_of_sight = near_distances(reached - centre), nullcontext()
-            nearest = np.maximum(nearest, space.clip_start)
-        else:
+        # An instance cannot be hidden without all others that the same object makes
+        if not surface.is_instance and can_hide(surface.item, layer):
             reach = np.abs(reached - centre).max()
             nearest, out_of_sight = np.full(FACE_COUNT, NEAREST * reach), hidden(surface.item, layer)
+        else:
+            nearest, out_of_sight = near_distances(reached - centre), nullcontext()
+            nearest = np.maximum(nearest, space.clip_start)
         with bare(space), out_of_sight:
             for face in faces:
                 projection = face_projection(nearest[face], max(space.clip_end, 2.0 * nearest[face]))

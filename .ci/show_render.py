@@ -29,7 +29,9 @@ from show_materials import save_jpeg
 ALPHA = 0.3
 COPPER = (0.955, 0.638, 0.538)
 
-PLACES: dict[Callable[[], bpy.types.Object], tuple[float, float, float]] = {
+Places = dict[Callable[[], bpy.types.Object], tuple[float, float, float]]
+
+PLACES: Places = {
     ring: (-2.1, 0.5, 0.0),
     suzanne: (-0.75, -0.4, 0.0),
     ball: (0.9, 0.9, 0.0),
@@ -40,6 +42,14 @@ PLACES: dict[Callable[[], bpy.types.Object], tuple[float, float, float]] = {
 
 def build(folder: Path) -> bpy.types.Scene:
     """The scene, saved in a folder."""
+    scene = placed(PLACES, "forest", folder)
+    look(scene, Vector((0.3, -8.0, 1.4)), Vector((0.3, 0.0, 0.0)))
+    shade_in_copper(bpy.data.objects["Suzanne"], folder)
+    return scene
+
+
+def placed(places: Places, environment: str, folder: Path) -> bpy.types.Scene:
+    """A scene of some objects in the light of one of Blender's environments, saved in a folder."""
     warnings.simplefilter("ignore", RsibrWarning)
     bpy.ops.wm.read_factory_settings()
     rsibr.register()
@@ -47,19 +57,22 @@ def build(folder: Path) -> bpy.types.Scene:
         bpy.data.objects.remove(item)
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / "scene.blend"))
     scene = bpy.context.scene
-    for make, place in PLACES.items():
+    for make, place in places.items():
         make().location = place
-    scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
-    scene.collection.objects.link(scene.camera)
-    scene.camera.location = 0.3, -8.0, 1.4
-    scene.camera.rotation_euler = Vector((0.0, 8.0, -1.4)).to_track_quat("-Z", "Y").to_euler()
-    scene.camera.data.lens = 45.0
     tree = scene.world.node_tree
     texture = tree.nodes.new("ShaderNodeTexEnvironment")
-    texture.image = bpy.data.images.load(str(studio_environments()["forest"]))
+    texture.image = bpy.data.images.load(str(studio_environments()[environment]))
     tree.links.new(texture.outputs["Color"], tree.nodes["Background"].inputs["Color"])
-    shade_in_copper(bpy.data.objects["Suzanne"], folder)
     return scene
+
+
+def look(scene: bpy.types.Scene, eye: Vector, at: Vector) -> None:
+    """Give a scene a camera that looks at a point."""
+    scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    scene.collection.objects.link(scene.camera)
+    scene.camera.location = eye
+    scene.camera.rotation_euler = (at - eye).to_track_quat("-Z", "Y").to_euler()
+    scene.camera.data.lens = 45.0
 
 
 def shade_in_copper(item: bpy.types.Object, folder: Path) -> None:

@@ -5,22 +5,17 @@ The floor is a shadow catcher, of which objects get no light.
 
 import argparse
 import tempfile
-import warnings
-from collections.abc import Callable
 from pathlib import Path
 
 import bpy
 import numpy as np
-import rsibr
 from material_objects import ball, cushion, ring, suzanne, vase
 from mathutils import Vector
 from rsibr.rsibr_addon.core.conventions import Array
-from rsibr.rsibr_addon.core.errors import RsibrWarning
-from rsibr.rsibr_addon.host.installation import studio_environments
 from show_materials import save_jpeg
-from show_render import arguments, rendered
+from show_render import Places, arguments, look, placed, rendered
 
-PLACES: dict[Callable[[], bpy.types.Object], tuple[float, float, float]] = {
+PLACES: Places = {
     ring: (-2.3, 0.4, 0.0),
     ball: (-1.15, 1.0, 0.1),
     suzanne: (0.0, -0.4, 0.0),
@@ -37,27 +32,11 @@ EXPOSURE = 1.25
 
 def build(folder: Path) -> bpy.types.Scene:
     """The scene, saved in a folder."""
-    warnings.simplefilter("ignore", RsibrWarning)
-    bpy.ops.wm.read_factory_settings()
-    rsibr.register()
-    for item in list(bpy.data.objects):
-        bpy.data.objects.remove(item)
-    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "scene.blend"))
-    scene = bpy.context.scene
-    for make, place in PLACES.items():
-        make().location = place
+    scene = placed(PLACES, "sunset", folder)
+    look(scene, Vector((0.0, -8.0, 1.1)), Vector((0.05, 0.0, 0.05)))
     bpy.ops.mesh.primitive_plane_add(size=40.0, location=(0.0, 0.0, FLOOR))
     floor = bpy.context.object
     floor.is_shadow_catcher, floor.visible_diffuse, floor.visible_glossy = True, False, False
-    tree = scene.world.node_tree
-    texture = tree.nodes.new("ShaderNodeTexEnvironment")
-    texture.image = bpy.data.images.load(str(studio_environments()["sunset"]))
-    tree.links.new(texture.outputs["Color"], tree.nodes["Background"].inputs["Color"])
-    scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
-    scene.collection.objects.link(scene.camera)
-    scene.camera.location = eye = Vector((0.0, -8.0, 1.1))
-    scene.camera.rotation_euler = (Vector((0.05, 0.0, 0.05)) - eye).to_track_quat("-Z", "Y").to_euler()
-    scene.camera.data.lens = 45.0
     return scene
 
 

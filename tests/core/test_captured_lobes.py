@@ -150,10 +150,10 @@ def test_tridiagonal_systems_are_solved_as_whole_ones_are() -> None:
         np.stack([by_block[:, i, i] for i in range(blocks)], axis=1),
         np.stack([by_block[:, i, i + 1] for i in range(blocks - 1)], axis=1),
     )
-    right = rng.normal(size=(2, blocks, size))
+    right = rng.normal(size=(2, blocks, size, 4))
     solved = system.solve(right)
-    expected = np.linalg.solve(dense, right.reshape(2, -1, 1)).reshape(right.shape)
+    expected = np.linalg.solve(dense, right.reshape(2, -1, 4)).reshape(right.shape)
     # Normal equations of 20 rows each are conditioned well
     np.testing.assert_allclose(solved, expected, rtol=1e-9, atol=1e-12)
-    flat = solved.reshape(2, -1)
-    np.testing.assert_allclose(system.form(solved), np.einsum("vi,vij,vj->v", flat, dense, flat), rtol=1e-9)
+    np.testing.assert_allclose(system @ solved, right, rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(system.trace(), np.trace(dense, axis1=1, axis2=2), rtol=1e-12)

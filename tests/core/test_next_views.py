@@ -13,13 +13,15 @@ from rsibr.rsibr_addon.core.lobes.next_views import (
     Known,
     Weighed,
     candidate_dirs,
+    equations_of_views,
     next_views,
-    rows_of_views,
 )
+from rsibr.rsibr_addon.core.lobes.tridiagonal import Tridiagonal
 
 SIZE = 8
 MU = np.array([0.2, 0.6, 1.0])
-PART = Weighed(MU, np.zeros((3, 1)), np.eye(6), 3.0)
+PRECISION = Tridiagonal(np.tile(np.eye(2), (3, 1, 1)), np.tile(-0.2 * np.eye(2), (2, 1, 1)))
+PART = Weighed(MU, np.zeros((3, 1)), PRECISION, 3.0)
 TEXELS = 0.25 * np.pi * SIZE**2
 
 
@@ -34,14 +36,24 @@ def light() -> CapturedLight:
     )
 
 
-def rows(light: CapturedLight, view_dirs: Array) -> list[Array]:
-    return rows_of_views(view_dirs, SIZE, light, PART)
+def equations(light: CapturedLight, view_dirs: Array) -> list[Array]:
+    return equations_of_views(view_dirs, SIZE, light, PART)
+
+
+def rows_of(columns: list[Array]) -> list[Array]:
+    """The same equations as rows of all six weights."""
+    return [each.reshape(6, -1).T for each in columns]
+
+
+def whole(system: Tridiagonal) -> Array:
+    """A system of six unknowns as one matrix."""
+    return (system @ np.eye(6).reshape(3, 2, 6)).reshape(6, 6)
 
 
 def refitted(precision: Array, told: list[Array], candidates: list[Array], draws: int) -> Array:
     """Squared errors in candidates of weights fitted to the texels of some views, for random true weights."""
     rng = np.random.default_rng(2)
-    weights = rng.multivariate_normal(np.zeros(6), np.linalg.inv(precision), draws).T
+    weights = rng.multivariate_normal(np.zeros(6), np.linalg.inv(precision), draws, method="cholesky").T
     seen = np.concatenate(told)
     captured = seen @ weights + rng.normal(size=(len(seen), draws))
     found = np.linalg.solve(seen.T @ seen + precision, seen.T @ captured)
@@ -50,12 +62,13 @@ def refitted(precision: Array, told: list[Array], candidates: list[Array], draws
 
 
 def test_a_view_tells_what_fits_with_it_gain(light: CapturedLight) -> None:
-    captured, candidates = rows(light, geodesic_sphere(12).vertices[:2]), rows(light, np.eye(3))
+    captured, candidates = equations(light, geodesic_sphere(12).vertices[:2]), equations(light, np.eye(3))
     known = Known(PART, captured, candidates, TEXELS)
+    precision, captured, candidates = whole(known.precision), rows_of(captured), rows_of(candidates)
     before, falls, draws = known.expected, known.falls(), 4000
     for candidate, fall in enumerate(falls):
         told = [*captured, candidates[candidate]]
-        errors = PART.variance / (2.0 * TEXELS) * refitted(known.precision, told, candidates, draws)
+        errors = PART.variance / (2.0 * TEXELS) * refitted(precision, told, candidates, draws)
         # Means of so many draws
         assert abs(errors.mean() - (before - fall)) < 5.0 * errors.std() / np.sqrt(draws)
     assert falls.min() > 0.2 * before
@@ -64,8 +77,8 @@ def test_a_view_tells_what_fits_with_it_gain(light: CapturedLight) -> None:
 
 
 def test_weights_vary_by_as_much_as_views_left_out_say(light: CapturedLight) -> None:
-    (seen,) = captured = rows(light, geodesic_sphere(12).vertices[:1])
-    precision = Known(PART, captured, captured, TEXELS).precision
+    captured = equations(light, geodesic_sphere(12).vertices[:1])
+    precision, (seen,) = whole(Known(PART, captured, captured, TEXELS).precision), rows_of(captured)
     # Without its one view nothing is known
     left_out = np.trace(seen @ np.linalg.inv(precision) @ seen.T)
     # In units of the error of a texel; factors are ten times apart
@@ -76,10 +89,11 @@ def test_the_next_view_is_the_best_of_all(light: CapturedLight) -> None:
     view_dirs = geodesic_sphere(12).vertices[[0, 4]]
     chosen = next_views(view_dirs, SIZE, light, [PART, PART], 3)
     candidates = candidate_dirs(5)
-    every = rows(light, candidates)
+    every, captured = equations(light, candidates), equations(light, view_dirs)
+    told = whole(Known(PART, captured, every, TEXELS).precision)
+    every, captured = rows_of(every), rows_of(captured)
     wanted = sum(each.T @ each for each in every)
-    captured = rows(light, view_dirs)
-    told = Known(PART, captured, every, TEXELS).precision + sum(each.T @ each for each in captured)
+    told += sum(each.T @ each for each in captured)
     for view_dir in chosen:
         left = [np.trace(np.linalg.solve(told + each.T @ each, wanted)) for each in every]
         free = np.max(candidates @ view_dirs.T, axis=1) < np.cos(NEAREST)
@@ -99,5 +113,5 @@ def test_no_view_is_chosen_where_there_is_no_room(
 
 def test_texels_stand_for_all_of_a_view(light: CapturedLight) -> None:
     # One kernel is nearly uniform light: each view sees as much
-    powers = [np.sum(each**2) for each in rows(light, geodesic_sphere(12).vertices)]
+    powers = [np.sum(each**2) for each in equations(light, geodesic_sphere(12).vertices)]
     assert max(powers) < 10.0 * min(powers)

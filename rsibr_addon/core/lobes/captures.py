@@ -272,7 +272,7 @@ class _Corrector:
         self._rest = radiance - np.einsum("npc,npc->nc", seen, self._without[folds])
         known = np.concatenate([radiance[:, None], seen, self._rest[:, None]], axis=1)
         self._systems, rights = self._normal_equations(known)
-        self._rights, self._own = rights[..., :-1], rights[..., -1]
+        self._rights, self._own = rights[..., :-1], rights[..., -1:]
         self._price = self._prices(bank, np.sum((self._root[:, None] * radiance) ** 2, axis=0))
 
     def best(self) -> tuple[Array, Array]:
@@ -285,28 +285,26 @@ class _Corrector:
         # The highest price is that of no correction
         tried: list[tuple[float, Array]] = [(np.inf, np.zeros_like(left))]
         for price in PRICES:
-            tried.append((price, (without + self._priced(price)).solve(left)))
-        gains = [np.sum(self._systems.form(x) - 2.0 * np.sum(x * self._own, axis=(2, 3))) for _, x in tried]
+            tried.append((price, (without + self._price * price).solve(left)))
+        gains = [np.sum(x * (self._systems @ x - 2.0 * self._own)) for _, x in tried]
         errors = np.sum((self._root[:, None] * self._rest) ** 2) + np.array(gains)
         price, unknowns = tried[int(np.argmax(errors <= TOLERATED**2 * errors.min()))]
         correction = np.zeros_like(left[0])
         if np.isfinite(price):
-            correction = (total + self._priced(price)).solve(_rest_of(rights, self._factors))
+            correction = (total + self._price * price).solve(_rest_of(rights, self._factors))
         rest = self._rest.copy()
         for fold, those in enumerate(unknowns):
             chosen = self._folds == fold
-            rest[chosen] -= self._equations.radiance(chosen, np.moveaxis(those, 0, -1))
-        return self._functions @ self._factors + np.moveaxis(correction, 0, -1), rest
+            rest[chosen] -= self._equations.radiance(chosen, np.moveaxis(those[..., 0], 0, -1))
+        return self._functions @ self._factors + np.moveaxis(correction[..., 0], 0, -1), rest
 
-    def precision(self, bank: KernelBank) -> Array:
+    def precision(self, bank: KernelBank) -> Tridiagonal:
         """See `Weighed`: at each elevation, weights vary in proportion to the likeness's lobes there."""
         power, along = self._power_and_evenness(bank)
         alike = self._functions @ self._factors
         own = np.einsum("smc,mn,snc->s", alike, power, alike)
         size = np.sqrt(np.maximum(own, _FAINTEST**2 * own.max()))
-        relative = along / (size[:, None] * size)
-        precision: Array = np.einsum("st,mn->smtn", relative, power).reshape(2 * [len(own) * len(power)])
-        return precision
+        return _priced(along / (size[:, None] * size), power)
 
     def _prices(self, bank: KernelBank, captured: Array) -> Tridiagonal:
         """The price of a correction that costs 1, of captured power in each channel."""
@@ -314,10 +312,7 @@ class _Corrector:
         slices, (power, along) = len(alike), self._power_and_evenness(bank)
         own = np.einsum("smc,mn,snc->c", alike, power, alike) / slices
         unit = captured / np.maximum(own, _FAINTEST * own.max())
-        return Tridiagonal(
-            unit[:, None, None, None] * np.diag(along)[:, None, None] * power,
-            unit[:, None, None, None] * np.diag(along, 1)[:, None, None] * power,
-        )
+        return _priced(unit[:, None, None] * along, power)
 
     def _power_and_evenness(self, bank: KernelBank) -> tuple[Array, Array]:
         """Scalar products of all kernels, shape (M, M), and what they cost by elevation, shape (S, S)."""
@@ -325,9 +320,6 @@ class _Corrector:
         power = np.kron(np.eye(size // len(bank)), bank.products(np.zeros(()))[0])
         steps = np.diff(np.eye(slices), axis=0)
         return power, (np.eye(slices) + EVENNESS * steps.T @ steps) / slices
-
-    def _priced(self, price: float) -> Tridiagonal:
-        return Tridiagonal(price * self._price.diagonal, price * self._price.above)
 
     def _normal_equations(self, known: Array) -> tuple[Tridiagonal, Array]:
         """For each fold and channel the matrix and, of shape (F, 3, S, M, Q), right sides of (N, Q, 3)."""
@@ -353,8 +345,14 @@ class _Corrector:
         return Tridiagonal(diagonal, above), rights
 
 
+def _priced(along: Array, power: Array) -> Tridiagonal:
+    """What weights cost, by elevation, shape (..., S, S), and by kernel, shape (M, M)."""
+    own, next_to = (np.diagonal(along, offset, -2, -1)[..., None, None] for offset in (0, 1))
+    return Tridiagonal(own * power, next_to * power)
+
+
 def _rest_of(rights: Array, found: Array) -> Array:
-    """Right sides of what a likeness leaves, shape (3, S, M).
+    """Right sides of what a likeness leaves, shape (3, S, M, 1).
 
     Parameters
     ----------
@@ -363,5 +361,5 @@ def _rest_of(rights: Array, found: Array) -> Array:
     found : ndarray, shape (P, 3)
         Factors of the functions.
     """
-    rest: Array = rights[..., 0] - np.einsum("csmp,pc->csm", rights[..., 1:], found)
+    rest: Array = rights[..., :1] - np.einsum("csmp,pc->csm", rights[..., 1:], found)[..., None]
     return rest

@@ -7,6 +7,7 @@ after them. Views that were left out say how large the share is. Of some directi
 is the one that lowers the expected squared error of all of them most.
 """
 
+from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -18,6 +19,7 @@ from ..kinds.radiance_views.views import RadianceViews
 from ..ties import first_greatest
 from .captured_light import CapturedLight
 from .captured_texels import captured_texels, equations_of
+from .tridiagonal import Tridiagonal
 
 TEXELS = 100
 """Texels that stand for a view, about; those that mirror suns are taken besides."""
@@ -38,15 +40,15 @@ class Weighed:
     mu : ndarray, shape (S,)
     tilts : ndarray, shape (S, J)
         See `captured_texels.equations_of`.
-    precision : ndarray, shape (S * J * K, S * J * K)
-        Inverse of their covariance, but for a factor.
+    precision : Tridiagonal
+        Inverse of their covariance, but for a factor: S blocks of J * K weights.
     variance : float
         Squared error of captured texels whose views were left out, the sum over them.
     """
 
     mu: Array
     tilts: Array
-    precision: Array
+    precision: Tridiagonal
     variance: float
 
 
@@ -75,8 +77,8 @@ def next_views(
     known = [
         Known(
             part,
-            rows_of_views(view_dirs, size, light, part),
-            rows_of_views(candidates, size, light, part),
+            equations_of_views(view_dirs, size, light, part),
+            equations_of_views(candidates, size, light, part),
             0.25 * np.pi * size**2,
         )
         for part in parts
@@ -99,8 +101,8 @@ def candidate_dirs(views: int) -> Array:
     return geodesic_sphere(enough).vertices
 
 
-def rows_of_views(view_dirs: Array, size: int, light: CapturedLight, part: Weighed) -> list[Array]:
-    """The equations of each of some views, shapes (N, S * J * K): the mean of those of all channels.
+def equations_of_views(view_dirs: Array, size: int, light: CapturedLight, part: Weighed) -> list[Array]:
+    """The equations of each of some views, shapes (S, J * K, N): the mean of those of all channels.
 
     Parameters
     ----------
@@ -113,24 +115,28 @@ def rows_of_views(view_dirs: Array, size: int, light: CapturedLight, part: Weigh
     texels = captured_texels(views, len(view_dirs), TEXELS * len(view_dirs), light.sun_dir)
     equations = equations_of(texels, light, part.mu, part.tilts)
     both = np.sqrt(texels.stands_for)[:, None, None] * equations.rows.mean(axis=-1)
-    rows: list[Array] = []
+    columns: list[Array] = []
     for view in range(len(view_dirs)):
         own = np.flatnonzero(texels.view == view)
-        every = np.zeros((len(own), len(part.mu), both.shape[-1]))
+        every = np.zeros((len(part.mu), both.shape[-1], len(own)))
         for above in range(2):
-            every[np.arange(len(own)), equations.below[own] + above] = both[own, above]
-        rows.append(every.reshape(len(own), -1))
-    return rows
+            every[equations.below[own] + above, :, np.arange(len(own))] = both[own, above]
+        columns.append(every)
+    return columns
 
 
 class Known:
     """What views tell of one part's weights.
 
+    A texel's equation holds weights of two neighbouring elevations, as a step of the precision does. So
+    systems are block tridiagonal, and no covariance of all weights is needed: only that of the texels of
+    each candidate, and what it lowers.
+
     Parameters
     ----------
     part : Weighed
-    captured, candidates : sequence of ndarray, shapes (N, S * J * K)
-        Equations of the captured views, and of those that may follow: see `rows_of_views`.
+    captured, candidates : sequence of ndarray, shapes (S, J * K, N)
+        Equations of the captured views, and of those that may follow: see `equations_of_views`.
     texels : float
         How many texels a view has.
     """
@@ -139,42 +145,70 @@ class Known:
         self, part: Weighed, captured: Sequence[Array], candidates: Sequence[Array], texels: float
     ) -> None:
         self._candidates, self._variance = candidates, part.variance / (texels * len(captured))
-        self._seen = sum((rows.T @ rows for rows in candidates), np.zeros_like(part.precision))
-        told = sum((rows.T @ rows for rows in captured), np.zeros_like(part.precision))
-        unit = np.trace(told) / np.trace(part.precision)
-        for price in PRICES:
-            self.precision = price * unit * part.precision
-            self._covariance = np.linalg.inv(self.precision + told)
-            # Weights that vary by so much explain all of the error of views left out
-            if sum(map(self._left_out, captured)) >= texels * len(captured):
-                break
+        self._wanted, told = _told(candidates), _told(captured)
+        unit = float(told.trace() / part.precision.trace())
+
+        def left_out(price: float) -> float:
+            system = told + part.precision * (price * unit)
+            return sum(_left_out(_products(columns, system.solve(columns))) for columns in captured)
+
+        # Weights that vary by so much explain all of the error of views left out
+        enough = bisect_left(PRICES, texels * len(captured), hi=len(PRICES) - 1, key=left_out)
+        self.precision = part.precision * (PRICES[enough] * unit)
+        self._system = told + self.precision
+        self._covariances, self._spreads = [], []
+        for columns in candidates:
+            solved = self._system.solve(columns)
+            self._covariances.append(_products(columns, solved))
+            self._spreads.append(_products(solved, self._wanted @ solved))
 
     @property
     def expected(self) -> float:
         """Expected squared error of all candidates together, the sum over their texels."""
-        return self._variance * float(np.sum(self._covariance * self._seen))
+        return self._variance * float(sum(map(np.trace, self._covariances)))
 
     def falls(self) -> Array:
         """By how much each of the V candidates would lower `expected`, shape (V,)."""
-        spread = self._covariance @ self._seen @ self._covariance
-        falls = [
-            np.trace(np.linalg.solve(self._with_noise(rows), rows @ spread @ rows.T))
-            for rows in self._candidates
-        ]
+        pairs = zip(self._covariances, self._spreads, strict=True)
+        falls = [np.trace(np.linalg.solve(_with_noise(covariance), spread)) for covariance, spread in pairs]
         return self._variance * np.array(falls)
 
     def see(self, candidate: int) -> None:
         """Count one of the candidates as captured."""
-        rows = self._candidates[candidate]
-        told = rows @ self._covariance
-        self._covariance = self._covariance - told.T @ np.linalg.solve(self._with_noise(rows), told)
+        columns = self._candidates[candidate]
+        # The covariance of weights falls by `fall` times its transpose
+        root = np.linalg.cholesky(_with_noise(self._covariances[candidate]))
+        fall = self._system.solve(columns) @ np.linalg.inv(root).T
+        wanted = self._wanted @ fall
+        spread, both = self._system.solve(wanted), _products(fall, wanted)
+        for number, others in enumerate(self._candidates):
+            of_fall, of_spread = _products(others, fall), _products(others, spread)
+            self._covariances[number] -= of_fall @ of_fall.T
+            crossed = of_spread @ of_fall.T
+            self._spreads[number] += of_fall @ both @ of_fall.T - crossed - crossed.T
+        self._system += _told([columns])
 
-    def _left_out(self, rows: Array) -> float:
-        """Expected squared error of a captured view, were it left out, in units of that of a texel."""
-        covariance = rows @ self._covariance @ rows.T
-        return float(np.trace(np.linalg.solve(np.eye(len(rows)) - covariance, covariance)))
 
-    def _with_noise(self, rows: Array) -> Array:
-        """Covariance of texels with their noise, which is 1."""
-        covariance: Array = rows @ self._covariance @ rows.T + np.eye(len(rows))
-        return covariance
+def _products(left: Array, right: Array) -> Array:
+    """Scalar products of columns of shapes (S, M, N) and (S, M, Q), shape (N, Q)."""
+    return np.tensordot(left, right, axes=((0, 1), (0, 1)))
+
+
+def _told(views: Sequence[Array]) -> Tridiagonal:
+    """Normal matrix of the equations of some views."""
+    told = [
+        Tridiagonal(columns @ columns.swapaxes(1, 2), columns[:-1] @ columns[1:].swapaxes(1, 2))
+        for columns in views
+    ]
+    return sum(told[1:], told[0])
+
+
+def _left_out(covariance: Array) -> float:
+    """Expected squared error of a captured view, were it left out, in units of that of a texel."""
+    return float(np.trace(np.linalg.solve(np.eye(len(covariance)) - covariance, covariance)))
+
+
+def _with_noise(covariance: Array) -> Array:
+    """Covariance of texels with their noise, which is 1."""
+    noisy: Array = covariance + np.eye(len(covariance))
+    return noisy

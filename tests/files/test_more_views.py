@@ -81,7 +81,7 @@ def test_no_view_is_added_once_the_goal_is_reached(job: Any) -> None:
     assert ", 0 of them chosen; error of lobes in views left out 0.0" in baked.told
 
 
-def test_what_cannot_go_on_is_refused(tmp_path: Path) -> None:
+def test_what_cannot_go_on_is_refused() -> None:
     with pytest.raises(RangeError, match="A goal ends the capture of more views"):
         RadianceViewsSettings(material="copper", goal=0.1)
     with pytest.raises(RangeError, match="Photographs are what they are: leave More Views out"):

@@ -21,7 +21,7 @@ class Sheen:
     Attributes
     ----------
     mu : ndarray, shape (S,)
-        n.v, in (0, 1).
+        n.v, in [0, 1].
     a, b : ndarray, shape (S,)
     albedo : ndarray, shape (S,)
         Directional albedo, in [0, 1].

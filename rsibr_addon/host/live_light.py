@@ -110,7 +110,8 @@ def can_hide(item: bpy.types.Object, layer: bpy.types.ViewLayer) -> bool:
 def hidden(item: bpy.types.Object, layer: bpy.types.ViewLayer) -> Iterator[None]:
     """Within, an object is hidden in a view layer, with the instances that it makes, and casts no shadow.
 
-    Both ends update the view layer, which tells its handlers of no object, and evaluates no mesh.
+    Both ends update the view layer, which tells its handlers of no object, and evaluates no mesh. The last
+    one also updates what other windows show, as Blender has all scenes look at an object's visibility anew.
     """
     selected = item.select_get(view_layer=layer)
     try:
@@ -120,7 +121,8 @@ def hidden(item: bpy.types.Object, layer: bpy.types.ViewLayer) -> Iterator[None]
     finally:
         item.hide_set(False, view_layer=layer)
         item.select_set(selected, view_layer=layer)  # what is hidden is not selected
-        layer.update()
+        for each in {layer, *(window.view_layer for window in bpy.context.window_manager.windows)}:
+            each.update()
 
 
 def _nearness(space: bpy.types.SpaceView3D) -> int:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import rsibr
 from rsibr.rsibr_addon.device.context import ensure_context
+from rsibr.rsibr_addon.host.live_light import hidden
 from rsibr.rsibr_addon.host.surroundings import (
     Sampling,
     render_surroundings,
@@ -131,6 +132,29 @@ def test_what_a_background_scene_lends_is_cut_off(view: View) -> None:
     seen = live_faces(view, cube)
     assert np.any(np.all(seen == WHITE, axis=-1))
     assert not np.any(np.all(seen == RED, axis=-1))
+
+
+def test_other_windows_hear_of_it_while_it_is_hidden(view: View) -> None:
+    """Else they tell of a change later, for which all light is rendered anew, and so on for ever."""
+    bpy.ops.mesh.primitive_cube_add()
+    cube, layer = bpy.context.object, bpy.context.view_layer
+    other = bpy.context.window.view_layer = view.scene.view_layers.new("Other")
+    told: list[str] = []
+
+    def changed(_: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+        told.append(depsgraph.view_layer.name)
+
+    layer.update()
+    other.update()
+    bpy.app.handlers.depsgraph_update_post.append(changed)
+    with hidden(cube, layer):
+        pass
+    assert "Other" in told
+    told.clear()
+    layer.update()
+    other.update()
+    bpy.app.handlers.depsgraph_update_post.remove(changed)
+    assert not told
 
 
 def _move(item: bpy.types.Object, collection: bpy.types.Collection) -> None:

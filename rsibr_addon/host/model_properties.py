@@ -34,7 +34,7 @@ _SOFT = {"n": (1.0, 1000.0), "eta": (1.0, 3.0), "radiance": (0.0, 10.0)}
 
 _LABELS = {
     "n": "Exponent",
-    "eta": "Index of Refraction",
+    "eta": "IOR",
     "k": "Share",
     "tint": "Tint",
     "radiance": "Radiance",

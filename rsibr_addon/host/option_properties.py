@@ -206,7 +206,7 @@ def _of_materials(declared: Declared, materials: Materials, common: dict[str, An
     items = []
     found: dict[str, Any] = {}
     if materials.own:
-        items.append((OWN, "Object's Own", "The active object's active material, whatever its nodes"))
+        items.append((OWN, "Own", "The active object's active material, whatever its nodes"))
     nothing = [(NONE, "None", _capital(declared.option.none))] if declared.optional else []
     if materials.presets:
         items.append((PRESET, "Preset", "One that comes with the extension"))

@@ -105,4 +105,5 @@ def _draw_options(
 def _label(declared: Declared) -> str:
     """An option's label; of a whole number, such as a size, also that 0 leaves it to the bake."""
     told = declared.option
-    return f"{told.label} (0: auto)" if isinstance(told.none_as, int) and told.none_as == 0 else told.label
+    is_left = isinstance(told.none_as, int) and told.none_as == 0 and told.none != "none"
+    return f"{told.label} (0: auto)" if is_left else told.label

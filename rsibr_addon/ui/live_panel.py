@@ -22,6 +22,7 @@ class RSIBR_PT_live(InSidebar, bpy.types.Panel):
         if context.object.rsibr.live.on and context.space_data.shading.type == "SOLID":
             tell(self.layout, SOLID, context.region.width, icon="INFO")
         self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
         self.layout.prop(context.object.rsibr.live, "size")
         self.layout.prop(context.object.rsibr.live, "degree")
         self.layout.prop(context.object.rsibr.live, "budget")

@@ -14,7 +14,7 @@ from ..host.world_light import has_environment, holds_world, world_light
 from ..session.running import session
 from ..tasks.methods.kinds import KINDS
 from .model_options import draw_model
-from .sentences import SOLID, tell
+from .sentences import LONG_LABEL_SHARE, LONGEST_LABEL, SOLID, tell
 from .sidebar import InSidebar
 
 NOT_FOLLOWED = (
@@ -166,5 +166,11 @@ def _show_option(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, dec
         flow = layout.column_flow(columns=2, align=True)
         flow.use_property_split = False
         flow.prop(group, name)
+    elif len(declared.option.label) > LONGEST_LABEL and not isinstance(getattr(group, name), bool):
+        split = layout.split(factor=LONG_LABEL_SHARE)
+        label = split.row()
+        label.alignment = "RIGHT"
+        label.label(text=declared.option.label)
+        split.prop(group, name, text="")
     else:
         layout.prop(group, name)

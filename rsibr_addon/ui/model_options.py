@@ -52,7 +52,7 @@ def _draw_curves(layout: bpy.types.UILayout, group: Any, declared: Declared, cur
         layout.prop(group, declared.name, text="Curves")
         return
     for curve in curves:
-        layout.label(text=f"{capital(curve)}, from grazing views to facing ones")
+        layout.label(text=f"{capital(curve)}, grazing to facing views")
         layout.template_curve_mapping(tree.nodes[curve], "mapping")
     if text_of_curves(declared, group) != getattr(group, declared.name):
         path = group.path_from_id()

@@ -38,7 +38,7 @@ class RSIBR_PT_preview(InSidebar, bpy.types.Panel):
             if KINDS[chosen.kind].own:
                 draw_materials(layout, context.object)
             else:
-                layout.label(text=_shaded_as(context), icon="MATERIAL")
+                tell(layout, _shaded_as(context), width, icon="MATERIAL")
         draw_quality(layout, chosen)
         row = layout.row(align=True)
         row.scale_y = 1.5
@@ -118,9 +118,8 @@ def _draw_freshness(layout: bpy.types.UILayout, item: bpy.types.Object, width: i
         layout.label(text=text, icon="CHECKMARK")
     others = sum(each is not None for each in freshness.stale.values()) - (stale is not None)
     if others:
-        row = layout.row()
-        row.label(text=f"{others} other objects out of date" if others > 1 else "Another object out of date")
-        row.operator("rsibr.rebake")
+        layout.label(text=f"{others} other objects out of date" if others > 1 else "Another object out of date")
+        layout.operator("rsibr.rebake")
 
 
 def _draw_messages(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
@@ -144,8 +143,7 @@ def _draw_stale(layout: bpy.types.UILayout, stale: Stale, width: int) -> None:
     if stale.output is None:
         tell(layout, f"It cannot be baked anew. {stale.reason}", width)
     elif session().bakes.unfinished(stale.output) is not None:
-        layout.label(text=f"{stale.reason}, rebaking", icon="TIME")
+        tell(layout, f"{stale.reason}, rebaking", width, icon="TIME")
     else:
-        row = layout.row()
-        row.label(text=stale.reason, icon="ERROR")
-        row.operator("rsibr.rebake")
+        tell(layout, stale.reason, width)
+        layout.operator("rsibr.rebake")

@@ -14,7 +14,7 @@ from ..tasks.compare.measured_error import measured_facts
 from ..tasks.report.facts import is_picture, map_set_facts, map_set_fit, map_set_header
 from .bakes import draw_progress
 from .map_set_file import draw_file, draw_painting
-from .sentences import tell
+from .sentences import letters_in, tell
 from .sidebar import InSidebar
 
 MAP_SCALE, LOBES_SCALE = 9.0, 9.0
@@ -51,12 +51,7 @@ class RSIBR_PT_result(InSidebar, bpy.types.Panel):
             return
         draw_file(layout, item, path)
         draw_painting(layout, item, header)
-        column = layout.column(align=True)
-        for what, which in {**facts, **measured}.items():
-            row = column.split(factor=0.4)
-            row.alignment = "RIGHT"
-            row.label(text=what)
-            row.label(text=which)
+        _draw_facts(layout.column(align=True), {**facts, **measured}, context.region.width)
         row = layout.row(align=True)
         row.operator("rsibr.open_report", icon="URL")
         row.operator("rsibr.compare", icon="MOD_DATA_TRANSFER")
@@ -66,6 +61,19 @@ class RSIBR_PT_result(InSidebar, bpy.types.Panel):
             draw_progress(layout, comparing, context.region.width)
         elif measured and page.is_file():
             layout.operator("rsibr.open_comparison", icon="URL")
+
+
+def _draw_facts(column: bpy.types.UILayout, facts: dict[str, str], width: int) -> None:
+    """Show what there is to tell beside its name, or below that where a line is too short for both."""
+    for what, which in facts.items():
+        row = column.row()
+        row.label(text=what)
+        if len(what) + len(which) < letters_in(width):
+            value = row.row()
+            value.alignment = "RIGHT"
+            value.label(text=which)
+        else:
+            tell(column, which, width, icon="BLANK1")
 
 
 class RSIBR_PT_result_maps(InSidebar, bpy.types.Panel):

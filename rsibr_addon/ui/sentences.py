@@ -6,8 +6,16 @@ LETTER_WIDTH, MARGIN = 7, 60
 """Mean width of a letter in a panel, and width of a region's margins and an icon; in pixels at Blender's own
 scale."""
 
+LONGEST_LABEL, LONG_LABEL_SHARE = 14, 0.47
+"""Letters that fit into the two fifths of a row that Blender gives a label; and the share that 17 letters need."""
+
 SOLID = "Solid shading has neither lamps nor world: choose Material Preview or Rendered for their light."
 """What of Blender's own shading surprises beside a preview, or as light."""
+
+
+def letters_in(width: int) -> int:
+    """How many letters a line has room for beside an icon, in a region of a width in pixels."""
+    return max(20, (width - MARGIN) // LETTER_WIDTH)
 
 
 def tell(layout: bpy.types.UILayout, message: str, width: int, icon: str = "ERROR") -> None:
@@ -23,7 +31,7 @@ def tell(layout: bpy.types.UILayout, message: str, width: int, icon: str = "ERRO
         Before the first line.
     """
     column = layout.column(align=True)
-    letters = max(20, (width - MARGIN) // LETTER_WIDTH)
+    letters = letters_in(width)
     words, line = message.split(), ""
     lines = []
     for word in words:

@@ -9,6 +9,7 @@ from rsibr.rsibr_addon.settings.kernel_bank import KernelBankSettings
 from rsibr.rsibr_addon.settings.lobe_stack import LobeStackSettings
 from rsibr.rsibr_addon.settings.method import MethodSettings
 from rsibr.rsibr_addon.settings.mip_chain import MipChainSettings
+from rsibr.rsibr_addon.settings.radiance_views import RadianceViewsSettings
 from rsibr.rsibr_addon.settings.reflection_tables import ReflectionTablesSettings
 from rsibr.rsibr_addon.ui import advanced_panel, look_panel
 from rsibr.rsibr_addon.ui.sentences import SOLID
@@ -52,6 +53,7 @@ def test_hints_name_panels_by_their_labels() -> None:
         (LobeStackSettings, "size", "Size (0: auto)"),
         (ReflectionTablesSettings, "rows", "Rows (0: auto)"),
         (MipChainSettings, "size", "Size"),
+        (RadianceViewsSettings, "more_views", "More Views"),
     ],
 )
 def test_the_panel_says_that_a_size_of_0_is_chosen_by_itself(

@@ -4,7 +4,13 @@ from types import SimpleNamespace
 
 import pytest
 from rsibr.rsibr_addon.core.errors import SceneError
-from rsibr.rsibr_addon.ui import preview_panel
+from rsibr.rsibr_addon.core.options import declared_options
+from rsibr.rsibr_addon.files.kinds.registry import STORED, look_types
+from rsibr.rsibr_addon.ui import advanced_panel, preview_panel, result_panel
+from rsibr.rsibr_addon.ui.sentences import LONG_LABEL_SHARE, LONGEST_LABEL
+
+NARROW = 292
+"""Pixels of the sidebar's width that Blender begins with."""
 
 
 @pytest.mark.parametrize("offline", [True, False])
@@ -19,3 +25,41 @@ def test_it_says_why_nothing_can_be_sent(offline: bool, monkeypatch: pytest.Monk
     preview_panel._draw_offline(SimpleNamespace(column=lambda align: column), 300)
     assert " ".join(told).startswith("Blender may not use the network: switch on" if offline else "")
     assert bool(told) == offline
+
+
+@pytest.mark.parametrize("kind", STORED)
+def test_labels_fit_into_a_narrow_sidebar(kind: str) -> None:
+    settings = STORED[kind].settings
+    for each in advanced_panel._shown(settings):
+        if each.wanted is not bool:  # these stand beside their box, where there is more room
+            assert len(advanced_panel._label(each)) <= LONGEST_LABEL
+    share = LONG_LABEL_SHARE / 0.4  # of what Blender gives the others
+    for each in declared_options(look_types()[kind]):
+        if each.wanted is not bool:
+            assert len(each.option.label) <= share * (LONGEST_LABEL + 1)
+
+
+@pytest.mark.parametrize(
+    ("name", "fact", "lines"),
+    [
+        ("Error, interpolation", "0.0007", [["Error, interpolation", "0.0007"]]),
+        ("Measured: paper, area", "13 %, at worst 25 %", [["Measured: paper, area"], ["13 %, at worst 25 %"]]),
+        (
+            "Against",
+            "Cycles at 64 samples and without denoising, 20 views",
+            [["Against"], ["Cycles at 64 samples and without"], ["denoising, 20 views"]],
+        ),
+    ],
+)
+def test_a_fact_is_beside_its_name_or_below_it(name: str, fact: str, lines: list[list[str]]) -> None:
+    told: list[list[str]] = []
+
+    def row() -> SimpleNamespace:
+        told.append([])
+        part = SimpleNamespace(label=lambda text: told[-1].append(text))
+        part.row = lambda: part
+        return part
+
+    below = SimpleNamespace(label=lambda text, icon: told.append([text]))
+    result_panel._draw_facts(SimpleNamespace(row=row, column=lambda align: below), {name: fact}, NARROW)
+    assert told == lines

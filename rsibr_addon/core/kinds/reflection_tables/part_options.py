@@ -13,7 +13,7 @@ _TOLD = {
         "Coat",
         "Clear varnish, which mirrors its share and lets the rest through: fresnel:eta=1.5, constant:k=0.5",
     ),
-    "retro": ("Retro-Reflection", "Light by the view direction: phong:n=200,ks=0.3 or mirror:"),
+    "retro": ("Retro", "Retro-reflection, light by the view direction: phong:n=200,ks=0.3 or mirror:"),
     "refraction": ("Refraction", "Light by the refracted direction: clear:eta=1.5,tint=1/0.9/0.8"),
     "weights": (
         "Weights",

@@ -110,15 +110,16 @@ def _draw_freshness(layout: bpy.types.UILayout, item: bpy.types.Object, width: i
     Where Preview would bake another map set, that is said of the one shown alone.
     """
     freshness = session().freshness
-    stale = freshness.of(item)
+    stale, to_bake = freshness.of(item), False
     if stale is not None:
-        _draw_stale(layout, stale, width)
+        to_bake = _draw_stale(layout, stale, width)
     elif item.session_uid in freshness.stale and not session().previews.inputs.lacks(item):
         text = "Up to date" if served else "The map set shown is up to date"
         layout.label(text=text, icon="CHECKMARK")
     others = sum(each is not None for each in freshness.stale.values()) - (stale is not None)
     if others:
         layout.label(text=f"{others} other objects out of date" if others > 1 else "Another object out of date")
+    if others or to_bake:
         layout.operator("rsibr.rebake")
 
 
@@ -139,11 +140,13 @@ def _draw_messages(layout: bpy.types.UILayout, context: bpy.types.Context) -> No
         layout.label(text="Loading...", icon="TIME")
 
 
-def _draw_stale(layout: bpy.types.UILayout, stale: Stale, width: int) -> None:
+def _draw_stale(layout: bpy.types.UILayout, stale: Stale, width: int) -> bool:
+    """Show why the active object is out of date; whether it waits to be asked for."""
     if stale.output is None:
         tell(layout, f"It cannot be baked anew. {stale.reason}", width)
     elif session().bakes.unfinished(stale.output) is not None:
         tell(layout, f"{stale.reason}, rebaking", width, icon="TIME")
     else:
         tell(layout, stale.reason, width)
-        layout.operator("rsibr.rebake")
+        return True
+    return False

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import bpy
 
 from ..tasks.queue.background import Bake, State
-from .sentences import capital, duration, tell
+from .sentences import BUTTON_WIDTH, capital, duration, tell
 
 
 def draw_bakes(layout: bpy.types.UILayout, bakes: Sequence[Bake], width: int) -> None:
@@ -38,10 +38,10 @@ def draw_progress(layout: bpy.types.UILayout, bake: Bake, width: int) -> None:
 def _draw_bake(layout: bpy.types.UILayout, bake: Bake, number: int, width: int) -> None:
     """Show a bake in one line, and below it what goes on, why it failed or, on demand, its warnings."""
     if not bake.warnings:
-        _draw_title(layout.row(), bake, number)
+        _draw_title(layout.row(), bake, number, width)
     else:
         header, opened = layout.panel(f"RSIBR_bake_{bake.output.name}", default_closed=True)
-        _draw_title(header, bake, number)
+        _draw_title(header, bake, number, width)
         for warning in bake.warnings if opened else ():
             tell(opened, warning, width, icon="INFO")
     if bake.state is State.RUNNING:
@@ -50,8 +50,8 @@ def _draw_bake(layout: bpy.types.UILayout, bake: Bake, number: int, width: int) 
         tell(layout, bake.message, width)
 
 
-def _draw_title(row: bpy.types.UILayout, bake: Bake, number: int) -> None:
-    row.label(text=bake.title, icon=_ICONS[bake.state])
+def _draw_title(row: bpy.types.UILayout, bake: Bake, number: int, width: int) -> None:
+    tell(row, bake.title, width - BUTTON_WIDTH, icon=_ICONS[bake.state])
     row.operator("rsibr.cancel_bake", text="", icon="X", emboss=False).number = number
 
 

@@ -9,10 +9,10 @@ from ..files.kinds.registry import STORED
 from ..host.map_sets import is_packed
 from ..tasks.queue.bake_request import plain_name
 from ..tasks.report.facts import map_set_content
-from .sentences import tell
+from .sentences import BUTTON_WIDTH, tell
 
 
-def draw_file(layout: bpy.types.UILayout, item: bpy.types.Object, path: Path) -> None:
+def draw_file(layout: bpy.types.UILayout, item: bpy.types.Object, path: Path, width: int) -> None:
     """Show the name of an object's map set, and the button that packs or unpacks it.
 
     Parameters
@@ -21,10 +21,12 @@ def draw_file(layout: bpy.types.UILayout, item: bpy.types.Object, path: Path) ->
     item : bpy.types.Object
     path : Path
         A whole map set.
+    width : int
+        Width of the region in pixels.
     """
     packed = is_packed(item.rsibr)
     row = layout.row(align=True)
-    row.label(text=plain_name(path), icon="FILE_IMAGE")
+    tell(row, plain_name(path), width - BUTTON_WIDTH, icon="FILE_IMAGE")
     if packed:
         row.operator("rsibr.unpack", text="", icon="PACKAGE")
     else:

@@ -49,9 +49,10 @@ class RSIBR_PT_preview(InSidebar, bpy.types.Panel):
             _draw_offline(layout, width)
         served = _draw_request(layout, context)
         if context.object is not None:
+            fault = ""
             if context.object.rsibr.map_set:
-                _draw_state(layout, context.object, width, served)
-            _draw_messages(layout, context)
+                fault = _draw_state(layout, context.object, width, served)
+            _draw_messages(layout, context, fault)
         draw_bakes(layout, session().bakes.bakes, width)
 
 
@@ -90,8 +91,8 @@ def _draw_request(layout: bpy.types.UILayout, context: bpy.types.Context) -> boo
     return False
 
 
-def _draw_state(layout: bpy.types.UILayout, item: bpy.types.Object, width: int, served: bool) -> None:
-    """Show whether the active object's map set is there, and up to date."""
+def _draw_state(layout: bpy.types.UILayout, item: bpy.types.Object, width: int, served: bool) -> str:
+    """Show whether the active object's map set is there, and up to date; why it is not there, or ""."""
     try:
         path = written_path(item.rsibr)
         if not is_picture(path):
@@ -100,8 +101,9 @@ def _draw_state(layout: bpy.types.UILayout, item: bpy.types.Object, width: int, 
     except RsibrError as error:
         tell(layout, str(error), width)
         draw_remedies(layout)
-    else:
-        _draw_freshness(layout, item, width, served)
+        return str(error)
+    _draw_freshness(layout, item, width, served)
+    return ""
 
 
 def _draw_freshness(layout: bpy.types.UILayout, item: bpy.types.Object, width: int, served: bool) -> None:
@@ -118,13 +120,17 @@ def _draw_freshness(layout: bpy.types.UILayout, item: bpy.types.Object, width: i
         layout.label(text=text, icon="CHECKMARK")
     others = sum(each is not None for each in freshness.stale.values()) - (stale is not None)
     if others:
-        layout.label(text=f"{others} other objects out of date" if others > 1 else "Another object out of date")
+        text = f"{others} other objects out of date" if others > 1 else "Another object out of date"
+        layout.label(text=text)
     if others or to_bake:
         layout.operator("rsibr.rebake")
 
 
-def _draw_messages(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
-    """Show what a preview of the active object leaves out or will leave out, and what went wrong."""
+def _draw_messages(layout: bpy.types.UILayout, context: bpy.types.Context, fault: str) -> None:
+    """Show what a preview of the active object leaves out or will leave out, and what went wrong.
+
+    Its map set's fault is told above already.
+    """
     item, running, chosen = context.object, session(), context.scene.rsibr_bake.kind
     inputs = running.previews.inputs
     is_shown = running.previews.materials_of(item) is not None or inputs.shows_all(item)
@@ -132,7 +138,7 @@ def _draw_messages(layout: bpy.types.UILayout, context: bpy.types.Context) -> No
     for note in notes:
         tell(layout, note, context.region.width, icon="INFO")
     for message in running.previews.messages(item):
-        if message not in notes:
+        if message not in (*notes, fault):
             tell(layout, message, context.region.width)
     if inputs.lacks(item) and (inputs.is_refused(item) or not bakes_inputs_by_itself()):
         layout.operator("rsibr.bake_inputs")

@@ -49,7 +49,7 @@ class RSIBR_PT_result(InSidebar, bpy.types.Panel):
         except RsibrError as error:
             tell(layout, str(error), context.region.width)
             return
-        draw_file(layout, item, path)
+        draw_file(layout, item, path, context.region.width)
         draw_painting(layout, item, header)
         _draw_facts(layout.column(align=True), {**facts, **measured}, context.region.width)
         row = layout.row(align=True)

@@ -1,13 +1,18 @@
 """Words in panels."""
 
+from textwrap import wrap
+
 import bpy
 
 LETTER_WIDTH, MARGIN = 7, 60
 """Mean width of a letter in a panel, and width of a region's margins and an icon; in pixels at Blender's own
 scale."""
 
+BUTTON_WIDTH = 40
+"""What icons beside a sentence take of its width, in pixels at Blender's own scale."""
+
 LONGEST_LABEL, LONG_LABEL_SHARE = 14, 0.47
-"""Letters that fit into the two fifths of a row that Blender gives a label; and the share that 17 letters need."""
+"""Letters of a label that fit into Blender's two fifths of a row, and the share that longer ones get."""
 
 SOLID = "Solid shading has neither lamps nor world: choose Material Preview or Rendered for their light."
 """What of Blender's own shading surprises beside a preview, or as light."""
@@ -31,15 +36,7 @@ def tell(layout: bpy.types.UILayout, message: str, width: int, icon: str = "ERRO
         Before the first line.
     """
     column = layout.column(align=True)
-    letters = letters_in(width)
-    words, line = message.split(), ""
-    lines = []
-    for word in words:
-        if line and len(line) + len(word) >= letters:
-            lines.append(line)
-            line = ""
-        line = f"{line} {word}".strip()
-    for number, text in enumerate([*lines, line]):
+    for number, text in enumerate(wrap(message, letters_in(width), break_on_hyphens=False)):
         column.label(text=text, icon=icon if number == 0 else "BLANK1")
 
 

@@ -7,7 +7,7 @@ from rsibr.rsibr_addon.core.errors import SceneError
 from rsibr.rsibr_addon.core.options import declared_options
 from rsibr.rsibr_addon.files.kinds.registry import STORED, look_types
 from rsibr.rsibr_addon.ui import advanced_panel, preview_panel, result_panel
-from rsibr.rsibr_addon.ui.sentences import LONG_LABEL_SHARE, LONGEST_LABEL
+from rsibr.rsibr_addon.ui.sentences import LONG_LABEL_SHARE, LONGEST_LABEL, letters_in, tell
 
 NARROW = 292
 """Pixels of the sidebar's width that Blender begins with."""
@@ -43,7 +43,11 @@ def test_labels_fit_into_a_narrow_sidebar(kind: str) -> None:
     ("name", "fact", "lines"),
     [
         ("Error, interpolation", "0.0007", [["Error, interpolation", "0.0007"]]),
-        ("Measured: paper, area", "13 %, at worst 25 %", [["Measured: paper, area"], ["13 %, at worst 25 %"]]),
+        (
+            "Measured: paper, area",
+            "13 %, at worst 25 %",
+            [["Measured: paper, area"], ["13 %, at worst 25 %"]],
+        ),
         (
             "Against",
             "Cycles at 64 samples and without denoising, 20 views",
@@ -63,3 +67,12 @@ def test_a_fact_is_beside_its_name_or_below_it(name: str, fact: str, lines: list
     below = SimpleNamespace(label=lambda text, icon: told.append([text]))
     result_panel._draw_facts(SimpleNamespace(row=row, column=lambda align: below), {name: fact}, NARROW)
     assert told == lines
+
+
+def test_a_long_name_is_broken_rather_than_cut_off() -> None:
+    told: list[str] = []
+    column = SimpleNamespace(label=lambda text, icon: told.append(text))
+    name = "a_mirror_ball_photographed_in_the_garden.exr"
+    tell(SimpleNamespace(column=lambda align: column), f"{name} is 256x256: convert it.", NARROW)
+    assert max(map(len, told)) <= letters_in(NARROW) < len(name)
+    assert "".join(told).replace(" ", "") == f"{name}is256x256:convertit."

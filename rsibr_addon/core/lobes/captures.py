@@ -144,7 +144,7 @@ def fit_captures(
         fitted, left = corrector.best()
         fits.append(_fit(mu, bank, tilts, fitted, brdf))
         errors += left
-        weighed.append(Weighed(mu, tilts, corrector.precision(bank), _power(texels, left)))
+        weighed.append(Weighed(mu, tilts, corrector.precision(), _power(texels, left)))
         if part == "glossy":
             widths = tuple(each.alpha for each in members)
     left_out = float(np.sqrt(_power(texels, errors) / power)) if count >= FEWEST_VIEWS else None
@@ -273,7 +273,13 @@ class _Corrector:
         known = np.concatenate([radiance[:, None], seen, self._rest[:, None]], axis=1)
         self._systems, rights = self._normal_equations(known)
         self._rights, self._own = rights[..., :-1], rights[..., -1:]
-        self._price = self._prices(bank, np.sum((self._root[:, None] * radiance) ** 2, axis=0))
+        self._alike = self._functions @ self._factors
+        slices, size, _ = self._functions.shape
+        # Scalar products of all kernels, and what weights cost by elevation
+        self._power = np.kron(np.eye(size // len(bank)), bank.products(np.zeros(()))[0])
+        steps = np.diff(np.eye(slices), axis=0)
+        self._along = (np.eye(slices) + EVENNESS * steps.T @ steps) / slices
+        self._price = self._prices(np.sum((self._root[:, None] * radiance) ** 2, axis=0))
 
     def best(self) -> tuple[Array, Array]:
         """All weights, shape (S, M, 3), and the errors of texels when they are left out, shape (N, 3)."""
@@ -296,30 +302,19 @@ class _Corrector:
         for fold, those in enumerate(unknowns):
             chosen = self._folds == fold
             rest[chosen] -= self._equations.radiance(chosen, np.moveaxis(those[..., 0], 0, -1))
-        return self._functions @ self._factors + np.moveaxis(correction[..., 0], 0, -1), rest
+        return self._alike + np.moveaxis(correction[..., 0], 0, -1), rest
 
-    def precision(self, bank: KernelBank) -> Tridiagonal:
+    def precision(self) -> Tridiagonal:
         """See `Weighed`: at each elevation, weights vary in proportion to the likeness's lobes there."""
-        power, along = self._power_and_evenness(bank)
-        alike = self._functions @ self._factors
-        own = np.einsum("smc,mn,snc->s", alike, power, alike)
+        own = np.einsum("smc,mn,snc->s", self._alike, self._power, self._alike)
         size = np.sqrt(np.maximum(own, _FAINTEST**2 * own.max()))
-        return _priced(along / (size[:, None] * size), power)
+        return _priced(self._along / (size[:, None] * size), self._power)
 
-    def _prices(self, bank: KernelBank, captured: Array) -> Tridiagonal:
+    def _prices(self, captured: Array) -> Tridiagonal:
         """The price of a correction that costs 1, of captured power in each channel."""
-        alike = self._functions @ self._factors
-        slices, (power, along) = len(alike), self._power_and_evenness(bank)
-        own = np.einsum("smc,mn,snc->c", alike, power, alike) / slices
+        own = np.einsum("smc,mn,snc->c", self._alike, self._power, self._alike) / len(self._alike)
         unit = captured / np.maximum(own, _FAINTEST * own.max())
-        return _priced(unit[:, None, None] * along, power)
-
-    def _power_and_evenness(self, bank: KernelBank) -> tuple[Array, Array]:
-        """Scalar products of all kernels, shape (M, M), and what they cost by elevation, shape (S, S)."""
-        slices, size, _ = self._functions.shape
-        power = np.kron(np.eye(size // len(bank)), bank.products(np.zeros(()))[0])
-        steps = np.diff(np.eye(slices), axis=0)
-        return power, (np.eye(slices) + EVENNESS * steps.T @ steps) / slices
+        return _priced(unit[:, None, None] * self._along, self._power)
 
     def _normal_equations(self, known: Array) -> tuple[Tridiagonal, Array]:
         """For each fold and channel the matrix and, of shape (F, 3, S, M, Q), right sides of (N, Q, 3)."""

@@ -164,6 +164,30 @@ def test_nonnegative_least_squares_fulfil_their_conditions() -> None:
     assert 0 < np.count_nonzero(x) < 12
 
 
+def test_nonnegative_least_squares_end_where_rounding_leaves_a_little() -> None:
+    # A step to 0 left the third unknown at 5e-324, whence no further step led
+    upper = [
+        [1.0000000009999992, 0.6630288621058767, 0.3162171786022396],
+        [0.9997975060909123, 0.6640075359090708, 0.31906950221486785],
+        [1.000000000999999, 0.8024702130671859, 0.6643202295430993, 0.9999101003489832, 0.8060070777813622],
+        [1.000000001, 0.31767521258224996, 0.8010919656746973, 0.999948638971967],
+        [1.000000001, 0.6654601574879785, 0.3205676393921582],
+        [1.000000001000001, 0.8047196642561221],
+        [1.0000000010000007],
+    ]
+    system = np.zeros((6, 6))
+    system[np.triu_indices(6)] = np.concatenate(upper)
+    system += np.triu(system, 1).T
+    right = np.array(
+        [15.662995139463563, 15.402803311126068, 12.561901872296731]
+        + [15.672990625615851, 15.40455550398731, 12.599614981322896]
+    )
+    x = nonnegative_inverse(system, right) @ right
+    assert np.flatnonzero(x).tolist() == [0, 5]
+    assert x.min() >= 0.0
+    assert (system @ x - right).min() > -1e-9
+
+
 @pytest.mark.parametrize("count", [0, 257])
 def test_too_few_and_too_many_elevations_are_refused(count: int) -> None:
     with pytest.raises(RangeError, match="choose 1 to 256"):

@@ -53,7 +53,9 @@ def _bounded(system: Array, right: Array, positive: NDArray[np.bool_], x: Array)
         below = positive & (trial <= 0.0)
         if not np.any(below):
             return trial
-        share = np.min(x[below] / (x[below] - trial[below]))
-        x = x + share * (trial - x)
-        positive &= x > 0.0
+        shares = np.full(len(x), np.inf)
+        shares[below] = x[below] / (x[below] - trial[below])
+        x = x + shares.min() * (trial - x)
+        # Rounding may leave a little of the unknown that ends the step
+        positive &= (x > 0.0) & (shares > shares.min())
         x[~positive] = 0.0

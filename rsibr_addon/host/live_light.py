@@ -121,8 +121,9 @@ def hidden(item: bpy.types.Object, layer: bpy.types.ViewLayer) -> Iterator[None]
     finally:
         item.hide_set(False, view_layer=layer)
         item.select_set(selected, view_layer=layer)  # what is hidden is not selected
-        for each in {layer, *(window.view_layer for window in bpy.context.window_manager.windows)}:
-            each.update()
+        layer.update()
+        for window in bpy.context.window_manager.windows:
+            window.view_layer.update()
 
 
 def _nearness(space: bpy.types.SpaceView3D) -> int:

@@ -46,6 +46,8 @@ Place = tuple[Any, int]
 """Code, and an offset in it."""
 
 
+ENDING = ("bare", "hidden")
+
 CALLS, READS = sys.monitoring.events.CALL, sys.monitoring.events.INSTRUCTION
 """Where faults are: in calls of Blender, or in reads of attributes, most of which are its properties."""
 
@@ -85,9 +87,9 @@ def fault_at(place: Place | None, where: int = CALLS) -> Iterator[dict[Place, st
 
 @cache
 def reads(code: Any) -> dict[int, str]:
-    """Offset -> attribute, of reads of Blender's data and the like; `bare` cannot but end its state."""
+    """Offset -> attribute, of reads of Blender's data and the like; `ENDING` cannot but end their states."""
     folder = Path(code.co_filename).parent
-    if folder not in (Path(host.__file__).parent, Path(viewport.__file__).parent) or code.co_name == "bare":
+    if folder not in (Path(host.__file__).parent, Path(viewport.__file__).parent) or code.co_name in ENDING:
         return {}
     return {
         each.offset: each.argval

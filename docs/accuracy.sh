@@ -22,4 +22,5 @@ done
 
 python "$ci/accuracy_table.py" {forest,city}-{mirror,copper,plastic,car-paint}
 python "$ci/bench_captures.py" captures
+python "$ci/bench_next_views.py" next-views
 python "$ci/bench_relit.py" relit

@@ -76,19 +76,20 @@ vec2 texture_place(int number)
 // Four texels around a place: centres of the lower left and the upper right one, and the place between them.
 struct Corners {
   vec2 near, far, share;
-  float level;
-  float span;  // texels between neighbours
 };
 
-// The texels next to a place where the image is magnified, else four a texel of its mip apart.
-Corners corners_of(vec2 place, vec2 size)
+// The texels next to a place for a span of 1, else four that are a span apart, the place in their middle.
+Corners corners_of(vec2 place, vec2 size, float span)
 {
-  vec2 right, above;
-  pixel_sides(place, right, above);
-  float span = max(max(length(right * size), length(above * size)), 1.0);
   vec2 texel = place * size - 0.5;
   vec2 low = (span > 1.0) ? texel - 0.5 * span : floor(texel);
-  return Corners((low + 0.5) / size, (low + 0.5 + span) / size, (texel - low) / span, log2(span), span);
+  return Corners((low + 0.5) / size, (low + 0.5 + span) / size, (texel - low) / span);
+}
+
+// How many texels a pixel is wide, 1 at least.
+float texels_across(vec2 right, vec2 above, vec2 size)
+{
+  return max(max(length(right * size), length(above * size)), 1.0);
 }
 
 vec4 times_alpha(vec4 texel)
@@ -100,7 +101,8 @@ vec4 times_alpha(vec4 texel)
 const float COVERED = 1.0;
 const float COVERED_AND_INTERPOLATED = 2.0;
 
-// An image's colour; times alpha before it is interpolated where it is covered, as by Cycles.
+// An image's colour; times alpha before it is interpolated where it is covered, as by Cycles. From two texels a
+// pixel on, these are mips' means.
 vec4 texel_of(sampler2D image, int number)
 {
   vec2 place = texture_place(number);
@@ -109,12 +111,18 @@ vec4 texel_of(sampler2D image, int number)
     vec4 texel = texture(image, place);
     return (degree < COVERED) ? texel : times_alpha(texel);
   }
-  Corners at = corners_of(place, vec2(textureSize(image, 0)));
-  vec4 c00 = times_alpha(textureLod(image, at.near, at.level));
-  vec4 c10 = times_alpha(textureLod(image, vec2(at.far.x, at.near.y), at.level));
-  vec4 c01 = times_alpha(textureLod(image, vec2(at.near.x, at.far.y), at.level));
-  vec4 c11 = times_alpha(textureLod(image, at.far, at.level));
-  return mix(mix(c00, c10, at.share.x), mix(c01, c11, at.share.x), at.share.y);
+  vec2 size = vec2(textureSize(image, 0));
+  vec2 right, above;
+  pixel_sides(place, right, above);
+  float level = log2(texels_across(right, above, size));
+  Corners at = corners_of(place, size, 1.0);
+  vec4 c00 = times_alpha(textureLod(image, at.near, 0.0));
+  vec4 c10 = times_alpha(textureLod(image, vec2(at.far.x, at.near.y), 0.0));
+  vec4 c01 = times_alpha(textureLod(image, vec2(at.near.x, at.far.y), 0.0));
+  vec4 c11 = times_alpha(textureLod(image, at.far, 0.0));
+  vec4 magnified = mix(mix(c00, c10, at.share.x), mix(c01, c11, at.share.x), at.share.y);
+  vec4 mip = times_alpha(textureLod(image, place, max(level, 1.0)));
+  return mix(magnified, mip, min(level, 1.0));
 }
 
 // Adds what a texture gives to the numbers that are affine in its texels.
@@ -174,14 +182,16 @@ vec2 height_rises()
   vec2 size = vec2(textureSize(image_0, 0));
   vec2 right, above;
   pixel_sides(place, right, above);
-  Corners at = corners_of(place, size);
+  float span = texels_across(right, above, size);
+  float level = log2(span);
+  Corners at = corners_of(place, size, span);
   vec4 row = material.height;
-  float h00 = dot(row, textureLod(image_0, at.near, at.level));
-  float h10 = dot(row, textureLod(image_0, vec2(at.far.x, at.near.y), at.level));
-  float h01 = dot(row, textureLod(image_0, vec2(at.near.x, at.far.y), at.level));
-  float h11 = dot(row, textureLod(image_0, at.far, at.level));
+  float h00 = dot(row, textureLod(image_0, at.near, level));
+  float h10 = dot(row, textureLod(image_0, vec2(at.far.x, at.near.y), level));
+  float h01 = dot(row, textureLod(image_0, vec2(at.near.x, at.far.y), level));
+  float h11 = dot(row, textureLod(image_0, at.far, level));
   vec2 slope = vec2(mix(h10 - h00, h11 - h01, at.share.y), mix(h01 - h00, h11 - h10, at.share.x));
-  slope *= size / at.span;
+  slope *= size / span;
   return vec2(dot(slope, right), dot(slope, above));
 }
 

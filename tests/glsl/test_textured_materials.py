@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import bpy
 import gpu
 import numpy as np
 import pytest
@@ -140,6 +141,23 @@ def test_a_picture_is_what_the_reference_says(
     wrong = np.abs(picture[..., :3] - expected).max(axis=-1) > 4e-3 * expected.max()
     # What lies on an edge between texels may be on either side of it
     assert np.count_nonzero(wrong) <= (0.02 * SIZE**2 if closest or extension == "CLIP" else 0)
+
+
+@pytest.mark.parametrize("texels_across", [1.6, 3.3])
+def test_a_covered_image_without_holes_is_as_sharp_as_any(content: GpuPyramid, texels_across: float) -> None:
+    """Tolerance: drivers approximate the logarithm that chooses mips."""
+    image = bpy.data.images.new("Covered", 256, 256, alpha=True)
+    values = np.dstack([texels(6, 256, 256)[..., :3], np.ones((256, 256))])
+    image.pixels.foreach_set(values.astype(np.float32).ravel())
+    scale = texels_across * SIZE / 256.0
+    pictures = []
+    for covered in (False, True):
+        texture = Texture(image.name, mapping=(scale, 0.0, 0.1, 0.0, scale, 0.2), covered=covered)
+        inputs = replace(PLAIN, base_color=Input(CHANNELS, texture), specular_level=constants(0.0))
+        material = DrawnMaterial(inputs, {texture: gpu.texture.from_image(image)})
+        pictures.append(drawn(content, square(), OwnMaterials((material,), antialiased=False)))
+    bpy.data.images.remove(image)
+    assert np.abs(pictures[1] - pictures[0]).max() < 0.03
 
 
 HEIGHT = Texture("height", mapping=(1.3, 0.2, 0.1, -0.3, 0.9, 0.2))

@@ -101,6 +101,9 @@ vec4 times_alpha(vec4 texel)
 const float COVERED = 1.0;
 const float COVERED_AND_INTERPOLATED = 2.0;
 
+// Level of an image itself. It has a name, as pages take a level of 0.0 for a map's, which does not repeat.
+const float ALL_TEXELS = 0.0;
+
 // An image's colour; times alpha before it is interpolated where it is covered, as by Cycles. From two texels a
 // pixel on, these are mips' means.
 vec4 texel_of(sampler2D image, int number)
@@ -116,10 +119,10 @@ vec4 texel_of(sampler2D image, int number)
   pixel_sides(place, right, above);
   float level = log2(texels_across(right, above, size));
   Corners at = corners_of(place, size, 1.0);
-  vec4 c00 = times_alpha(textureLod(image, at.near, 0.0));
-  vec4 c10 = times_alpha(textureLod(image, vec2(at.far.x, at.near.y), 0.0));
-  vec4 c01 = times_alpha(textureLod(image, vec2(at.near.x, at.far.y), 0.0));
-  vec4 c11 = times_alpha(textureLod(image, at.far, 0.0));
+  vec4 c00 = times_alpha(textureLod(image, at.near, ALL_TEXELS));
+  vec4 c10 = times_alpha(textureLod(image, vec2(at.far.x, at.near.y), ALL_TEXELS));
+  vec4 c01 = times_alpha(textureLod(image, vec2(at.near.x, at.far.y), ALL_TEXELS));
+  vec4 c11 = times_alpha(textureLod(image, at.far, ALL_TEXELS));
   vec4 magnified = mix(mix(c00, c10, at.share.x), mix(c01, c11, at.share.x), at.share.y);
   vec4 mip = times_alpha(textureLod(image, place, max(level, 1.0)));
   return mix(magnified, mip, min(level, 1.0));

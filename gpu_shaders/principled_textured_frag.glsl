@@ -104,8 +104,8 @@ const float COVERED_AND_INTERPOLATED = 2.0;
 // Level of an image itself. It has a name, as pages take a level of 0.0 for a map's, which does not repeat.
 const float ALL_TEXELS = 0.0;
 
-// An image's colour; times alpha before it is interpolated where it is covered, as by Cycles. From two texels a
-// pixel on, these are mips' means.
+// An image's colour; times alpha before it is interpolated where it is covered, as by Cycles. From two texels
+// a pixel on, these are mips' means.
 vec4 texel_of(sampler2D image, int number)
 {
   vec2 place = texture_place(number);

@@ -58,10 +58,10 @@ def guarded(work: Callable[[], int], argv: Sequence[str]) -> int:
             _work(work, writer)
         code = _watch(child, asking)
     os.close(writer)
-    if code < 0:
+    number = -code if code < 0 else code - 128
+    if code < 0 or number in endings.SIGNALS:
         for folder in _output_folders(argv):
             clear_strays(folder)
-    number = -code if code < 0 else code - 128
     if number in endings.SIGNALS:
         endings.tell(endings.interrupted(argv), argv, 1, 2)
         return 128 + number
@@ -135,7 +135,7 @@ def _watch(child: int, asking: set[signal.Signals]) -> int:
 
 
 def _output_folders(argv: Sequence[str]) -> list[Path]:
-    """Where a killed command may have left what it was about to write."""
+    """Where a command that was ended may have left what it was about to write."""
     apart = [text for word, text in pairwise(argv) if word in ("-o", "--output")]
     joined = [word.removeprefix("--output=") for word in argv if word.startswith("--output=")]
     return [Path(text).parent for text in (*apart, *joined)]

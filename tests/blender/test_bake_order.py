@@ -134,9 +134,9 @@ def test_equal_bakes_have_one_file_and_others_another(tmp_path: Path) -> None:
 
 
 def panel_labels() -> str:
-    """What the panel tells of the light, its lines in one."""
+    """What the panel tells of the light, in a region that is wide enough for a line of it."""
     layout = MagicMock()
-    context = SimpleNamespace(scene=bpy.context.scene, object=None, region=SimpleNamespace(width=500))
+    context = SimpleNamespace(scene=bpy.context.scene, object=None, region=SimpleNamespace(width=5000))
     draw_light(layout, context)
     return " ".join(call.kwargs["text"] for call in layout.column.return_value.label.call_args_list)
 

@@ -165,3 +165,22 @@ def test_a_killed_command_leaves_no_staging_folder(output: list[str], tmp_path: 
     assert killed.returncode == 75
     assert killed.stdout.startswith(".rsibr-")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_command_that_is_ended_amid_a_step_leaves_no_empty_work_folder(tmp_path: Path) -> None:
+    script = (
+        "import os, signal, sys, time\n"
+        "from pathlib import Path\n"
+        "from rsibr.rsibr_addon.command_line.endings import orderly\n"
+        "from rsibr.rsibr_addon.command_line.guard import guarded\n"
+        "from rsibr.rsibr_addon.files.work_folder import held_work_folder\n"
+        "def work():\n"
+        "    with orderly(), held_work_folder(Path('a.exr.partial')):\n"
+        "        os.kill(os.getpid(), signal.SIGTERM)\n"
+        "        time.sleep(60)\n"
+        "sys.exit(guarded(work, sys.argv[1:]))\n"
+    )
+    command = [sys.executable, "-c", script, "bake", "-o", "a.exr"]
+    ended = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert ended.returncode == 128 + signal.SIGTERM, ended.stderr
+    assert list(tmp_path.iterdir()) == []

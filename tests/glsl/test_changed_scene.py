@@ -17,8 +17,10 @@ from rsibr.rsibr_addon.tasks.viewport import displays
 from rsibr.rsibr_addon.tasks.viewport.displays import Displays
 from rsibr.rsibr_addon.tasks.viewport.previews import Previews
 from rsibr.tests.faults.small_map_sets import map_sets
+from rsibr.tests.glsl.frames import frame_of
 
 SIZE = 16
+TO_EYE = Matrix.Rotation(0.5, 4, "X") @ Matrix.Rotation(0.5, 4, "Y")
 
 
 def cube() -> bpy.types.Object:
@@ -84,17 +86,7 @@ def seen(view: View, previews: Previews) -> Array:
     """A frame, shape (SIZE, SIZE, 4)."""
     bpy.context.view_layer.update()
     target = gpu.types.GPUOffScreen(SIZE, SIZE, format="RGBA32F")
-    with target.bind(), gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
-        framebuffer = gpu.state.active_framebuffer_get()
-        framebuffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
-        gpu.matrix.load_matrix(Matrix.Rotation(0.5, 4, "X") @ Matrix.Rotation(0.5, 4, "Y"))
-        gpu.matrix.load_projection_matrix(Matrix.Diagonal((0.5, 0.5, -0.02, 1.0)))
-        if not previews.draw(view):
-            previews.add_display(view.scene)
-            previews.draw(view)
-        read = framebuffer.read_color(0, 0, SIZE, SIZE, 4, 0, "FLOAT")
-    assert previews.faults.trouble is None
-    return np.array(read.to_list())
+    return frame_of(previews, view, target, TO_EYE)
 
 
 @pytest.mark.parametrize("change", [slide, brighten, turn, expose, transform, bend])

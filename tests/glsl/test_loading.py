@@ -20,6 +20,7 @@ from rsibr.rsibr_addon.tasks.methods.live_materials import LiveFits
 from rsibr.rsibr_addon.tasks.viewport import map_sets as viewport_map_sets
 from rsibr.rsibr_addon.tasks.viewport.previews import Previews
 from rsibr.tests.faults.small_map_sets import map_sets
+from rsibr.tests.glsl.frames import frame_of
 
 SIZE = 32
 KINDS = ("radiance_views", "lobe_stack", "reflection_tables", "mip_chain")
@@ -80,22 +81,7 @@ def previews(disk: SlowDisk) -> Previews:
 def draw(view: View) -> Draw:
     """Draw a frame of the cube, and read it, shape (SIZE, SIZE, 4)."""
     target = gpu.types.GPUOffScreen(SIZE, SIZE, format="RGBA32F")
-
-    def frame(previews: Previews) -> np.ndarray:
-        with target.bind(), gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
-            framebuffer = gpu.state.active_framebuffer_get()
-            framebuffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
-            gpu.matrix.load_matrix(Matrix.Identity(4))
-            gpu.matrix.load_projection_matrix(Matrix.Diagonal((0.5, 0.5, -0.02, 1.0)))
-            with previews.faults.guarded():
-                if not previews.draw(view):
-                    previews.add_display(view.scene)
-                    previews.draw(view)
-            read = framebuffer.read_color(0, 0, SIZE, SIZE, 4, 0, "FLOAT")
-        assert previews.faults.trouble is None
-        return np.array(read.to_list())
-
-    return frame
+    return lambda previews: frame_of(previews, view, target, Matrix.Identity(4))
 
 
 @pytest.fixture

@@ -32,6 +32,7 @@ class Tridiagonal:
         return Tridiagonal(self.diagonal.sum(axis=0), self.above.sum(axis=0))
 
     def __mul__(self, factor: float) -> "Tridiagonal":
+        """The matrix times a number."""
         return Tridiagonal(factor * self.diagonal, factor * self.above)
 
     def trace(self) -> Array:

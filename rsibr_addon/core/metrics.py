@@ -72,10 +72,7 @@ def relative_rmse_beyond_noise(
 
 def _check_power(power: float, weight: Array) -> None:
     if not np.any(weight):
-        raise RangeError(
-            "The views show nothing of the mesh, as of a flat one from its edge: give a larger size or more "
-            "views."
-        )
+        raise RangeError("No pixel counts, since all weights are 0: give pictures that show something.")
     if not power > 0.0:
         raise RangeError("A reference that is black all over has no relative error: light the scene.")
 

@@ -9,7 +9,7 @@ from typing import Annotated, Any, Protocol, TypedDict
 import numpy as np
 
 from ...core.conventions import Array
-from ...core.errors import SchemaError
+from ...core.errors import RangeError, SchemaError
 from ...core.geometry.camera import Camera
 from ...core.geometry.directions import normalize
 from ...core.schema import Rule, between, decode, length
@@ -86,8 +86,13 @@ def way_error(way: Way, measure: Callable[..., float], *pictures: Array) -> WayE
     Raises
     ------
     RangeError
-        Nothing counts in any view: see `measure`.
+        Nothing counts in any view, or `measure` raises it.
     """
+    if not np.any(pictures[-1]):
+        raise RangeError(
+            "The views show nothing of the mesh, as of a flat one from its edge: give a larger size or more "
+            "views."
+        )
     views = zip(*pictures, strict=True)
     per_view = tuple(measure(*each) if np.any(each[-1]) else 0.0 for each in views)
     return WayError(way, per_view, pooled=measure(*pictures))

@@ -9,6 +9,7 @@ root-mean-square errors over the picture.
 import argparse
 import warnings
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -205,6 +206,7 @@ class Place:
 
     def __init__(self, environment: Environment, families: Families) -> None:
         self._environment, self._families = environment, families
+        self._name = Path(environment.name).stem
         self._pyramid = drain(bake_pyramid(environment.radiance, KernelPyramidSettings().size)).pyramid
         self._split = SplitSum(environment.radiance, families)
 
@@ -222,7 +224,7 @@ class Place:
             surface = uniform({**CLOTH, "sheen_roughness": roughness}, len(normal))
             truth = by_cycles(self._environment, surface, normal, samples)
             name = f"cloth, sheen of roughness {roughness:g}"
-            yield f"| {name} | {self._environment.name} | Cycles | {self._own(surface, normal, truth)[1]} | |"
+            yield f"| {name} | {self._name} | Cycles | {self._own(surface, normal, truth)[1]} | |"
 
     def _own(self, surface: Surface, normal: Array, truth: list[Array]) -> tuple[float, str]:
         """Our error, and its words."""
@@ -234,7 +236,7 @@ class Place:
         ours, own = self._own(surface, normal, truth)
         theirs = error(self._split.shaded(surface, *_seen(normal)), truth)
         ratio = f" ({theirs / ours:.1f}x)" if ours > 0.0 else ""
-        return f"| {name} | {self._environment.name} | {against} | {own} | {_in_words(theirs)}{ratio} |"
+        return f"| {name} | {self._name} | {against} | {own} | {_in_words(theirs)}{ratio} |"
 
 
 def _seen(normal: Array) -> tuple[Array, Array]:

@@ -3,11 +3,12 @@
 import bpy
 
 from ..rsibr_addon.files.baked_inputs import is_whole
+from ..rsibr_addon.files.map_set import is_whole_map_set
 from ..rsibr_addon.host.bake_settings import assign
 from ..rsibr_addon.host.sidebars import redraw_sidebars, redraw_viewports
 from ..rsibr_addon.session.running import session
 from ..rsibr_addon.tasks.queue.background import State
-from ..rsibr_addon.tasks.queue.bake_request import ObjectBake, is_baked
+from ..rsibr_addon.tasks.queue.bake_request import ObjectBake
 from ..rsibr_addon.tasks.queue.input_bakes import InputBake
 from ..rsibr_addon.tasks.queue.world_bakes import WorldBake
 
@@ -61,7 +62,7 @@ def _look() -> float | None:
 
 def _count_as_done_if_another_made_it(bake: ObjectBake) -> None:
     """Count a bake as done whose file another Blender wrote while it was at work."""
-    is_there = is_whole if isinstance(bake, InputBake) else is_baked
+    is_there = is_whole if isinstance(bake, InputBake) else is_whole_map_set
     if bake.state is State.FAILED and bake.output.suffix != ".html" and is_there(bake.output):
         bake.state, bake.message = State.DONE, ""
 

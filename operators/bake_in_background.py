@@ -6,13 +6,13 @@ import bpy
 
 from ..rsibr_addon.core.errors import RsibrError
 from ..rsibr_addon.core.warned import warn
+from ..rsibr_addon.files.map_set import is_whole_map_set
 from ..rsibr_addon.host.bake_settings import SHAPED, assign
 from ..rsibr_addon.session.running import session
 from ..rsibr_addon.tasks.queue.background import Farm
 from ..rsibr_addon.tasks.queue.bake_request import (
     BakeRequest,
     bake_of,
-    is_baked,
     output_for,
     plain_name,
     request_for,
@@ -126,7 +126,7 @@ def queue_bake(
         unfinished.items += [number for number in numbers if number not in unfinished.items]
         unfinished.by_itself &= by_itself
         return f"Being baked already: {plain_name(output)}"
-    if is_baked(output) and content in ("", map_set_content(output)):
+    if is_whole_map_set(output) and content in ("", map_set_content(output)):
         assign(numbers, output, request.shown)
         return f"Baked before: {plain_name(output)}"
     bake = bake_of(request, scene, items, output, farm)

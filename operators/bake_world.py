@@ -2,8 +2,8 @@
 
 import bpy
 
+from ..rsibr_addon.files.map_set import is_whole_map_set
 from ..rsibr_addon.session.running import session
-from ..rsibr_addon.tasks.queue.bake_request import is_baked
 from ..rsibr_addon.tasks.queue.world_bakes import world_bake_of, world_file
 from . import background
 from .at_once import AtOnce
@@ -18,5 +18,5 @@ class RSIBR_OT_bake_world(AtOnce, bpy.types.Operator):
     def work(self, context: bpy.types.Context) -> None:
         """Queue the bake, unless it is there or on its way."""
         output = world_file(context.scene)
-        if not is_baked(output) and session().bakes.unfinished(output) is None:
+        if not is_whole_map_set(output) and session().bakes.unfinished(output) is None:
             background.submit(world_bake_of(context.scene))

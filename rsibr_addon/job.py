@@ -1,13 +1,14 @@
 """Jobs: one description of the work for panels, the command line and farms."""
 
 import json
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Generic, Literal, TypeVar
 
 from .core.errors import InputFileError, RangeError, SchemaError
 from .core.options import to_plain
 from .core.schema import decode, loads
 from .files.kinds.registry import STORED
+from .files.output_paths import portable_name
 from .settings.baked_inputs import ObjectInputsSettings
 from .settings.light import Light
 from .settings.method import MethodSettings
@@ -19,6 +20,9 @@ FORMAT, ARGUMENTS_FORMAT = 2, 1
 
 COMMANDS = ("capture", "bake", "tables", "mips", "bank", "illuminate", "inputs", "assets", "compare")
 """Commands that a job of arguments may give."""
+
+OBJECT = "{object}"
+"""What stands for an object's name in the output of a job of baked inputs."""
 
 
 @dataclass(frozen=True)
@@ -99,6 +103,12 @@ class _BakeFile:
     output: str
     light: dict[str, Any] = field(default_factory=dict)
     force: bool = False
+
+
+def job_of_object(job: BakeJob[ObjectInputsSettings], name: str) -> BakeJob[ObjectInputsSettings]:
+    """The job of one object, whose name replaces `OBJECT` in the output."""
+    output = job.output.replace(OBJECT, portable_name(name))
+    return replace(job, output=output, settings=replace(job.settings, object=name))
 
 
 def read_job(text: str, name: str) -> BakeJob[Any] | CommandJob:

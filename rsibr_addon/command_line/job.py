@@ -9,7 +9,8 @@ from typing import Any
 
 from ..core.errors import InputFileError
 from ..files.reading import opened
-from ..job import BakeJob, read_job
+from ..job import BakeJob, job_of_object, read_job
+from ..settings.baked_inputs import ObjectInputsSettings
 from .bake import run_job
 from .console import Console
 from .parser import UsageError
@@ -40,12 +41,18 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """
     job = read_job(_text(arguments.job), str(arguments.job))
     if isinstance(job, BakeJob):
-        return run_job(job, console)
+        return run_job(_of_its_object(job), console)
     asked = _parsed(job.arguments, arguments.job)
     if hasattr(asked, "if_missing"):
         asked.if_missing = not asked.force
     result: dict[str, Any] = asked.run(asked, console)
     return result
+
+
+def _of_its_object(job: BakeJob[Any]) -> BakeJob[Any]:
+    """The job as it is, or under the name of the object whose inputs it bakes."""
+    is_of_object = job.settings.KIND == ObjectInputsSettings.KIND
+    return job_of_object(job, job.settings.object) if is_of_object else job
 
 
 def _text(path: Path) -> str:

@@ -80,6 +80,6 @@ class Parser(argparse.ArgumentParser):
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         if action.choices is not None and value not in action.choices:
             known = ", ".join(map(str, action.choices))
-            raise argparse.ArgumentError(
-                action, f"there is no {value}{did_you_mean(value, action.choices)}: choose one of {known}"
-            )
+            unknown = f"there is no {value}{did_you_mean(value, action.choices)}"
+            reason = unknown if str(value).strip() else "it is empty"
+            raise argparse.ArgumentError(action, f"{reason}: choose one of {known}")

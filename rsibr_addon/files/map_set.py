@@ -26,6 +26,7 @@ from .atomic import check_target, written_aside
 from .exr import MAGIC, OpenExr
 from .exr_in_turn import PartsInTurn
 from .exr_part import Part
+from .kinds.registry import STORED
 from .map_set_check import check_header
 from .map_set_data import MapSet, MapsInTurn
 from .map_set_header import FORMAT
@@ -185,6 +186,16 @@ def read_map_set_header(path: str | Path) -> dict[str, Any]:
     """
     with _opened_exr(path) as file:
         return _checked_header(path, file)
+
+
+def is_whole_map_set(path: str | Path) -> bool:
+    """Whether a file is there, and a map set that is whole and of maps that its kind takes."""
+    try:
+        held = read_map_set(path)
+        STORED[held.kind].from_map_set(Path(path), held)
+    except MapSetError:
+        return False
+    return True
 
 
 def _checked_header(path: str | Path, file: OpenExr) -> dict[str, Any]:

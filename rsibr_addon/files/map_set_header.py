@@ -183,6 +183,8 @@ class StoredKind:
     lobes : callable
         From a file's path, for messages, and its description to the lobes of its maps; None where it does not
         state them.
+    from_map_set : callable
+        A file's path, for messages, and a `MapSet` to what it holds, its content: see `files.kinds`.
     shading : callable
         A file's path, for messages, and what it holds to how it is shaded where its look is the default one.
     """
@@ -199,6 +201,7 @@ class StoredKind:
     part_title: Callable[[dict[str, Any]], str] = role_in_words
     textures: Callable[[Path, MapSet, Up], list[Texture]] | None = None
     lobes: Callable[[Path, dict[str, Any]], Fit | None] = lambda path, header: None
+    from_map_set: Callable[[Path, MapSet], Any] = field(kw_only=True)
     shading: Callable[[Path, MapSet], Shading] = field(kw_only=True)
 
 

@@ -12,13 +12,13 @@ from ..core.errors import RsibrError
 from ..core.progress import drain
 from ..core.warned import is_recorded, recorded_warnings, warn
 from ..device.context import ensure_context, has_driver
+from ..files.map_set import is_whole_map_set
 from ..host.handlers import add_handlers
 from ..host.option_properties import options_of
 from ..host.render_views import camera_view, left_out
 from ..host.visible_surfaces import RENDER_ENGINE, current_view
 from ..session.running import session
 from ..settings.render import RenderOptions
-from ..tasks.queue.bake_request import is_baked
 from ..tasks.queue.world_bakes import WorldBake, world_bake_of, world_file
 from ..tasks.render.missing_bakes import bake_for_render
 from ..tasks.render.picture import CHANNELS, COMBINED, DEPTH, EMISSION, NORMAL, Picture
@@ -60,7 +60,7 @@ class RSIBR_RE_previews(bpy.types.RenderEngine):
         if not bpy.app.background:
             session().renders.show_as(session().previews)
         with self._telling():
-            if scene.world and not bpy.app.background and not is_baked(world_file(scene)):
+            if scene.world and not bpy.app.background and not is_whole_map_set(world_file(scene)):
                 self._bake = world_bake_of(scene)
 
     def render(self, depsgraph: bpy.types.Depsgraph) -> None:
@@ -112,7 +112,7 @@ class RSIBR_RE_previews(bpy.types.RenderEngine):
         finally:
             bake.cancel()
             bake.tidy()
-        if is_baked(bake.output):  # perhaps by another Blender
+        if is_whole_map_set(bake.output):  # perhaps by another Blender
             return True
         self.report({"ERROR"}, bake.message)
         return False

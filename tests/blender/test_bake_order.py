@@ -11,14 +11,13 @@ import pytest
 from rsibr.rsibr_addon.core.errors import InputFileError, OutputFileError, RsibrError, SceneError
 from rsibr.rsibr_addon.files.exr import write_parts
 from rsibr.rsibr_addon.files.exr_part import Part
-from rsibr.rsibr_addon.files.map_set import read_map_set, write_map_set
+from rsibr.rsibr_addon.files.map_set import is_whole_map_set, read_map_set, write_map_set
 from rsibr.rsibr_addon.files.staging import is_staging_folder
 from rsibr.rsibr_addon.host.bake_settings import apply_settings, plain_settings
 from rsibr.rsibr_addon.job import read_job
 from rsibr.rsibr_addon.tasks.light.light_pictures import NO_RADIANCE, light_remarks
 from rsibr.rsibr_addon.tasks.queue.bake_request import (
     bake_of,
-    is_baked,
     plain_name,
     request_for,
 )
@@ -39,7 +38,7 @@ def test_the_panel_names_a_map_set_without_its_hash() -> None:
     assert plain_name(Path("/art/paint.rsibr.exr")) == "paint.rsibr.exr"
 
 
-def test_what_a_map_set_will_lack_is_told_before_it_is_baked() -> None:
+def test_what_a_map_set_will_lack_is_told_before_it_is_whole_map_set() -> None:
     bpy.context.scene.rsibr_bake.kind = "radiance_views"
     assert order().remarks == ()
     tree = bpy.context.object.active_material.node_tree
@@ -247,7 +246,7 @@ def test_what_was_baked_before_is_taken_at_once(tmp_path: Path) -> None:
     cube.rsibr.map_set = ""
     whole = path.read_bytes()
     path.write_bytes(whole[:-9] + bytes(9))
-    assert not is_baked(path)
+    assert not is_whole_map_set(path)
     with pytest.raises(RuntimeError, match="There is no Blender to bake in"):
         bpy.ops.rsibr.bake()
     assert cube.rsibr.map_set == ""
@@ -267,7 +266,7 @@ def test_what_cannot_be_shown_is_baked_again(tmp_path: Path, kind: str, least: d
         setattr(getattr(chosen, kind), name, value)
     path = output()
     assert run_job(order().job(path), tmp_path) == 0
-    assert is_baked(path)
+    assert is_whole_map_set(path)
     written = path.read_bytes()
     # As a version wrote it that had no such maps, under the same name
     held = read_map_set(path)
@@ -276,7 +275,7 @@ def test_what_cannot_be_shown_is_baked_again(tmp_path: Path, kind: str, least: d
     assert len(maps) < len(held.maps)
     write_map_set(path, replace(held, maps=maps), force=True)
     assert path == output()
-    assert not is_baked(path)
+    assert not is_whole_map_set(path)
     assert run_job(order().job(path), tmp_path) == 0
     assert path.read_bytes() == written
 

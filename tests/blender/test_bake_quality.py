@@ -7,12 +7,11 @@ import bpy
 import pytest
 from rsibr.rsibr_addon.core.options import declared_options, quality_values
 from rsibr.rsibr_addon.files.kinds.registry import STORED
-from rsibr.rsibr_addon.files.map_set import read_map_set_header
+from rsibr.rsibr_addon.files.map_set import is_whole_map_set, read_map_set_header
 from rsibr.rsibr_addon.files.output_paths import HASH_LETTERS
 from rsibr.rsibr_addon.host.option_properties import property_name, shown_value
 from rsibr.rsibr_addon.job import read_job
 from rsibr.rsibr_addon.tasks.methods.recipe import recipe_hash
-from rsibr.rsibr_addon.tasks.queue.bake_request import is_baked
 from rsibr.tests.bake_jobs import run_job
 from rsibr.tests.blender.bake_orders import order, output
 
@@ -76,7 +75,7 @@ def test_the_file_is_as_large_as_was_said(tmp_path: Path) -> None:
         assert run_job(order().job(path), tmp_path) == 0
         # Said for any light; how well a picture is compressed depends on it
         assert 0.4 < path.stat().st_size / order().cost.disk < 1.6
-        assert is_baked(path)
+        assert is_whole_map_set(path)
         # A job given by hand is known by what the panel names its files after
         assert f"-{recipe_hash(read_map_set_header(path)['recipe'])[:HASH_LETTERS]}.rsibr.exr" in path.name
 

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.files.map_set import read_map_set
-from rsibr.rsibr_addon.job import CommandJob
+from rsibr.rsibr_addon.job import BakeJob, CommandJob
+from rsibr.rsibr_addon.settings.baked_inputs import ObjectInputsSettings
 
 
 @pytest.fixture(autouse=True)
@@ -47,6 +48,21 @@ def test_without_an_environment_it_is_the_world(command: tuple[str, ...]) -> Non
     # The world is sampled into single precision, and nothing but that
     name = next(part["name"] for part in map_set.header["parts"])
     np.testing.assert_allclose(map_set.maps[name][0, 0, 2] / map_set.maps[name][0, 0, 0], 3.0, rtol=1e-5)
+
+
+def test_the_output_of_a_job_of_an_object_may_have_its_name(capfd: pytest.CaptureFixture[str]) -> None:
+    item = bpy.context.object
+    item.name = "Cup: old"
+    tree = item.active_material.node_tree
+    noise = tree.nodes.new("ShaderNodeTexNoise").outputs["Color"]
+    tree.links.new(noise, tree.nodes["Principled BSDF"].inputs["Base Color"])
+    settings = ObjectInputsSettings(object=item.name, size=256, samples=1)
+    Path("job.json").write_text(BakeJob(settings, "textures-{object}.exr").to_json())
+    for found in (None, True):
+        assert run(["bake", "job.json", "--json"]) == 0
+        result = json.loads(capfd.readouterr().out)
+        assert (result["baked_inputs"], result.get("found")) == ("textures-Cup-old.exr", found)
+    assert Path("textures-Cup-old.exr").exists()
 
 
 def test_the_world_that_blender_starts_with_is_warned_of(

@@ -40,6 +40,21 @@ def test_an_empty_word_is_refused(
     assert f"argument {name}: it is empty: give a value, or leave it out" in capfd.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("",), "COMMAND: it is empty: choose one of bake, "),
+        (("bake", " "), "KIND: it is empty: choose one of kernel-pyramid, "),
+        (("backe",), "COMMAND: there is no backe (did you mean bake?): choose one of bake, "),
+    ],
+)
+def test_a_name_that_is_none_of_the_known_is_told(
+    words: tuple[str, ...], told: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert run(list(words)) == 2
+    assert told in capfd.readouterr().err
+
+
 def test_all_commands_are_listed_and_all_kinds(capfd: pytest.CaptureFixture[str]) -> None:
     assert run(["--help"]) == run(["bake", "--help"]) == 0
     out = capfd.readouterr().out

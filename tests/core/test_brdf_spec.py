@@ -136,6 +136,8 @@ def test_any_model_survives_its_text(brdf: Brdf) -> None:
         ("ward:alpha", 'ward: "alpha" is not of the form key=value.'),
         ("ward:alpha=,ks=1", 'ward: "alpha=" is not of the form key=value.'),
         ("ward:alpha=0.1,,ks=1", 'ward: "" is not of the form key=value.'),
+        ("ward:alpha=2", "ward: alpha is 2, but it must be greater than 0 and at most 1."),
+        ("ggx:alpha=7", "ggx: alpha is 7, but it must be greater than 0 and at most 1."),
         ("ggx:alpha=0.1", "ggx: its reflectance must be one of metal=NAME, eta and k"),
         ("ggx:alpha=0.1,metal=tin", 'ggx: metal is "tin", but it must be one of aluminium, chromium, copper'),
         ("ggx:alpha=0.1,metal=gold,f0=1", "ggx: its reflectance must be one of"),

@@ -124,6 +124,23 @@ def test_files_that_tell_no_settings_are_not_taken_for_any() -> None:
         drain(bake(job_of()))
 
 
+@pytest.mark.parametrize("damage", ["pixels", "a missing map"])
+def test_a_file_that_nobody_could_use_is_not_kept_for_its_recipe(damage: str) -> None:
+    drain(bake(job_of()))
+    if damage == "pixels":
+        whole = OUTPUT.read_bytes()
+        OUTPUT.write_bytes(whole[:-9] + bytes(9))
+    else:
+        held = read_map_set(OUTPUT)
+        held.header["parts"] = [part for part in held.header["parts"] if part["role"] != "harmonics"]
+        maps = {part["name"]: held.maps[part["name"]] for part in held.header["parts"]}
+        write_map_set(OUTPUT, replace(held, maps=maps), force=True)
+    with pytest.raises(OutputFileError, match="exists, but is no whole map set: give another name"):
+        drain(bake(job_of()))
+    drain(bake(replace(job_of(), force=True, if_missing=False)))
+    assert drain(bake(job_of())).figures == {"found": True}
+
+
 def test_a_command_keeps_what_is_there_only_if_asked(capfd: pytest.CaptureFixture[str]) -> None:
     command = ["bake", "mip-chain", "--environment", "light.exr", "--size", "8", "-o", str(OUTPUT)]
     assert run([*command, "--if-missing"]) == 0

@@ -11,6 +11,7 @@ Told = Callable[[str], dict]
 
 OTHER = """
 bake_order = importlib.import_module(ROOT + ".rsibr_addon.tasks.queue.bake_request")
+map_sets = importlib.import_module(ROOT + ".rsibr_addon.files.map_set")
 
 def another_blender(cube):
     # A bake of the same that is in another Blender's queue
@@ -58,7 +59,7 @@ def scenario(told):
     other = yield from ended(others)
     told["ours"], told["other's"] = told_of(session().bakes.bakes[0]), told_of(other)
     told["output"], told["assigned"] = str(other.output), os.path.basename(cube.rsibr.map_set)
-    told["whole"] = bake_order.is_baked(other.output)
+    told["whole"] = map_sets.is_whole_map_set(other.output)
     told["files"] = os.listdir(other.output.parent)
 """
 

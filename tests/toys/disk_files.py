@@ -59,5 +59,6 @@ STORED = StoredKind(
     {"colour": _Colour},
     facts=_facts,
     part_title=_part_title,
+    from_map_set=from_map_set,
     shading=_shading,
 )

@@ -10,7 +10,7 @@ from rsibr.rsibr_addon.tasks.methods.kind import Kind
 from rsibr.rsibr_addon.tasks.methods.method import Baked, Cost, Method, read_light, written
 from rsibr.tests.toys.disk_core import Disk
 from rsibr.tests.toys.disk_device import GpuDisk
-from rsibr.tests.toys.disk_files import from_map_set, to_map_set
+from rsibr.tests.toys.disk_files import to_map_set
 from rsibr.tests.toys.disk_settings import DiskSettings
 from rsibr.tests.toys.disk_truth import TRUTH
 
@@ -31,4 +31,4 @@ def cost(settings: DiskSettings) -> Cost:
 
 
 METHOD = Method(bake, cost)
-KIND = Kind(from_map_set, GpuDisk, TRUTH)
+KIND = Kind(GpuDisk, TRUTH)

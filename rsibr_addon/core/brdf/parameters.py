@@ -50,22 +50,34 @@ def parameter_ranges(owner: type) -> dict[str, tuple[Range, bool]]:
     return {name: (limits, kind is Color) for name, (kind, limits) in annotated.items()}
 
 
+def check_numbers(name: str, given: Any, limits: Range) -> list[float]:
+    """The numbers of a parameter, or the one that it has.
+
+    Raises
+    ------
+    RangeError
+        One is NaN or lies outside the range; the sentence names the parameter and the range.
+    """
+    numbers = [float(number) for number in np.ravel(given)]
+    for number in numbers:
+        if number not in limits:
+            raise RangeError(f"{name} is {number:g}, but it must be {limits}.")
+    return numbers
+
+
 class Checked:
     """Base of dataclasses whose annotated numbers are checked, and kept as float or three floats.
 
     Raises
     ------
     RangeError
-        A number is NaN or lies outside its range; the sentence names it and the range.
+        See `check_numbers`.
     """
 
     def __post_init__(self) -> None:
         owner: type = type(self)
         for name, (limits, is_color) in parameter_ranges(owner).items():
             given: Any = getattr(self, name)
-            numbers = [float(number) for number in np.ravel(given)]
-            for number in numbers:
-                if number not in limits:
-                    raise RangeError(f"{name} is {number:g}, but it must be {limits}.")
+            numbers = check_numbers(name, given, limits)
             value = tuple(np.broadcast_to(numbers, 3).tolist()) if is_color else float(given)
             object.__setattr__(self, name, value)

@@ -33,7 +33,7 @@ from .measured_material import MeasuredMaterial
 from .measured_rgl import MeasuredRgl
 from .metals import METALS
 from .model import Brdf
-from .parameters import Color, parameter_ranges
+from .parameters import Color, check_numbers, parameter_ranges
 from .phong import Phong
 from .principled import Principled
 from .retroreflective import Retroreflective
@@ -255,12 +255,11 @@ def _number(owner: type, key: str, text: str) -> Color:
         numbers = [float(part) for part in text.split("/")]
     except ValueError:
         numbers = []
-    _, is_color = parameter_ranges(owner)[key]
-    if is_color and len(numbers) == 3:
-        return numbers[0], numbers[1], numbers[2]
-    if len(numbers) != 1:
+    limits, is_color = parameter_ranges(owner)[key]
+    if len(numbers) != 1 and not (is_color and len(numbers) == 3):
         raise RangeError(f'{key} is "{text}", but it must be {_taken(owner, key, Color)}.')
-    return numbers[0]
+    check_numbers(key, numbers, limits)  # before another key is said to be missing
+    return numbers[0] if len(numbers) == 1 else (numbers[0], numbers[1], numbers[2])
 
 
 def _taken(owner: type, key: str, kind: object) -> str:

@@ -105,5 +105,6 @@ STORED = StoredKind(
     roles={"prefiltered": _Kernel},
     facts=_facts,
     part_title=_part_title,
+    from_map_set=from_map_set,
     shading=_shading,
 )

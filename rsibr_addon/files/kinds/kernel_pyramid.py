@@ -152,5 +152,6 @@ STORED = StoredKind(
     roles={KERNEL: _Kernel, LAMBERT: _Filtered, LEANING: _Filtered, RING: _Ring},
     facts=_facts,
     part_title=_part_title,
+    from_map_set=from_map_set,
     shading=_shading,
 )

@@ -287,5 +287,6 @@ STORED = StoredKind(
     facts=_facts,
     part_title=_part_title,
     lobes=fit_of,
+    from_map_set=from_map_set,
     shading=_shading,
 )

@@ -180,5 +180,6 @@ STORED = StoredKind(
     facts=_facts,
     part_title=_part_title,
     textures=_textures,
+    from_map_set=from_map_set,
     shading=_shading,
 )

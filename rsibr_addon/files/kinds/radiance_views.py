@@ -116,5 +116,6 @@ STORED = StoredKind(
     problems=_problems,
     facts=_facts,
     part_title=_part_title,
+    from_map_set=from_map_set,
     shading=_shading,
 )

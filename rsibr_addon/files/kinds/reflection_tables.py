@@ -92,5 +92,6 @@ STORED = StoredKind(
     roles={WEIGHTS: _Weights, Role.REFRACTION: _Refraction},
     numbers=(WEIGHTS,),
     painted=tuple(Role),
+    from_map_set=from_map_set,
     shading=_shading,
 )

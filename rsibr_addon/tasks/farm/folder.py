@@ -21,7 +21,7 @@ from ...files.output_paths import HASH_LETTERS, portable_name
 from ...files.outputs import make_folder
 from ...files.pictures import split_layer
 from ...files.reading import opened
-from ...job import BakeJob, read_job
+from ...job import OBJECT, BakeJob, job_of_object, read_job
 from ...settings.baked_inputs import ObjectInputsSettings
 from ..batch.bake_list import HERE, bake_list_text
 from ..batch.bakes import BatchBake, Opened
@@ -34,9 +34,6 @@ from ..methods.recipe import recipe_hash, with_files_named
 
 INPUTS, MAPS = "inputs", "maps"
 """Folders within the farm's folder."""
-
-OBJECT = "{object}"
-"""What stands for an object's name in the output of a job whose object is a pattern."""
 
 
 def bakes_to_send(path: Path) -> tuple[str, Path, list[BatchBake]]:
@@ -321,13 +318,13 @@ def _jobs_of(job: BakeJob[Any]) -> list[BakeJob[Any]]:
         names = objects_to_bake(job.settings.object)
     jobs: dict[str, BakeJob[Any]] = {}
     for name in names:
-        output = job.output.replace(OBJECT, portable_name(name))
-        if output in jobs:
+        named = job_of_object(job, name)
+        if named.output in jobs:
             raise InputFileError(
-                f"{output} is the output of {jobs[output].settings.object} and of {name}: tell objects "
-                f"apart by {OBJECT} in it."
+                f"{named.output} is the output of {jobs[named.output].settings.object} and of {name}: tell "
+                f"objects apart by {OBJECT} in it."
             )
-        jobs[output] = replace(job, output=output, settings=replace(job.settings, object=name))
+        jobs[named.output] = named
     return list(jobs.values())
 
 

@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 from filecmp import cmp
 from pathlib import Path
 
-from ...core.errors import FarmError, MapSetError, NotNowError, OutputFileError
+from ...core.errors import FarmError, NotNowError, OutputFileError
 from ...core.progress import Progress, Steps
 from ...core.warned import warn
 from ...files.atomic import written_aside
-from ...files.map_set import read_map_set, read_map_set_header
+from ...files.map_set import is_whole_map_set, read_map_set_header
 from ...files.outputs import made_folders, make_folder
 from ...settings.baked_inputs import ObjectInputsSettings
 from ..batch.bakes import BatchBake, parts_of
@@ -245,13 +245,7 @@ def _copy(path: Path, target: Path, force: bool) -> None:
 
 def _is_damaged(there: Path) -> bool:
     """Whether a file is what is left of a map set; one of another name may be a picture of the artist's."""
-    if not there.is_file() or not there.name.endswith(".rsibr.exr"):
-        return False
-    try:
-        read_map_set(there)
-    except MapSetError:
-        return True
-    return False
+    return there.is_file() and there.name.endswith(".rsibr.exr") and not is_whole_map_set(there)
 
 
 def _warn_unless_same(bake: BatchBake, there: Path) -> None:

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 from ...core.conventions import Array
@@ -36,10 +35,9 @@ class Kind:
 
     Attributes
     ----------
-    from_map_set : callable
-        The file's path, for messages, and a `MapSet` to what it holds, its content.
     drawable : callable
-        The content to a `GpuMapSet`; of a live kind, the content and `LiveFits` or None to a `LiveGpuMapSet`.
+        The content of a map set to a `GpuMapSet`; of a live kind, the content and `LiveFits` or None to a
+        `LiveGpuMapSet`.
     truth : Truth or None
         What pictures drawn from it are compared with; None for nothing.
     live : bool
@@ -55,7 +53,6 @@ class Kind:
         The content to what a report shows of how it is shaded; None for nothing.
     """
 
-    from_map_set: Callable[[Path, MapSet], Any]
     drawable: Callable[..., GpuMapSet]
     truth: Truth | None = None
     live: bool = False

@@ -19,15 +19,8 @@ from ...device.kinds.lobe_stack import GpuLobeStack
 from ...device.kinds.mip_chain import GpuMipChain
 from ...device.kinds.radiance_views import GpuRadianceViews
 from ...device.kinds.reflection_tables import GpuReflectionTables
-from ...files.kinds import (
-    environment,
-    kernel_bank,
-    kernel_pyramid,
-    lobe_stack,
-    mip_chain,
-    radiance_views,
-    reflection_tables,
-)
+from ...files.kinds import environment, kernel_pyramid
+from ...files.kinds.registry import STORED
 from ...files.map_set import read_map_set, read_map_set_header
 from ...files.map_set_data import MapSet
 from ..compare import kernel_pyramid as kernel_pyramid_truth
@@ -46,23 +39,18 @@ def _pyramid(pyramid: Pyramid) -> GpuPyramid:
 
 
 KINDS: dict[str, Kind] = {
-    "kernel_pyramid": Kind(kernel_pyramid.from_map_set, _pyramid, kernel_pyramid_truth.TRUTH, own=True),
-    "radiance_views": Kind(
-        radiance_views.from_map_set, GpuRadianceViews, radiance_views_truth.TRUTH, figure=blending
-    ),
-    "lobe_stack": Kind(lobe_stack.from_map_set, GpuLobeStack, lobe_stack_truth.TRUTH),
-    "reflection_tables": Kind(
-        reflection_tables.from_map_set, GpuReflectionTables, reflection_tables_truth.TRUTH
-    ),
-    "mip_chain": Kind(mip_chain.from_map_set, GpuMipChain, mip_chain_truth.TRUTH),
+    "kernel_pyramid": Kind(_pyramid, kernel_pyramid_truth.TRUTH, own=True),
+    "radiance_views": Kind(GpuRadianceViews, radiance_views_truth.TRUTH, figure=blending),
+    "lobe_stack": Kind(GpuLobeStack, lobe_stack_truth.TRUTH),
+    "reflection_tables": Kind(GpuReflectionTables, reflection_tables_truth.TRUTH),
+    "mip_chain": Kind(GpuMipChain, mip_chain_truth.TRUTH),
     "kernel_bank": Kind(
-        kernel_bank.from_map_set,
         LiveMaterials,
         live=True,
         by_sliders=pyramid_by_sliders,
         menu="RSIBR_MT_live_models",
     ),
-    environment.KIND: Kind(environment.from_map_set, GpuEnvironment),
+    environment.KIND: Kind(GpuEnvironment),
 }
 """Kind of map sets, or `environment` for a picture -> what can be done with it."""
 
@@ -87,7 +75,7 @@ class OpenedMapSet:
     ----------
     kind : str
     content : object
-        What `Kind.from_map_set` made of it.
+        What the kind's `from_map_set` made of it.
     environment : Environment or None
         The light it was made in; None where the file does not hold it.
     material : dict
@@ -183,10 +171,12 @@ def opened_map_set(path: Path, map_set: MapSet) -> OpenedMapSet:
     MapSetError
         As the kind's own `from_map_set`.
     """
+    light = environment.from_map_set(path, map_set) if map_set.header["environment"]["part"] else None
+    is_picture = map_set.kind == environment.KIND
     return OpenedMapSet(
         map_set.kind,
-        KINDS[map_set.kind].from_map_set(path, map_set),
-        environment.from_map_set(path, map_set) if map_set.header["environment"]["part"] else None,
+        light if is_picture else STORED[map_set.kind].from_map_set(path, map_set),
+        light,
         map_set.header["material"],
         sum(pixels.shape[0] * pixels.shape[1] for pixels in map_set.maps.values()),
         {"kind": map_set.kind, **map_set.header},

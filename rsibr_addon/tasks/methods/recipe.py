@@ -14,7 +14,7 @@ from ...core.options import declared_options, to_plain
 from ...files.baked_inputs import is_whole
 from ...files.digests import digest
 from ...files.kinds.registry import STORED
-from ...files.map_set import read_map_set_header
+from ...files.map_set import is_whole_map_set, read_map_set_header
 from ...files.map_set_facts import in_words
 from ...files.map_set_header import Recipe
 from ...files.pictures import split_layer
@@ -32,6 +32,8 @@ CHANGED = {
     "files": "other files of the material",
 }
 """Field of a recipe whose values are hashes -> what to say of it."""
+
+NOT_WHOLE = "exists, but is no whole map set: give another name, or --force to replace it."
 
 _PLACES = (
     (
@@ -149,7 +151,7 @@ def with_files_named(settings: dict[str, Any], names: Mapping[str, str]) -> dict
 
 
 def check_made_by(path: Path, wanted: Recipe) -> None:
-    """Refuse a file that was not made by a recipe; one of baked inputs, which states none, if it is damaged.
+    """Refuse a damaged file, and one that was not made by a recipe, which baked inputs do not state.
 
     Raises
     ------
@@ -165,9 +167,7 @@ def check_made_by(path: Path, wanted: Recipe) -> None:
     try:
         header = read_map_set_header(path)
     except MapSetError as error:
-        raise OutputFileError(
-            f"{path} exists, but is no whole map set: give another name, or --force to replace it."
-        ) from error
+        raise OutputFileError(f"{path} {NOT_WHOLE}") from error
     if "recipe" not in header:
         raise OutputFileError(
             f"{path} exists, and does not tell the settings it was made with, as files of older versions do "
@@ -178,6 +178,8 @@ def check_made_by(path: Path, wanted: Recipe) -> None:
             f"{path} exists, made with other settings ({differences}): give another name, or --force to "
             f"replace it."
         )
+    if not is_whole_map_set(path):
+        raise OutputFileError(f"{path} {NOT_WHOLE}")
 
 
 def _differences(there: Recipe, wanted: Recipe) -> Iterator[str]:

@@ -7,10 +7,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
-from ...core.errors import MapSetError, SceneError
+from ...core.errors import SceneError
 from ...core.options import declared_options, value_text
 from ...files.kinds.registry import STORED
-from ...files.map_set import read_map_set
 from ...files.output_paths import HASH_LETTERS, comparison_beside, comparison_page, portable_name
 from ...files.pictures import split_layer
 from ...files.temporary import temporary_folder
@@ -202,16 +201,6 @@ def output_for(request: BakeRequest, scene: Any, item: Any) -> Path:
 def plain_name(map_set: Path) -> str:
     """The name of a map set's file for people: without the hash of `output_for`, if it has one."""
     return re.sub(rf"-[0-9a-f]{{{HASH_LETTERS}}}\.rsibr\.exr$", "", map_set.name)
-
-
-def is_baked(output: Path) -> bool:
-    """Whether a file is there, and a map set that is whole and of maps that its kind takes."""
-    try:
-        held = read_map_set(output)
-        KINDS[held.kind].from_map_set(output, held)
-    except MapSetError:
-        return False
-    return True
 
 
 def bake_of(

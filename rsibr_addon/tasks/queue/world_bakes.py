@@ -6,6 +6,7 @@ from typing import Any
 
 from ...core.progress import Steps
 from ...files.kinds.registry import STORED
+from ...files.map_set import is_whole_map_set
 from ...host.bake_settings import check_choices
 from ...host.materials import check_saved
 from ...host.option_properties import options_of
@@ -15,7 +16,7 @@ from ...host.worlds import world_of
 from ...settings.light import Clamp, Light
 from ..methods.bake import bake
 from ..methods.kinds import own_materials_kind
-from .bake_request import BakeRequest, ObjectBake, in_background, is_baked, output_for
+from .bake_request import BakeRequest, ObjectBake, in_background, output_for
 
 
 @dataclass
@@ -68,7 +69,7 @@ def bake_world(scene: Any) -> Steps[Path]:
         See `world_file` and `methods.bake.bake`.
     """
     output = world_file(scene)
-    if not is_baked(output):
+    if not is_whole_map_set(output):
         with worked_in(scene):
             yield from bake(world_request(scene).job(output))
     return output

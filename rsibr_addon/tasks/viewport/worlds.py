@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from ...core.errors import RsibrError
-from ..queue.bake_request import is_baked
+from ...files.map_set import is_whole_map_set
 from ..queue.world_bakes import world_file
 from .map_sets import DARKNESS
 
@@ -58,7 +58,7 @@ class Worlds:
             return
         if str(path) == self._shown.get(scene.session_uid):
             return
-        if is_baked(path):
+        if is_whole_map_set(path):
             self._shown[scene.session_uid] = str(path)
         else:
             self.is_unasked = True

@@ -20,7 +20,7 @@ class RSIBR_OT_add_materials(AtOnce, bpy.types.Operator):
         """Queue the materials' pictures, unless that was done already."""
         folder = asset_folder(EXTENSION)
         add_library(folder)
-        making = assets_bake_in(folder, context.scene)
+        making = assets_bake_in(folder)
         if session().bakes.unfinished(making.output) is not None:
             making.tidy()
             self.report({"INFO"}, "The materials are being made already")

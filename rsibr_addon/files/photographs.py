@@ -148,9 +148,9 @@ def read_photograph(path: str | Path) -> Photograph:
             )
         # The further pictures of a PSD are the layers of the first
         if source.format_name() != "psd" and source.seek_subimage(1, 0):
-            _warn(f"{path} holds several pictures: the first is used.")
+            warn(f"{path} holds several pictures: the first is used.")
     if "A" in spec.channelnames and np.any(pixels[..., spec.channelindex("A")] < _white(pixels)):
-        _warn(f"{path} is transparent in places, which is left out: its colours count as they are.")
+        warn(f"{path} is transparent in places, which is left out: its colours count as they are.")
     upright = _orientation(notes).upright(pixels[..., : 3 if spec.nchannels >= 3 else 1])[::-1]
     return Photograph(np.broadcast_to(upright, (*upright.shape[:2], 3)), encoding)
 
@@ -238,7 +238,7 @@ def _encoding(path: str | Path, spec: Any, notes: dict[str, Any], head: bytes) -
             return profile_encoding(np.asarray(notes["ICCProfile"], np.uint8).tobytes())
         except ValueError as error:
             name = notes.get("ICCProfile:profile_description", "without a name")
-            _warn(
+            warn(
                 f"{path} has a colour profile ({name!r:.60}) that cannot be used, as {error}: it is taken as "
                 f"sRGB."
             )
@@ -252,7 +252,7 @@ def _encoding(path: str | Path, spec: Any, notes: dict[str, Any], head: bytes) -
         if head.startswith(PNG) and "CICP" not in notes and b"sRGB" not in head:
             encoding = replace(encoding, to_rec709=_png_primaries(head))
     except (KeyError, ValueError):
-        _warn(f"{path} is of a colour space ({name}) that is unknown here: it is taken as sRGB.")
+        warn(f"{path} is of a colour space ({name}) that is unknown here: it is taken as sRGB.")
         return named_encoding("srgb_rec709")
     return encoding
 
@@ -269,15 +269,11 @@ def _png_primaries(head: bytes) -> Array:
 def _tell_of_the_unused(path: str | Path, notes: dict[str, Any], head: bytes) -> None:
     """Warn of statements and contents of a file that would change its picture and are not used."""
     if "jpeg:ColorSpace" in notes or notes.get("tiff:PhotometricInterpretation") == SEPARATED:
-        _warn(f"{path} is made for print (CMYK), whose profile is not used: its colours are rough.")
+        warn(f"{path} is made for print (CMYK), whose profile is not used: its colours are rough.")
     if notes.get("Exif:ColorSpace") == UNCALIBRATED and "ICCProfile" not in notes:
-        _warn(f"{path} says that its colours are not those of sRGB, but not which: they are taken as sRGB.")
+        warn(f"{path} says that its colours are not those of sRGB, but not which: they are taken as sRGB.")
     for held in {what for mark, what in FURTHER.items() if head.startswith(JPEG) and mark in head}:
-        _warn(f"{path} holds {held} as well: its plain picture alone is used.")
-
-
-def _warn(sentence: str) -> None:
-    warn(sentence)
+        warn(f"{path} holds {held} as well: its plain picture alone is used.")
 
 
 @functools.cache

@@ -9,7 +9,7 @@ from typing import Any
 
 from ..core.conventions import Array
 from ..core.errors import SceneError
-from ..core.materials.packing import Picture, pictures_of
+from ..core.materials.packing import Picture, bytes_needed, pictures_of
 from ..core.options import declared_options
 from ..core.progress import Progress, Steps
 from ..core.warned import warn
@@ -25,7 +25,6 @@ from ..host.principled import principled
 from ..host.scenes import find_object, find_scene
 from ..host.version import software
 from ..settings.baked_inputs import BakedInputsSettings, ObjectInputsSettings
-from .methods.inputs import TEXEL_BYTES
 
 
 def bake_inputs(name: str, settings: BakedInputsSettings, output: Path, force: bool) -> Steps[BakedInputs]:
@@ -65,7 +64,7 @@ def bake_inputs(name: str, settings: BakedInputsSettings, output: Path, force: b
     check_target(output, force, (".exr",))
     item, wanted = object_to_bake(name)
     count = sum(map(len, wanted.values()))
-    check_memory(TEXEL_BYTES * settings.size**2 * count, str(output), (settings.size, settings.size))
+    check_memory(bytes_needed(count, settings.size), str(output), (settings.size, settings.size))
     yield Progress(0, count + 1, f"looking at the UV map of {name}")
     layout = layout_of(item, set(wanted), settings.size)
     made: dict[tuple[int, Picture], Array] = {}

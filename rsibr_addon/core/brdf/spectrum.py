@@ -90,14 +90,14 @@ def told_wavelengths(wavelength: ArrayLike, name: str) -> Array:
     wavelength = np.asarray(wavelength, dtype=np.float64)
     for scale, unit in ((1e3, "micrometres"), (1e9, "metres")):
         if wavelength.size and VISIBLE[0] < scale * np.mean(wavelength) < 5.0 * VISIBLE[1]:
-            _warn(f"The wavelengths of {name} are {_span(wavelength)}, and taken for {unit}.")
+            warn(f"The wavelengths of {name} are {_span(wavelength)}, and taken for {unit}.")
             wavelength = scale * wavelength
             break
     seen = (wavelength >= VISIBLE[0]) & (wavelength <= VISIBLE[1])
     if not seen.any():
         raise RangeError(f"its wavelengths, {_span(wavelength)} nm, are not visible.")
     if not seen.all():
-        _warn(
+        warn(
             f"{np.count_nonzero(~seen)} of the wavelengths of {name}, {_span(wavelength)} nm, are "
             f"not visible: they do not count."
         )
@@ -105,7 +105,7 @@ def told_wavelengths(wavelength: ArrayLike, name: str) -> Array:
     white = color_matching(visible)
     told = white[(visible >= wavelength.min()) & (visible <= wavelength.max())]
     if (unseen := float(np.max(1.0 - told.sum(axis=0) / white.sum(axis=0)))) > UNSEEN:
-        _warn(
+        warn(
             f"The wavelengths of {name}, {_span(wavelength)} nm, leave out up to {100.0 * unseen:.2g} % of "
             f"a colour: only the rest counts."
         )
@@ -114,10 +114,6 @@ def told_wavelengths(wavelength: ArrayLike, name: str) -> Array:
 
 def _span(wavelength: Array) -> str:
     return f"{wavelength.min():g} to {wavelength.max():g}"
-
-
-def _warn(sentence: str) -> None:
-    warn(sentence)
 
 
 def rec709_from_spectrum(wavelength: ArrayLike, spectrum: ArrayLike) -> Array:

@@ -20,6 +20,17 @@ CHANNELS: tuple[Row, ...] = (
 """A picture's red, green and blue as they are."""
 
 
+def bytes_needed(pictures: int, size: int) -> float:
+    """Memory for baking pictures of `size` by `size` texels, as measured.
+
+    Returns
+    -------
+    float
+        Bytes: what Cycles needs, and the pictures until they are written.
+    """
+    return 60.0 * pictures * size**2
+
+
 def pictures_of(inputs: PrincipledInputs) -> tuple[Picture, ...]:
     """The pictures that hold all inputs that are `Baked`."""
     found = {field.name: getattr(inputs, field.name) for field in fields(inputs)}

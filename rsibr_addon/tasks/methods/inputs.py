@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from ...core.counted import counted
+from ...core.materials.packing import bytes_needed
 from ...core.progress import Steps
 from ...files.map_set_header import Recipe
 from ...job import BakeJob
@@ -12,9 +13,6 @@ from .method import BLENDER_MEMORY, BLENDER_SECONDS, RGB, STORED, Baked, Cost, M
 PICTURES = 2
 """Of a usual object."""
 
-TEXEL_BYTES = 60
-"""Bytes of memory for a texel while it is baked, and what Cycles needs to do so."""
-
 TEXEL_SECONDS, SAMPLE_SECONDS = 4.5e-7, 1.3e-7
 """Processor time of a texel, and of each of its samples, as a noise takes it."""
 
@@ -23,7 +21,8 @@ def cost(settings: ObjectInputsSettings) -> Cost:
     """See `Method`."""
     texels = PICTURES * settings.size**2
     seconds = (TEXEL_SECONDS + SAMPLE_SECONDS * settings.samples) * texels
-    return Cost(BLENDER_SECONDS + seconds, BLENDER_MEMORY + TEXEL_BYTES * texels, STORED * RGB * texels)
+    memory = BLENDER_MEMORY + bytes_needed(PICTURES, settings.size)
+    return Cost(BLENDER_SECONDS + seconds, memory, STORED * RGB * texels)
 
 
 def material(settings: ObjectInputsSettings) -> str:

@@ -1,7 +1,6 @@
 """The library of assets of the materials that come with us, made in the background."""
 
 from pathlib import Path
-from typing import Any
 
 from ...job import CommandJob
 from .bake_request import ObjectBake, in_background
@@ -9,14 +8,13 @@ from .bake_request import ObjectBake, in_background
 TITLE = "Materials for the Asset Browser"
 
 
-def assets_bake_in(folder: Path, scene: Any) -> ObjectBake:
+def assets_bake_in(folder: Path) -> ObjectBake:
     """Make everything ready to write the library in place of an earlier one.
 
     Parameters
     ----------
     folder : Path
         The library's.
-    scene : bpy.types.Scene
 
     Raises
     ------
@@ -25,4 +23,4 @@ def assets_bake_in(folder: Path, scene: Any) -> ObjectBake:
     """
     output = folder / "materials.blend"
     job = CommandJob(("assets", "--output", str(output), "--force"))
-    return in_background(TITLE, job, scene, [], output, False, ObjectBake)
+    return in_background(TITLE, job, None, [], output, ObjectBake)

@@ -233,7 +233,8 @@ def bake_of(
     shaded = items[0].name if len(items) == 1 else f"{len(items)} objects"
     title = f"{shaded}: {request.title}"
     job = request.job(output)
-    bake = in_background(title, job, scene, items, output, request.needs_file, ObjectBake, farm)
+    needed = scene if request.needs_file else None
+    bake = in_background(title, job, needed, items, output, ObjectBake, farm)
     bake.settings = request.shown
     return bake
 
@@ -260,7 +261,7 @@ def comparison_of(scene: Any, item: Any, map_set: Path) -> ObjectBake:
         ("compare", str(map_set), *views, *shown, *_named_model(item), "--output", str(folder), "--force")
     )
     page = comparison_page(map_set)
-    return in_background(f"{item.name}: comparison", job, scene, [item], page, True, ObjectBake)
+    return in_background(f"{item.name}: comparison", job, scene, [item], page, ObjectBake)
 
 
 def shown_material(item: Any, map_set: Path) -> tuple[str, ...]:
@@ -313,7 +314,6 @@ def in_background(
     scene: Any,
     items: Sequence[Any],
     output: Path,
-    needs_file: bool,
     made: type[Made],
     farm: Farm | None = None,
 ) -> Made:
@@ -324,12 +324,11 @@ def in_background(
     title : str
         What is made, for people.
     job : BakeJob or CommandJob
-    scene : bpy.types.Scene
+    scene : bpy.types.Scene or None
+        The scene that the job needs open, if any.
     items : sequence of bpy.types.Object
         What it is made for.
     output : Path
-    needs_file : bool
-        Whether it needs the scene.
     made : type
         Of the bake that is returned.
     farm : Farm, optional
@@ -349,7 +348,7 @@ def in_background(
         folder = stack.enter_context(temporary_folder())
         path = folder / "job.json"
         path.write_text(job.to_json(), encoding="utf-8")
-        opened = (folder / "open.blend", scene.name) if needs_file else None
+        opened = None if scene is None else (folder / "open.blend", scene.name)
         if opened is not None:
             save_copy(opened[0], scene)
         reads = stack.pop_all()

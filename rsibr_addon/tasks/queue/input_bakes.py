@@ -90,4 +90,4 @@ def input_bake_of(scene: Any, item: Any, output: Path, farm: Farm | None = None)
     if farm is not None:
         output.unlink(missing_ok=True)  # it is damaged, and what a farm has made replaces no other file
     job, title = input_job(item, output), f"{item.name}: materials"
-    return in_background(title, job, scene, [item], output, True, InputBake, farm)
+    return in_background(title, job, scene, [item], output, InputBake, farm)

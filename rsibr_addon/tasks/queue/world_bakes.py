@@ -84,4 +84,4 @@ def world_bake_of(scene: Any) -> WorldBake:
         See `world_file` and `bake_request.in_background`.
     """
     request, output = world_request(scene), world_file(scene)
-    return in_background(request.title, request.job(output), scene, [], output, True, WorldBake)
+    return in_background(request.title, request.job(output), scene, [], output, WorldBake)

@@ -80,14 +80,7 @@ def export_page(
     """
     check_target(output, force, (".html",))
     yield Progress(0, 4, f"reading {map_set.name}")
-    opened = open_map_set(map_set, clamp=settings.clamp)
-    look = look or look_types()[opened.kind]()
-    by_sliders = KINDS[opened.kind].by_sliders
-    if by_sliders is not None and opened.environment is not None:
-        found = yield from by_sliders(opened.environment, look)
-        if found is not None:
-            in_memory, look = found
-            opened = opened_map_set(map_set, in_memory)
+    opened, look = yield from _opened(map_set, settings, look)
     drawable = opened.drawable()
     if not isinstance(drawable, WithInputs):
         raise RangeError(
@@ -99,9 +92,8 @@ def export_page(
     yield Progress(2, 4, "packing the mesh and the display")
     title, sentence = _told(map_set, opened, error)
     camera = settings.camera(settings.view)
-    programs = page_sources(inputs.program)
     matte = packed_matte(settings, opened.environment, _positions(shown))
-    programs |= matte_sources() if matte else {}
+    programs = page_sources(inputs.program) | (matte_sources() if matte else {})
     if isinstance(shown, TriangleMesh):
         objects = _one_object(shown, block_of(inputs))
         sliders = [] if KINDS[opened.kind].live else parameters(drawable, look)
@@ -123,17 +115,36 @@ def export_page(
         "angle": camera.field_of_view,
     }
     yield Progress(3, 4, f"writing {output.name}")
-    text = Template((FOLDER / "page.html").read_text(encoding="utf-8")).substitute(
-        title=escape(title),
-        kind=escape(in_words(opened.kind)),
-        told=escape(sentence),
-        style=(FOLDER / "page.css").read_text(encoding="utf-8"),
-        content=json.dumps(content, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c"),
-        script="".join(map(_script, (MATTE_SCRIPT, *SCRIPTS) if matte else SCRIPTS)),
-    )
+    text = _page(title, in_words(opened.kind), sentence, content)
     with written_aside(output, force) as aside:
         aside.write_text(text, encoding="utf-8", errors="replace")  # of names that are no UTF-8
     return [output]
+
+
+def _opened(map_set: Path, settings: PageOptions, look: Any) -> Steps[tuple[OpenedMapSet, Any]]:
+    """What a page's sliders need of a map set, and the look that it shows at first."""
+    opened = open_map_set(map_set, clamp=settings.clamp)
+    look = look or look_types()[opened.kind]()
+    by_sliders = KINDS[opened.kind].by_sliders
+    if by_sliders is not None and opened.environment is not None:
+        found = yield from by_sliders(opened.environment, look)
+        if found is not None:
+            in_memory, look = found
+            opened = opened_map_set(map_set, in_memory)
+    return opened, look
+
+
+def _page(title: str, kind: str, told: str, content: dict[str, Any]) -> str:
+    """The page's HTML, with all that it runs and shows."""
+    scripts = (MATTE_SCRIPT, *SCRIPTS) if content["matte"] else SCRIPTS
+    return Template((FOLDER / "page.html").read_text(encoding="utf-8")).substitute(
+        title=escape(title),
+        kind=escape(kind),
+        told=escape(told),
+        style=(FOLDER / "page.css").read_text(encoding="utf-8"),
+        content=json.dumps(content, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c"),
+        script="".join(map(_script, scripts)),
+    )
 
 
 def _positions(shown: TriangleMesh | Sequence[OwnObject]) -> Array:

@@ -29,7 +29,7 @@ class Companded:
     unit: float
 
     def values(self) -> Array:
-        """The values, rounded."""
+        """The values, rounded, float64, in the shape of `codes`."""
         rounded: Array = self.unit * np.sinh(self.codes / STEPS)
         return rounded
 

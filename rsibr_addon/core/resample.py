@@ -45,7 +45,19 @@ def bilinear(image: Array, uv: ArrayLike, wrap: Wrap, layer: Indices | None = No
 
 
 def clamp_to_edge(columns: Indices, rows: Indices, width: int, height: int) -> tuple[Indices, Indices]:
-    """The texels to take for those beyond a picture's edges, which has no neighbour: see `bilinear`."""
+    """The texels to take for those beyond a picture's edges, which has no neighbour: see `bilinear`.
+
+    Parameters
+    ----------
+    columns, rows : ndarray of int, any shape
+    width, height : int
+        Of the picture.
+
+    Returns
+    -------
+    columns, rows : ndarray of int
+        Within the picture.
+    """
     return np.clip(columns, 0, width - 1), np.clip(rows, 0, height - 1)
 
 

@@ -103,7 +103,7 @@ def triangles(
 
 
 def buffer(values: Array) -> gpu.types.Buffer:
-    """Values as textures take them."""
+    """Values, of any shape, as textures take them: in single precision, one after the other."""
     flat = np.ascontiguousarray(values, dtype=np.float32).reshape(-1)
     return gpu.types.Buffer("FLOAT", flat.size, flat)
 

@@ -47,14 +47,14 @@ class Draw:
 
     @property
     def view_dir(self) -> Array:
-        """Unit vector from the object to the eye, turned: the view of destination maps."""
+        """Unit vector, shape (3,), from the object to the eye, turned: the view of destination maps."""
         to_eye = self.turn @ (self.eye[:3] - self.eye[3] * self.model[:3, 3])
         view_dir: Array = to_eye / np.sqrt(to_eye @ to_eye)
         return view_dir
 
     @cached_property
     def rows(self) -> Array:
-        """The rows of the block `Draw` of the shaders, which stores matrices by column."""
+        """The rows of the block `Draw` of the shaders, shape (18, 4), float32, with matrices by column."""
         rows = np.zeros((18, 4), np.float32)
         rows[0:4], rows[4:8], rows[8:12] = self.model.T, self.view.T, self.projection.T
         rows[12:15, :3], rows[15, 3] = self.turn.T, 1.0
@@ -146,7 +146,7 @@ class Inputs:
 
     @cached_property
     def rows(self) -> Array:
-        """The rows of its block."""
+        """The rows of its block, shape (n, 4), float32."""
         return buffers.block_rows(*self.fields)
 
 

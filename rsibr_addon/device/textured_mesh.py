@@ -66,12 +66,32 @@ class GpuTexturedMesh(GpuMesh):
 
 
 def slot_ends(slots: Indices) -> tuple[list[int], Indices]:
-    """How many triangles the slots up to each have, and the order of triangles by slot."""
+    """How many triangles the slots up to each have, and the order of triangles by slot.
+
+    Parameters
+    ----------
+    slots : ndarray of int, shape (F,)
+        Of each triangle.
+
+    Returns
+    -------
+    ends : list of int
+    order : ndarray of int, shape (F,)
+    """
     return np.cumsum(np.bincount(slots)).tolist(), np.argsort(slots, kind="stable")
 
 
 def uv_attributes(uv: Array) -> dict[str, Array]:
-    """UV maps as vertex attributes, see `ATTRIBUTES`; those without any are left out."""
+    """UV maps as vertex attributes, see `ATTRIBUTES`; those without any are left out.
+
+    Parameters
+    ----------
+    uv : ndarray, shape (V, maps, 2)
+
+    Returns
+    -------
+    dict of str to ndarray, shape (V, 4)
+    """
     pairs = uv.reshape(len(uv), -1)[:, : 2 * MOST_UV_MAPS]
     named = ((0, "uv_a"), (4, "uv_b"))
     return {name: _widened(pairs[:, first : first + 4]) for first, name in named if pairs.shape[1] > first}

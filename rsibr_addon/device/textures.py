@@ -43,7 +43,7 @@ class GpuTexture:
 
     @property
     def values(self) -> Array:
-        """What it was made of, as long as it is not on the GPU."""
+        """What it was made of, shape ([layers,] height, width, 4), as long as it is not on the GPU."""
         assert self._values is not None
         return self._values
 

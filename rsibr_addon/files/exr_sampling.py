@@ -13,7 +13,7 @@ def interpolated(samples: Array, axis: int, step: int, length: int) -> Array:
 
     Parameters
     ----------
-    samples : ndarray
+    samples : ndarray, any shape
         Samples along `axis` at 0, step, 2 step ...; beyond them, the last repeats.
     axis : int
     step : int
@@ -23,7 +23,7 @@ def interpolated(samples: Array, axis: int, step: int, length: int) -> Array:
     Returns
     -------
     ndarray
-        Stored samples are kept.
+        As `samples`, but for its length along `axis`. Stored samples are kept.
     """
     if step == 1:
         return samples

@@ -31,8 +31,8 @@ class Orientation:
 
         Returns
         -------
-        ndarray
-            A view of `stored`.
+        ndarray, shape (height, width, ...) or (width, height, ...)
+            A view of `stored`; row 0 at the top.
         """
         turned = stored.swapaxes(0, 1) if self.transposed else stored
         return turned[:: -1 if self.flipped else 1, :: -1 if self.mirrored else 1]

@@ -58,6 +58,11 @@ def painted_map_set(source: MapSet, content: str, painted: Mapping[str, Array]) 
 def paintable_maps(path: Path) -> dict[str, Array]:
     """The maps of a map set that people may paint, by the names of their parts.
 
+    Returns
+    -------
+    dict of str to ndarray, shape (height, width, 3)
+        Row 0 at the bottom.
+
     Raises
     ------
     MapSetError

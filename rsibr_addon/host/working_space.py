@@ -27,7 +27,7 @@ def working_from_rec709(radiance: Array) -> Array:
 
 
 def rec709_from_working(radiance: Array) -> Array:
-    """The inverse of `working_from_rec709`."""
+    """The inverse of `working_from_rec709`; shapes (..., 3)."""
     return _converted(radiance, np.linalg.inv(_working_matrix()))
 
 

@@ -139,7 +139,7 @@ def light_behind(options: MatteOptions, environment: Environment | None) -> Arra
 
 
 def known_light(environment: Environment | None) -> Array:
-    """The radiance of a map set's light.
+    """The radiance of a map set's light, shape (height, 2 * height, 3).
 
     Raises
     ------

@@ -23,7 +23,18 @@ def facets(roughness: ArrayLike) -> tuple[Array, Array]:
 
 
 def tilt(n_dot_l: Array, n_dot_v: Array, l_dot_v: Array) -> Array:
-    """What facets that lean towards light or view add: s / t of [Fujii2012]."""
+    """What facets that lean towards light or view add: s / t of [Fujii2012].
+
+    Parameters
+    ----------
+    n_dot_l, n_dot_v, l_dot_v : ndarray, shape (...,)
+        Cosines between normal, light and view; the first two in [0, 1].
+
+    Returns
+    -------
+    ndarray, shape (...,)
+        At least -1; negative where light and view lie on opposite sides of the normal.
+    """
     s = l_dot_v - n_dot_l * n_dot_v
     leaning: Array = np.where(s > 0.0, s / np.maximum(np.maximum(n_dot_l, n_dot_v), 1e-12), s)
     return leaning

@@ -29,15 +29,15 @@ class Albedos(Protocol):
     """Directional albedos of GGX and of sheen."""
 
     def powers(self, alpha: Array, mu: Array) -> Array:
-        """Those of GGX times each of `POWERS`, shape (..., C)."""
+        """Those of GGX times each of `POWERS`, shape (..., C), for alpha and mu in [0, 1], shape (...,)."""
         ...
 
     def mean(self, alpha: Array) -> Array:
-        """Twice the integral of a white metal's times mu, from 0 to 1, shape (...,)."""
+        """Twice the integral of a white metal's times mu, from 0 to 1, shape (...,), for as many alpha."""
         ...
 
     def sheen(self, roughness: Array, mu: Array) -> Array:
-        """Those of white sheen, shape (...,)."""
+        """Those of white sheen, shape (...,), for as many roughnesses and mu in [0, 1]."""
         ...
 
 
@@ -189,6 +189,11 @@ def dielectric_mean(index: ArrayLike) -> Array:
     ----------
     index : array_like, shape (...,)
         At least 1.
+
+    Returns
+    -------
+    ndarray, shape (...,), float64
+        In [0, 1).
     """
     index = np.asarray(index, dtype=np.float64)
     mean: Array = (index - 1.0) / (4.08567 + 1.00071 * index)

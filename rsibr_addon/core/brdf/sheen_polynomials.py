@@ -100,11 +100,11 @@ def fit_polynomials(sheen_of: Callable[[float, Array], Sheen]) -> Steps[Array]:
     Parameters
     ----------
     sheen_of : callable
-        From a roughness and cosines of views to the sheen.
+        From a roughness and cosines of views, shape (N,), to the sheen.
 
     Returns
     -------
-    ndarray
+    ndarray, shape (3, DEGREE + 1, DEGREE + 1)
         As `COEFFICIENTS`, nearest in least squares: of the transform those matter most whose albedo is
         largest, and where that is less than 1e-4, it is of no account.
     """

@@ -120,7 +120,11 @@ def irradiance_coefficients(coefficients: ArrayLike) -> Array:
 
 
 def degree_of(coefficients: Array) -> int:
-    """The degree of the harmonics whose coefficients they are, along the first axis.
+    """The degree of the harmonics whose coefficients they are.
+
+    Parameters
+    ----------
+    coefficients : ndarray, shape ((degree + 1)**2, ...)
 
     Raises
     ------

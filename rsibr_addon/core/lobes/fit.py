@@ -95,7 +95,7 @@ class Fit:
 
     @property
     def used(self) -> Indices:
-        """Indices of the bank's kernels that have a weight, ascending."""
+        """Indices of the bank's kernels that have a weight, ascending, shape (k,)."""
         return np.flatnonzero(np.any(self.weights, axis=(0, 1, 3)))
 
     def lobe(self, lobe: int, elevation_slice: int, channel: int) -> ZonalLobe:

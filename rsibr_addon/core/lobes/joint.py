@@ -302,7 +302,13 @@ def _quiet_stiffness(projector: Projector, lookups: Lookups, stiffness: float) -
 
 
 def tilts_of(target: TargetSlice, angles: Array) -> Array:
-    """Offsets of axes, by their angles from the normal [rad], from the mirror direction.
+    """Offsets of axes from the mirror direction.
+
+    Parameters
+    ----------
+    target : TargetSlice
+    angles : ndarray, any shape
+        The axes' angles from the normal, towards the mirror direction [rad].
 
     Returns
     -------

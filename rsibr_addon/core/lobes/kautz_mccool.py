@@ -73,7 +73,18 @@ class Remainder:
         self.power = float(np.sum(self.weight @ self.values**2))
 
     def at(self, directions: Array) -> Array:
-        """The remainder in some directions, shape (..., 3)."""
+        """The remainder in some directions.
+
+        Parameters
+        ----------
+        directions : ndarray, shape (..., 3)
+            Unit vectors; the normal is +Z.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Red, green and blue [1/sr].
+        """
         view_dir = np.array([-np.sqrt(1.0 - self.mu**2), 0.0, self.mu])
         rest = self.brdf(directions, view_dir) * np.maximum(directions[..., 2:], 0.0)
         for lobe in self.lobes:
@@ -86,12 +97,12 @@ class Remainder:
         return peak
 
     def mean_profile(self, axis: Array) -> RadialProfile:
-        """Section 3.1: the mean of the radial curves."""
+        """Section 3.1: the mean of the radial curves about an axis, shape (3,)."""
         curves = self.at(around(axis, self.angles, PLANES))
         return RadialProfile(axis, self.angles, curves.mean(axis=1))
 
     def minimum_profile(self, axis: Array) -> RadialProfile:
-        """Section 3.3: the minimum of the radial curves; clamped it is nowhere negative."""
+        """Section 3.3: the minimum of the radial curves about an axis, shape (3,); not below 0 if clamped."""
         least = self.at(around(axis, self.angles, PLANES)).min(axis=1)
         return RadialProfile(axis, self.angles, np.maximum(least, 0.0) if self.clamped else least)
 

@@ -109,7 +109,12 @@ class Projector:
         return self._solve(lookups, moments, products)[2]
 
     def profiles(self, lookups: Lookups) -> Array:
-        """`Projection.weights` alone, for less."""
+        """`Projection.weights` alone, for less.
+
+        Returns
+        -------
+        ndarray, shape (J, K, C)
+        """
         moments, _ = self._moments(lookups.angles.ravel())
         products, _, _ = self._products(lookups.angles.ravel())
         return self.weights(self._solve(lookups, moments, products)[0])
@@ -128,7 +133,17 @@ class Projector:
         return system, _summed_over_taps(moments, lookups.taps)
 
     def weights(self, coefficients: Array) -> Array:
-        """Weights of kernels, shape (J, K, C), from coefficients in units of their power and the target's."""
+        """Weights of kernels from their coefficients.
+
+        Parameters
+        ----------
+        coefficients : ndarray, shape (J, K, C)
+            In units of the kernels' power and the target's.
+
+        Returns
+        -------
+        ndarray, shape (J, K, C)
+        """
         weights: Array = coefficients * self._unit[:, None] * np.sqrt(self.target.power)
         return weights
 

@@ -88,7 +88,7 @@ def fit_sheen(sheen_of: Callable[[float, Array], Sheen], count: int = ROUGHNESSE
     Parameters
     ----------
     sheen_of : callable
-        From a roughness and cosines of views to the sheen.
+        From a roughness and cosines of views, shape (N,), to the sheen.
     count : int
         Number N of roughnesses.
     """
@@ -130,7 +130,20 @@ def ring_errors(sheen: Sheen, weights: Array) -> Array:
 
 
 def ring(cosine: ArrayLike, a: float) -> Array:
-    """A lobe about the normal, of a cosine to it, which integrates to 1: see `transformed_cosine`."""
+    """A lobe about the normal, of a cosine to it, which integrates to 1: see `transformed_cosine`.
+
+    Parameters
+    ----------
+    cosine : array_like, shape (...,)
+        Between normal and light, in [-1, 1].
+    a : float
+        Width, above 0.
+
+    Returns
+    -------
+    ndarray, shape (...,)
+        [1/sr]; 0 below the horizon.
+    """
     cosine = np.asarray(cosine, np.float64)
     return transformed_cosine(np.sqrt(np.maximum(1.0 - cosine**2, 0.0)), 0.0, cosine, a)
 

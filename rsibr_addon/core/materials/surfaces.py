@@ -62,7 +62,24 @@ def surface_at(inputs: PrincipledInputs, texels: Mapping[Texture, Array], uv: Ma
 
 
 def value_at(value: Shading, texels: Mapping[Texture, Array], uv: Mapping[str, Array]) -> Array:
-    """An input at surface points, shape (..., n): see `surface_at`."""
+    """An input at surface points.
+
+    Parameters
+    ----------
+    value : Input
+        Of n numbers.
+    texels, uv : mapping
+        See `surface_at`.
+
+    Returns
+    -------
+    ndarray, shape (..., n)
+
+    Raises
+    ------
+    ShapeError
+        The input is still to be baked.
+    """
     if not isinstance(value, Input):
         raise ShapeError(f"An input of the material is still to be baked ({value.reason}): bake it first.")
     texture = value.texture

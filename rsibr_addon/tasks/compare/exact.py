@@ -57,13 +57,13 @@ def exact_pictures(
 
 
 def picture(content: GpuMapSet, look: Any, mesh: TriangleMesh, camera: Camera, size: int) -> Array:
-    """A mesh shaded from a map set."""
+    """A mesh shaded from a map set, shape (size, size, 4): see `Drawn`."""
     surface = mesh.positions, mesh.normals, mesh.triangles
     return PreviewRenderer(content).draw(*surface, camera, size, look)
 
 
 def error_of(way: Way, drawn: Sequence[Array], references: Sequence[Array]) -> WayError:
-    """Error of a way to draw, where the references have no noise."""
+    """Error of a way to draw, where the references have no noise; pictures are those of `Drawn`."""
     pictures, true = np.stack(drawn), np.stack(references)
     return way_error(way, relative_rmse, unpremultiplied(pictures), unpremultiplied(true), true[..., 3])
 

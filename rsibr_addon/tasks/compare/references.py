@@ -55,7 +55,7 @@ class Reference:
 
     @property
     def rgba(self) -> Array:
-        """The reference: the mean of both renders."""
+        """The reference: the mean of both renders, shape (size, size, 4)."""
         mean: Array = 0.5 * (self.first + self.second)
         return mean
 

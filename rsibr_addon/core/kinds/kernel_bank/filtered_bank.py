@@ -89,7 +89,12 @@ def stack_from_bank(filtered: FilteredBank, fit: Fit) -> tuple[LobeStack, Array]
 
 
 def bound_from_bank(filtered: FilteredBank, fit: Fit) -> Array:
-    """A bank's bounds, carried over to a fit's maps: see `stack_from_bank`."""
+    """A bank's bounds, carried over to a fit's maps: see `stack_from_bank`.
+
+    Returns
+    -------
+    ndarray, shape (3,)
+    """
     bound: Array = np.einsum(
         "lpkc,kc->lpc", np.abs(fit.weights[:, :, fit.used]), filtered.bound[_picked(filtered, fit)]
     ).max(axis=(0, 1))

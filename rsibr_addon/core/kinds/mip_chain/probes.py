@@ -37,12 +37,12 @@ class Place:
 
     @property
     def half_size(self) -> Array:
-        """Half of the room's widths."""
+        """Half of the room's widths, shape (3,)."""
         return 0.5 * np.array(self.size)
 
     @property
     def near_middle(self) -> Array:
-        """The room's middle, relative to where the map was captured."""
+        """The room's middle, relative to where the map was captured, shape (3,)."""
         return np.array(self.middle) - self.captured_at
 
     def from_there(self, position: ArrayLike) -> Array:
@@ -50,7 +50,7 @@ class Place:
         return np.asarray(position, np.float64) - self.captured_at
 
     def near_direction(self, position: ArrayLike, direction: ArrayLike) -> Array:
-        """`core.geometry.near_room.near_direction` in this room, of points in world coordinates."""
+        """`geometry.near_room.near_direction` in this room, of points in world coordinates, (..., 3)."""
         start = self.from_there(position)
         return near_direction(start, direction, self.room, self.half_size, self.near_middle)
 

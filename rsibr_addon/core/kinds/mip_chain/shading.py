@@ -348,7 +348,18 @@ def glossy_mean(
 def glossy_radiance(chain: MipChain, direction: ArrayLike, level: ArrayLike, borders: Borders) -> Array:
     """Light of a mip, or of two neighbouring mips, linear between them: as `glossy_mean`, for points.
 
-    `level` is an array, one for each direction.
+    Parameters
+    ----------
+    chain : MipChain
+    direction : array_like, shape (..., 3)
+        Unit vectors.
+    level : array_like, shape (...,)
+        In [0, mips - 1].
+    borders : Borders
+
+    Returns
+    -------
+    ndarray, shape (..., 3), float64
 
     Notes
     -----

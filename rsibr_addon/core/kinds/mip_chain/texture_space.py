@@ -60,7 +60,7 @@ def box_halved(faces: Array) -> Array:
 def tent_halved(faces: Array) -> Array:
     """Means of four by four texels, weighted 1 3 3 1 both ways and by solid angle, across the faces' borders.
 
-    Faces as those of `box_halved`.
+    Parameters and result are those of `box_halved`.
 
     Notes
     -----

@@ -65,9 +65,14 @@ def carried(diffuse: Array, glossy: Array, warping: Warping) -> dict[Warp, Array
 
     Parameters
     ----------
-    diffuse, glossy : ndarray
+    diffuse, glossy : ndarray, shape (..., 3)
         Radiance of views, of equal shapes: their maps, or what was looked up in them.
     warping : Warping
+
+    Returns
+    -------
+    dict of Warp to ndarray
+        Of the same shape.
     """
     if warping is Warping.SINGLE:
         return {Warp.MIRROR: diffuse + glossy}
@@ -87,6 +92,19 @@ def albedo_table(albedo: Array, warping: Warping) -> Array:
 
 
 def albedo_at(table: Array, warp: Warp, cosine: Array) -> Array:
-    """The row of a warp in a table of albedo, interpolated at cosines (...,), shape (..., 3)."""
+    """The row of a warp in a table of albedo, interpolated.
+
+    Parameters
+    ----------
+    table : ndarray, shape (2, M, 3)
+        See `albedo_table`.
+    warp : Warp
+    cosine : ndarray, shape (...,)
+        Between normal and view, in [0, 1].
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+    """
     row = 0.25 if warp is Warp.NORMAL else 0.75
     return bilinear(table, np.stack([cosine, np.full_like(cosine, row)], axis=-1), sphere_map.wrap)

@@ -141,6 +141,12 @@ def mips_down_to(size: int, last: int) -> int:
 def as_halves(mips: tuple[Array, ...], name: str) -> tuple[Array, ...]:
     """The mips, as half floats can hold them; for engines that cannot interpolate 32-bit floats everywhere.
 
+    Parameters
+    ----------
+    mips : tuple of ndarray, shape (6, n, n, 3)
+    name : str
+        The light in words.
+
     Warns
     -----
     RsibrWarning
@@ -157,8 +163,9 @@ def within(mips: tuple[Array, ...], largest: float, name: str, encoding: str) ->
 
     Parameters
     ----------
-    mips : tuple of ndarray
+    mips : tuple of ndarray, shape (6, n, n, 3)
     largest : float
+        Radiance.
     name, encoding : str
         The light and the encoding in words.
 

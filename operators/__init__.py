@@ -1,6 +1,6 @@
 """Operators, one per file; thin: properties to settings, then a task."""
 
-from . import bake_kinds, export
+from . import bake_kinds, export_formats
 from .accept import RSIBR_OT_accept
 from .add_materials import RSIBR_OT_add_materials
 from .add_probe import RSIBR_OT_add_probe
@@ -19,6 +19,8 @@ from .convert_light import RSIBR_OT_convert_light
 from .discard_paint import RSIBR_OT_discard_paint
 from .drag_split import RSIBR_OT_drag_split
 from .edit_as_images import RSIBR_OT_edit_as_images
+from .export_for_engine import RSIBR_OT_export_for_engine
+from .export_page import RSIBR_OT_export_page
 from .fit_lobes import RSIBR_OT_fit_lobes
 from .lift_painting import RSIBR_OT_lift_painting
 from .merge_brackets import RSIBR_OT_merge_brackets
@@ -63,7 +65,9 @@ CLASSES: tuple[type, ...] = (
     RSIBR_OT_discard_paint,
     RSIBR_OT_open_report,
     RSIBR_OT_open_comparison,
-    *export.CLASSES,
+    *export_formats.CLASSES,
+    RSIBR_OT_export_for_engine,
+    RSIBR_OT_export_page,
     RSIBR_OT_compare,
     RSIBR_OT_reload_map_sets,
     RSIBR_OT_drag_split,

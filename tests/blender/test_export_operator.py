@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import bpy
 import pytest
 import rsibr
-from rsibr.operators.export import EXPORT_FOR_ENGINE
+from rsibr.operators.export_for_engine import RSIBR_OT_export_for_engine
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.options import declared_options
 from rsibr.rsibr_addon.tasks.export.engines.engines import ENGINES
@@ -72,8 +72,8 @@ def test_the_operator_for_engines_writes_what_the_command_writes(tmp_path: Path)
 )
 def test_the_name_in_the_dialog_ends_as_the_engine_wants(engine: str, name: str, wanted: str) -> None:
     dialog = SimpleNamespace(engine=engine, filepath=name)
-    dialog.ending = lambda: EXPORT_FOR_ENGINE.ending(dialog)
-    assert EXPORT_FOR_ENGINE.check(dialog, bpy.context) == (name != wanted)
+    dialog.ending = lambda: RSIBR_OT_export_for_engine.ending(dialog)
+    assert RSIBR_OT_export_for_engine.check(dialog, bpy.context) == (name != wanted)
     assert dialog.filepath == wanted
 
 
@@ -82,7 +82,7 @@ def test_the_name_in_the_dialog_ends_as_the_engine_wants(engine: str, name: str,
 def test_the_dialog_shows_what_the_engine_takes_and_what_to_do_there(engine: str) -> None:
     shown, told = [], []
     layout = SimpleNamespace(prop=lambda _, name: shown.append(name), label=lambda text: told.append(text))
-    EXPORT_FOR_ENGINE.draw(SimpleNamespace(engine=engine, layout=layout), bpy.context)
+    RSIBR_OT_export_for_engine.draw(SimpleNamespace(engine=engine, layout=layout), bpy.context)
     options = {each.name for each in declared_options(ENGINES[engine].settings)}
     assert shown[0] == "engine"
     assert set(shown[1:]) == options

@@ -33,6 +33,14 @@ def test_what_is_not_bumped_stays() -> None:
     np.testing.assert_allclose(share, 1.0, atol=1e-7)
 
 
+def test_normals_that_lean_far_hide_as_facets_of_width_one() -> None:
+    smooth = np.array([np.sin(1.4), 0.0, np.cos(1.4)])
+    rise = np.linspace(0.05, 1.0, 20)
+    light = np.cross(smooth, (0.0, 1.0, 0.0)) * np.sqrt(1.0 - rise**2)[:, None] + rise[:, None] * smooth
+    # Smith's masking of GGX with alpha 1 is 2 c / (1 + c), c being the cosine to the light
+    np.testing.assert_allclose(shadowing(UP, smooth, light), 2.0 * rise / (1.0 + rise), rtol=1e-12)
+
+
 def test_light_from_below_the_surface_is_hidden() -> None:
     smooth = np.array([0.6, 0.0, 0.8])
     factor = shadowing(UP, smooth, LIGHT)

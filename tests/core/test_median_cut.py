@@ -30,6 +30,16 @@ def test_shares_are_alike() -> None:
     assert shares.min() > 0.4 * shares.mean()
 
 
+def test_lamps_of_even_light_are_spread_evenly() -> None:
+    lamps = lamps_above(np.ones((64, 128, 3)), 64)
+    assert len(lamps.directions) == 64
+    # On the plane an even sky is an even disk, of which each lamp has a 64th, cut across its longer side
+    places = np.stack(np.meshgrid(*2 * [np.linspace(-1.0, 1.0, 101)]), axis=-1).reshape(-1, 2)
+    places = places[np.linalg.norm(places, axis=1) < 1.0]
+    apart = np.linalg.norm(places[:, None] - lamps.directions[:, :2], axis=-1).min(axis=1)
+    assert apart.max() < np.sqrt(2.0 * np.pi / 64.0)  # the diagonal of a square of that area
+
+
 def test_a_sun_is_where_it_is() -> None:
     radiance = np.full((64, 128, 3), 0.01)
     radiance[50, 37] = 1e4

@@ -2,8 +2,10 @@
 
 from dataclasses import fields, replace
 
+import numpy as np
 from rsibr.rsibr_addon.core.materials.packing import CHANNELS, COLORS, NORMALS, pictures_of, with_pictures
 from rsibr.rsibr_addon.core.materials.principled import Baked, Input, NormalMap, PrincipledInputs, Texture
+from rsibr.rsibr_addon.core.materials.sampling import evaluate
 
 NAMES = [field.name for field in fields(PrincipledInputs) if field.name != "missing"]
 CONSTANT = {
@@ -37,6 +39,17 @@ def test_pictures_take_the_place_of_what_is_baked() -> None:
     assert given.normal.color.texture == textures["normal",]
     assert given.normal.uv_map == "other"
     assert given.ior == wanted.ior
+
+
+def test_a_picture_s_colours_are_the_values_as_they_are() -> None:
+    wanted = inputs("base_color", "roughness", "metallic", "normal", "alpha")
+    given = with_pictures(wanted, [(each, Texture("picture", bake="a.exr")) for each in pictures_of(wanted)])
+    texels, uv = np.array([[[0.1, 0.2, 0.3, 0.4]]]), np.zeros(2)
+    for value, held in {given.metallic: 0.1, given.roughness: 0.2, given.alpha: 0.3}.items():
+        np.testing.assert_allclose(evaluate(value, texels, uv), held, rtol=1e-12)
+    for colour in (given.base_color, given.normal.color):
+        np.testing.assert_allclose(evaluate(colour, texels, uv), [0.1, 0.2, 0.3], rtol=1e-12)
+    assert given.normal.strength.constant == (1.0,)
 
 
 def test_old_pictures_leave_what_is_followed_by_now() -> None:

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import fields, replace
 from typing import Any
 
-from .principled import Baked, Input, NormalMap, PrincipledInputs, Row, Texture
+from .principled import Baked, Input, NormalMap, PrincipledInputs, Row, Texture, constant
 
 COLORS = ("base_color", "specular_tint", "coat_tint", "sheen_tint", "emission_color")
 NORMALS = ("normal", "coat_normal")
@@ -58,8 +58,7 @@ def with_pictures(inputs: PrincipledInputs, textures: Iterable[tuple[Picture, Te
     for picture, texture in textures:
         for number, name in enumerate(picture):
             if name in NORMALS:
-                strength = Input(((0.0, 0.0, 0.0, 0.0, 1.0),))
-                found[name] = NormalMap(Input(CHANNELS, texture), strength, texture.uv_map)
+                found[name] = NormalMap(Input(CHANNELS, texture), constant((1.0,)), texture.uv_map)
             elif name in COLORS:
                 found[name] = Input(CHANNELS, texture)
             else:

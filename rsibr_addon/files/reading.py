@@ -28,7 +28,7 @@ def opened(path: str | Path) -> Iterator[BufferedReader]:
     try:
         with path.open("rb") as stream:
             yield stream
-    except FileNotFoundError as error:
+    except (FileNotFoundError, NotADirectoryError) as error:
         raise InputFileError(f"{path} does not exist: check the name and the folder.") from error
     except OSError as error:
         raise InputFileError(f"{path} cannot be read ({error.strerror}): check its permissions.") from error

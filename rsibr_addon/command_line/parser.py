@@ -1,11 +1,15 @@
 """A parser that answers wrong usage with that of the command at fault, and with what may have been meant."""
 
 import argparse
+import re
 from collections.abc import Callable, Sequence
 from typing import Any, NoReturn
 
 from ..core.errors import RsibrError
 from ..core.near_names import did_you_mean
+
+_A_FILE = re.compile(r"-[^-].*\.[a-zA-Z]\w*")
+"""A word that argparse takes for an option, and is none: it ends as the name of a file does."""
 
 Declare = Callable[["Parser", Sequence[str]], None]
 """Declares a parser's arguments; it may leave out what the words to be parsed do not ask for."""
@@ -70,6 +74,8 @@ class Parser(argparse.ArgumentParser):
                 return
             if name.startswith("--") and name not in self._option_string_actions:
                 self.error(f"there is no option {name}{did_you_mean(name, self._option_string_actions)}")
+            if _A_FILE.fullmatch(word) and word[:2] not in self._option_string_actions:
+                self.error(f"there is no option {word}: write ./{word} for the file of this name")
 
     def _get_value(self, action: argparse.Action, arg_string: str) -> Any:
         """The value of a word; an empty one is mostly a variable of a script that is not set."""

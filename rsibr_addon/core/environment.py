@@ -13,6 +13,10 @@ NEGLIGIBLE = 1e-6
 """Sum of negative values, relative to that of the others, up to which they are nothing but a picture's
 compression: Blender's own environments have up to 2.5e-7, and a map in half floats errs by 5e-4."""
 
+LARGEST = 1e30
+"""Greatest radiance that is kept, and greatest clamp: sums of light over the sphere stay finite in 32-bit
+floats."""
+
 
 @dataclass(frozen=True)
 class Environment:
@@ -90,7 +94,7 @@ def usable_radiance(pixels: Array, name: str, clamp: float | None = None) -> Arr
     Returns
     -------
     ndarray, shape of `pixels`, float32
-        At least 0 and finite; `pixels` itself, where it already is. Values above `clamp` become `clamp`.
+        From 0 to `LARGEST`; `pixels` itself, where it already is. Values above `clamp` become `clamp`.
         Without it infinite values, such as a sun that half floats cannot hold, become the greatest finite
         value. NaN and negative values, which no light has, become 0; negative ones without a word where they
         are `NEGLIGIBLE`.
@@ -107,16 +111,17 @@ def usable_radiance(pixels: Array, name: str, clamp: float | None = None) -> Arr
     """
     with np.errstate(over="ignore"):
         radiance = pixels.astype(np.float32, copy=False)
-    most = np.finfo(np.float32).max if clamp is None else np.float32(clamp)
+    most = np.float32(LARGEST if clamp is None else clamp)
     if np.min(radiance) >= 0.0 and np.max(radiance) <= most:
         return radiance
     finite = np.isfinite(radiance)
     if not finite.any():
         raise InputFileError(f"{name} holds no finite value: make it again.")
     if clamp is None:
-        most = np.max(radiance, where=finite, initial=0.0)
+        most = min(most, np.max(radiance, where=finite, initial=0.0))
+    is_limited = clamp is not None or most == np.float32(LARGEST)
     changes = (
-        ("infinite values" if clamp is None else f"values above {clamp:g}", radiance > most, most),
+        (f"values above {most:g}" if is_limited else "infinite values", radiance > most, most),
         ("undefined (NaN) values", np.isnan(radiance), np.float32(0.0)),
         ("negative values", radiance < 0.0, np.float32(0.0)),
     )

@@ -32,6 +32,7 @@ import numpy as np
 
 from .conventions import Array
 from .errors import RangeError, SchemaError, ShapeError
+from .near_names import did_you_mean
 
 Decoded = TypeVar("Decoded")
 
@@ -330,7 +331,8 @@ def _instance(schema: Any, plain: Any, where: str) -> Any:
             raise SchemaError(f"{_within(where, field.name)} is missing")
     for name in found:
         if name not in hints:
-            raise SchemaError(f"{_within(where, _shortened(name))} is unknown")
+            short = _shortened(name)
+            raise SchemaError(f"{_within(where, short)} is unknown{did_you_mean(short, hints)}")
     values = {name: _decoded(hints[name], value, _within(where, name)) for name, value in found.items()}
     try:
         return schema(**values)

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Any
 
+from ..core.environment import LARGEST
 from ..core.errors import RangeError
 from ..core.options import Choice, Options, option
 
@@ -16,7 +17,7 @@ class Clamp(Options):
         label="Clamp",
         help="Greatest radiance: brighter and infinite values become this, and a warning counts them",
         least=1e-30,
-        most=1e30,
+        most=LARGEST,
         soft_most=1e5,
         none="infinite values become the greatest finite one",
         none_as=0.0,

@@ -151,6 +151,18 @@ def test_files_that_settings_name_are_beside_the_batch(
     assert Path(spec.job.output).name == "dark-merl-path-b.binary.rsibr.exr"
 
 
+def test_what_two_patterns_mean_is_baked_once() -> None:
+    twice = ["light/*.exr", "light/dawn.exr", "light/d*.exr"]
+    path = write_batch(environments=twice, methods=["mip-chain", "mip_chain"], output="{environment}.exr")
+    assert sorted(outputs(path)) == [f"{light}.exr" for light in sorted(ENVIRONMENTS)]
+
+
+def test_a_file_that_is_called_like_a_pattern_is_meant_alone() -> None:
+    Path("light/[dn].exr").touch()
+    path = write_batch(environments=["light/[dn].exr"], methods=["mip-chain"], output="{environment}.exr")
+    assert outputs(path) == ["dn.exr"]
+
+
 def test_an_empty_name_takes_its_dash_along() -> None:
     path = write_batch(methods=["mip-chain"], output="{environment}-{material}.rsibr.exr")
     assert sorted(outputs(path)) == [f"{light}.rsibr.exr" for light in sorted(ENVIRONMENTS)]
@@ -162,14 +174,19 @@ def test_an_empty_name_takes_its_dash_along() -> None:
         ({"environments": []}, "it has no environment and method"),
         ({"output": "{environment}-{material}"}, "does not end in .exr"),
         ({"environments": ["none/*.exr"]}, r"Nothing is called none/\*\.exr"),
+        ({"environments": [""]}, "an environment has no name"),
         ({"methods": ["baking"]}, "there is no method baking: choose one of"),
+        ({"methods": ["mipchain"]}, r"no method mipchain \(did you mean mip-chain\?\): choose one of"),
         ({"output": "{light}.exr"}, "output names {light}, which is none of environment, material"),
+        ({"output": "{material!r}.exr"}, "output names {material!r}, which is none of environment, material"),
+        ({"output": "{material.exr"}, "output {material.exr has a brace without another"),
         (
             {"output": "{material}.exr"},
             r"metals\.json makes .*chrome\.exr of chrome in dawn and of chrome in",
         ),
         ({"methods": [{"kind": "mip-chain", "size": 3}]}, "mip_chain is impossible"),
         ({"colour": 1}, "colour is unknown"),
+        ({"size": [64]}, r"size is unknown \(did you mean sizes\?\)"),
     ],
 )
 def test_what_is_wrong_with_a_batch_is_a_sentence(changed: dict[str, Any], sentence: str) -> None:

@@ -55,6 +55,19 @@ def test_a_name_that_is_none_of_the_known_is_told(
     assert told in capfd.readouterr().err
 
 
+@pytest.mark.parametrize("before", [(), ("--environment",)])
+def test_a_file_whose_name_begins_like_an_option_is_told_of(
+    before: tuple[str, ...], capfd: pytest.CaptureFixture[str]
+) -> None:
+    command = ["bake", "mip-chain"] if before else ["info"]
+    assert run([*command, *before, "-dash.exr"]) == 2
+    assert (
+        "there is no option -dash.exr: write ./-dash.exr for the file of this name" in capfd.readouterr().err
+    )
+    assert run(["info", "./-dash.exr"]) == 1
+    assert "-dash.exr does not exist" in capfd.readouterr().err
+
+
 def test_all_commands_are_listed_and_all_kinds(capfd: pytest.CaptureFixture[str]) -> None:
     assert run(["--help"]) == run(["bake", "--help"]) == 0
     out = capfd.readouterr().out

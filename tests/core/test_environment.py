@@ -85,6 +85,16 @@ def test_what_is_brighter_than_the_clamp_is_the_clamp_with_the_count() -> None:
     assert environment.clamp == clamp
 
 
+def test_what_sums_could_not_hold_is_limited_with_the_count() -> None:
+    pixels = PIXELS.copy()
+    pixels[0, 0] = np.inf, 3e38, 1e30
+    with pytest.warns(RsibrWarning) as caught:
+        environment = environment_from_pixels(pixels, "room.exr")
+    [told] = map(str, (warning.message for warning in caught))
+    assert told == "room.exr holds 2 values above 1e+30; they are taken as 1e+30."
+    np.testing.assert_array_equal(environment.radiance, np.minimum(pixels, np.float32(1e30)))
+
+
 def test_nothing_is_said_of_a_clamp_that_changes_nothing() -> None:
     environment = environment_from_pixels(PIXELS, "room.exr", float(PIXELS.max()))
     assert environment.sha256 == environment_from_pixels(PIXELS, "room.exr").sha256

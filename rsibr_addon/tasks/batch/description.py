@@ -68,7 +68,9 @@ def read_batch(path: Path, folder: Path | None = None) -> list[BatchBake]:
         data = stream.read()
     folder = path.parent if folder is None else folder
     try:
-        found = list(_read(data.decode("utf-8-sig"), path, folder))
+        # Patterns may overlap, and so mean a bake twice
+        read = _read(data.decode("utf-8-sig"), path, folder)
+        found = list({(bake.job.to_json(), bake.opened): bake for bake in read}.values())
         _check(found, path)
     except UnicodeDecodeError as error:
         raise InputFileError(f"{path} is no text: give a batch as JSON or CSV in UTF-8.") from error
@@ -152,6 +154,8 @@ def _with_files_beside(given: dict[str, Any], kind: str, folder: Path) -> dict[s
 
 def _environments(text: str, folder: Path) -> Sequence[str]:
     """What a text names: pictures beside the batch, all that a pattern finds, or one of Blender's own."""
+    if not text:
+        raise SchemaError("an environment has no name")
     if is_pattern(text):
         # Map sets may lie beside environments, and are none
         return [str(path) for path in _files(text, folder) if not path.name.endswith(".rsibr.exr")]
@@ -196,7 +200,9 @@ def is_pattern(text: str) -> bool:
 
 
 def _files(pattern: str, folder: Path) -> list[Path]:
-    """All files that a pattern means, of which there is one at least."""
+    """All files that a pattern means, at least one; a file that is called like the pattern is meant alone."""
+    if (folder / pattern).is_file():
+        return [folder / pattern]
     anchor = Path(pattern).anchor
     paths = sorted(Path(anchor or folder).glob(str(Path(pattern).relative_to(anchor))))
     if not paths:
@@ -247,6 +253,8 @@ def _filled(pattern: str, names: dict[str, str]) -> str:
             raise SchemaError(f"output names {{{found[1]}}}, which is none of {', '.join(FIELDS)}")
         return names[found[1]]
 
-    filled = re.sub(r"\{(\w*)\}", named, pattern)
+    if re.search(r"[{}]", re.sub(r"\{[^{}]*\}", "", pattern)):
+        raise SchemaError(f"output {pattern} has a brace without another")
+    filled = re.sub(r"\{([^{}]*)\}", named, pattern)
     # Of a name that is empty, the sign that parts it from the one before goes too
     return re.sub(r"[-_]+(?=\.|/|$)", "", filled) if "" in names.values() else filled

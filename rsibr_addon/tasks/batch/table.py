@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from ...core.errors import SchemaError
+from ...core.near_names import did_you_mean
 from ...core.options import declared_options, value_from_text
 from ...files.kinds.registry import STORED
 
@@ -51,8 +52,9 @@ def method_kind(name: str) -> str:
     """
     kind = name.replace("-", "_")
     if kind not in STORED:
-        known = ", ".join(STORED).replace("_", "-")
-        raise SchemaError(f"there is no method {name}: choose one of {known}")
+        known = [each.replace("_", "-") for each in STORED]
+        near = did_you_mean(name, known)
+        raise SchemaError(f"there is no method {name}{near}: choose one of {', '.join(known)}")
     return kind
 
 
@@ -84,7 +86,8 @@ def _values(kind: str, cells: dict[str, str], line: int) -> dict[str, Any]:
     values: dict[str, Any] = {}
     for name, cell in cells.items():
         if name not in known:
-            raise SchemaError(f"column {name} of line {line} is none of {', '.join(known)}")
+            near = did_you_mean(name, known)
+            raise SchemaError(f"column {name} of line {line}{near} is none of {', '.join(known)}")
         try:
             value = _flag(cell) if known[name].wanted is bool else value_from_text(known[name], cell)
         except ValueError as error:

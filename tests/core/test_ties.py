@@ -15,13 +15,14 @@ EPS = 4e-16
 """What a sum in another order may differ by, of values near 1."""
 
 
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
 @pytest.mark.parametrize("noise", [-EPS, 0.0, EPS])
-def test_of_equal_values_the_first_is_chosen(noise: float) -> None:
-    values = np.array([0.3, 1.0, 0.3 + noise, 1.0 + noise, 0.3 - noise])
+def test_of_equal_values_the_first_is_chosen(noise: float, scale: float) -> None:
+    values = scale * np.array([0.3, 1.0, 0.3 + noise, 1.0 + noise, 0.3 - noise])
     assert first_greatest(values) == 1
     np.testing.assert_array_equal(greatest_first(values), [1, 3, 0, 2, 4])
     # What is greater by more than rounding is chosen wherever it is
-    values[4] = 1.0 + 1e-6
+    values[4] = scale * (1.0 + 1e-6)
     assert first_greatest(values) == 4
     np.testing.assert_array_equal(greatest_first(values), [4, 1, 3, 0, 2])
     np.testing.assert_array_equal(greatest_first(np.zeros(3)), [0, 1, 2])

@@ -1,5 +1,7 @@
 """Meshes in a place of their own, drawn off-screen; and small surfaces that have two sides."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
 
@@ -17,25 +19,32 @@ SAMPLES = 4
 MIRRORING = np.diag([-1.0, 1.0, 1.0, 1.0])
 
 
+@contextmanager
+def depth_tested(size: int) -> Iterator[gpu.types.GPUFrameBuffer]:
+    """A frame buffer of a transparent picture, bound, in which what is nearer hides what is behind."""
+    depth = gpu.types.GPUTexture((size, size), format="DEPTH_COMPONENT32F")
+    colour = buffers.render_target(size)
+    target = gpu.types.GPUFrameBuffer(depth_slot=depth, color_slots=(colour,))
+    with target.bind():
+        target.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
+        gpu.state.depth_test_set("LESS_EQUAL")
+        gpu.state.depth_mask_set(True)
+        try:
+            yield target
+        finally:
+            gpu.state.depth_test_set("NONE")
+            gpu.state.depth_mask_set(False)
+
+
 def drawn(
     content: GpuMapSet, mesh: TriangleMesh, model: np.ndarray, camera: Camera, size: int, look: Any
 ) -> np.ndarray:
     """A picture of a mesh that a matrix places, as `PreviewRenderer.draw` makes it of one in its place."""
     ensure_context()
     fine = size * SAMPLES
-    depth = gpu.types.GPUTexture((fine, fine), format="DEPTH_COMPONENT32F")
-    colour = buffers.render_target(fine)
-    target = gpu.types.GPUFrameBuffer(depth_slot=depth, color_slots=(colour,))
     placed = Draw(model, np.linalg.inv(camera.world_from_camera), camera.projection, camera.eye)
-    with target.bind():
-        target.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
-        gpu.state.depth_test_set("LESS_EQUAL")
-        gpu.state.depth_mask_set(True)
-        try:
-            content.draw(GpuMesh(mesh.positions, mesh.normals, mesh.triangles), placed, look)
-        finally:
-            gpu.state.depth_test_set("NONE")
-            gpu.state.depth_mask_set(False)
+    with depth_tested(fine) as target:
+        content.draw(GpuMesh(mesh.positions, mesh.normals, mesh.triangles), placed, look)
         pixels = buffers.pixels(target, fine)
     return pixels.reshape(size, SAMPLES, size, SAMPLES, 4).mean(axis=(1, 3))
 

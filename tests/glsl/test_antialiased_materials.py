@@ -23,6 +23,7 @@ from rsibr.rsibr_addon.device.textured_mesh import GpuTexturedMesh
 from rsibr.tests.glsl.principled_inputs import families
 from rsibr.tests.glsl.test_preview_renderer import fine_sphere
 from rsibr.tests.glsl.test_textured_materials import constants
+from rsibr.tests.placed_drawing import depth_tested
 
 SAMPLES = 8
 """Along each axis of a pixel."""
@@ -43,17 +44,8 @@ def content() -> GpuPyramid:
 
 
 def drawn(content: GpuPyramid, mesh: GpuMesh, look: object, size: int) -> np.ndarray:
-    colour, depth = (
-        gpu.types.GPUTexture((size, size), format=each) for each in ("RGBA32F", "DEPTH_COMPONENT32F")
-    )
-    target = gpu.types.GPUFrameBuffer(depth_slot=depth, color_slots=(colour,))
-    with target.bind():
-        target.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
-        gpu.state.depth_test_set("LESS_EQUAL")
-        gpu.state.depth_mask_set(True)
+    with depth_tested(size) as target:
         content.draw(mesh, FROM_ABOVE, look)
-        gpu.state.depth_test_set("NONE")
-        gpu.state.depth_mask_set(False)
         return buffers.pixels(target, size)[..., :3]
 
 

@@ -36,6 +36,7 @@ from rsibr.rsibr_addon.device.kinds.kernel_pyramid import GpuPyramid
 from rsibr.rsibr_addon.device.own_materials import MOST_TEXTURES, DrawnMaterial, OwnMaterials
 from rsibr.rsibr_addon.device.textured_mesh import GpuTexturedMesh
 from rsibr.tests.glsl.principled_inputs import families, pyramid
+from rsibr.tests.placed_drawing import depth_tested
 
 SIZE = 64
 SQUARE = np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
@@ -266,19 +267,9 @@ def test_what_is_cut_out_hides_nothing(content: GpuPyramid) -> None:
     nearer = np.eye(4)
     nearer[2, 3] = 0.5
     alone, ground = (drawn(content, square(), each) for each in (in_front, behind))
-    colour, depth = (
-        buffers.render_target(SIZE),
-        gpu.types.GPUTexture((SIZE, SIZE), format="DEPTH_COMPONENT32F"),
-    )
-    target = gpu.types.GPUFrameBuffer(depth_slot=depth, color_slots=(colour,))
-    with target.bind():
-        target.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
-        gpu.state.depth_test_set("LESS_EQUAL")
-        gpu.state.depth_mask_set(True)
+    with depth_tested(SIZE) as target:
         content.draw(square(), replace(FROM_ABOVE, model=nearer), in_front)
         content.draw(square(), FROM_ABOVE, behind)
-        gpu.state.depth_test_set("NONE")
-        gpu.state.depth_mask_set(False)
         both = buffers.pixels(target, SIZE)
     covered = np.kron(CHECKER, np.ones((SIZE // 4, SIZE // 4))) > 0.0
     np.testing.assert_array_equal(alone[..., 3], covered)
@@ -300,18 +291,8 @@ def test_a_soft_edge_shows_what_lies_behind_it_in_the_same_mesh(content: GpuPyra
         np.concatenate([UV, right_edge]),
         uv_maps=("UVMap",),
     )
-    colour, depth = (
-        buffers.render_target(SIZE),
-        gpu.types.GPUTexture((SIZE, SIZE), format="DEPTH_COMPONENT32F"),
-    )
-    target = gpu.types.GPUFrameBuffer(depth_slot=depth, color_slots=(colour,))
-    with target.bind():
-        target.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
-        gpu.state.depth_test_set("LESS_EQUAL")
-        gpu.state.depth_mask_set(True)
+    with depth_tested(SIZE) as target:
         content.draw(mesh, FROM_ABOVE, OwnMaterials((material,)))
-        gpu.state.depth_test_set("NONE")
-        gpu.state.depth_mask_set(False)
         picture = buffers.pixels(target, SIZE)
     np.testing.assert_allclose(picture[..., 3], 1.0, atol=1e-6)
     np.testing.assert_allclose(picture[..., :3], reference(Surface(metallic=1.0)), atol=4e-3)

@@ -4,9 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..core.brdf.measured_cornell import scattered_brdf
+from ..core.brdf.measured_cornell import Scattered, scattered_brdf
 from ..core.brdf.spectrum import rec709_from_spectrum, told_wavelengths
-from ..core.brdf.tabulated import Tabulated
 from ..core.conventions import Array
 from ..core.errors import InputFileError, RangeError
 from ..core.warned import warn
@@ -18,7 +17,7 @@ LARGEST = 1 << 26
 COMMENT = "#"
 
 
-def read_cornell(path: str | Path) -> Tabulated:
+def read_cornell(path: str | Path) -> Scattered:
     """Read a reflectance measured at Cornell's Program of Computer Graphics.
 
     Parameters
@@ -30,7 +29,7 @@ def read_cornell(path: str | Path) -> Tabulated:
 
     Returns
     -------
-    Tabulated
+    Scattered
         In linear Rec. 709; its spec is `cornell:path=` and the path.
 
     Raises

@@ -57,8 +57,8 @@ def test_negative_and_missing_numbers_are_counted_and_floored(tmp_path: Path) ->
 def test_colours_outside_the_gamut_are_counted_and_floored(tmp_path: Path) -> None:
     with pytest.warns(RsibrWarning, match=r"has \d+ values of colours outside Rec. 709"):
         brdf = read_cornell(write(tmp_path / "a.brdf", rows([0.0, 0.2, 0.0, 0.0])))
-    assert brdf.table.min() == 0.0
-    assert brdf.table.max() > 0.01
+    assert brdf.density.table.min() == 0.0
+    assert brdf.density.table.max() > 0.01
 
 
 @pytest.mark.parametrize(
@@ -145,10 +145,10 @@ def test_real_paints_are_close_to_their_samples(name: str, spread: float) -> Non
 @pytest.mark.parametrize(("scale", "unit"), [(1e-3, "micrometres"), (1e-9, "metres")])
 def test_wavelengths_in_other_units_are_told_and_read(tmp_path: Path, scale: float, unit: str) -> None:
     values = [0.9, 0.5, 0.2, 0.1]
-    expected = read_cornell(write(tmp_path / "a.brdf", rows(values))).table
+    expected = read_cornell(write(tmp_path / "a.brdf", rows(values))).density.table
     small = " ".join(f"{scale * wavelength:g}" for wavelength in (400, 500, 600, 700))
     with pytest.warns(RsibrWarning, match=rf"The wavelengths of .* are .* taken for {unit}"):
-        found = read_cornell(write(tmp_path / "b.brdf", rows(values), wls=small)).table
+        found = read_cornell(write(tmp_path / "b.brdf", rows(values), wls=small)).density.table
     np.testing.assert_allclose(found, expected, rtol=1e-9)
 
 

@@ -1,6 +1,8 @@
 """Reflectance from scattered measurements, such as those of Cornell's goniometer, made into a table."""
 
 from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -8,17 +10,15 @@ from ..conventions import Array
 from ..errors import RangeError
 from ..ties import first_greatest
 from .fresnel import fresnel_schlick
-from .model import Geometry
-from .tabulated import Tabulated, directions_from_angles, half_difference_angles
+from .ggx import smith_visibility
+from .model import Brdf, Geometry
+from .tabulated import Tabulated, half_difference_angles
 
 SHAPE = (60, 45, 12)
 """Cells of the table's theta_h, theta_d and phi_d."""
 
 DARKEST = 1e-5
 """[1/sr] Mean reflectance below which a sample counts as missing: the instrument stores six decimals."""
-
-HORIZON = 0.05
-"""Least cosine in 1 / cosine: below, the curve is too steep for a table's cells, and nothing was measured."""
 
 NEIGHBOURS = 8
 """Samples from which a cell is computed."""
@@ -44,7 +44,63 @@ and 1.3 % (garnet red).
 """
 
 
-def scattered_brdf(light_dir: Array, view_dir: Array, brdf: Array, spec: str) -> Tabulated:
+class Facets(NamedTuple):
+    """Facets that may explain a reflectance: what is not their density.
+
+    Attributes
+    ----------
+    alpha : float
+        Width of GGX whose shadowing they have.
+    coated : bool
+        Whether they reflect as a coat of index 1.5 does, or as white ones.
+    """
+
+    alpha: float
+    coated: bool
+
+    def reflectance(self, geometry: Geometry) -> Array:
+        """Reflectance for a density of 1, shape (N,)."""
+        visibility = smith_visibility(geometry.n_dot_l, geometry.n_dot_v, self.alpha)
+        return visibility * fresnel_schlick(geometry.h_dot_l, 0.04) if self.coated else visibility
+
+
+FACETS = (*(Facets(alpha, coated=True) for alpha in (0.03, 0.1, 0.3, 1.0)), Facets(1.0, coated=False))
+"""From thin coats to rough metals and Lambert surfaces."""
+
+GRAZING = 4
+"""One in so many samples, those nearest to the horizon, are predicted from the others to choose `FACETS`."""
+
+
+@dataclass(frozen=True, eq=False)
+class Scattered(Brdf):
+    """The model of scattered measurements.
+
+    Attributes
+    ----------
+    density : Tabulated
+        Density of the facets in each colour [1/sr]; its spec is the model's.
+    facets : Facets
+    """
+
+    density: Tabulated
+    facets: Facets
+
+    @property
+    def spec(self) -> str:
+        """The text that stands for it, `cornell:path=paint.brdf` for example."""
+        return self.density.spec
+
+    @property
+    def is_noisy(self) -> bool:
+        """See `Brdf`: each sample has an error of its own, which spreads over cells."""
+        return True
+
+    def above_horizon(self, geometry: Geometry) -> Array:
+        """See `Brdf`."""
+        return self.density.above_horizon(geometry) * self.facets.reflectance(geometry)[:, None]
+
+
+def scattered_brdf(light_dir: Array, view_dir: Array, brdf: Array, spec: str) -> Scattered:
     """The isotropic model of scattered measurements.
 
     Parameters
@@ -58,7 +114,7 @@ def scattered_brdf(light_dir: Array, view_dir: Array, brdf: Array, spec: str) ->
 
     Returns
     -------
-    Tabulated
+    Scattered
         Reciprocal, and the same on both sides of the plane of incidence.
 
     Raises
@@ -69,11 +125,12 @@ def scattered_brdf(light_dir: Array, view_dir: Array, brdf: Array, spec: str) ->
     Notes
     -----
     Planes are fitted to the nearest samples (moving least squares) in the half and difference angles of
-    [Rusinkiewicz1998], where lobes stay in place while the view moves. The planes fit the logarithm of
-    reflectance times 4 n.l n.v / F, the density of facets that would explain it under a coat of index 1.5. It
-    hardly changes along theta_d, so the few samples that hit a sharp peak tell about all its elevations.
-    Where that predicts left-out samples better, planes are fitted to what a profile over theta_h alone
-    leaves. A fit never leaves the range of its samples.
+    [Rusinkiewicz1998], where lobes stay in place while the view moves. The planes fit the logarithm of the
+    density of facets that would explain the reflectance. It hardly changes along theta_d, so the few samples
+    that hit a sharp peak tell about all its elevations. The facets are those of `FACETS` by which the samples
+    nearest to the horizon are predicted best from the others: elevations beyond what was measured follow
+    from these in the same way. Where it predicts left-out samples better, planes are fitted to what a profile
+    over theta_h alone leaves. A fit never leaves the range of its samples.
     """
     bright = brdf.mean(axis=1) >= DARKEST
     if np.count_nonzero(bright) <= NEIGHBOURS:
@@ -85,22 +142,20 @@ def scattered_brdf(light_dir: Array, view_dir: Array, brdf: Array, spec: str) ->
     geometry, brdf = Geometry(light_dir[bright], view_dir[bright]), brdf[bright]
     places = _coordinates(*half_difference_angles(geometry))
     brightness = brdf.sum(axis=1)
-    facets = np.log(brightness / _boundary(geometry.n_dot_l, geometry.n_dot_v, geometry.h_dot_l))
     hues = brdf / brightness[:, None]
-    predicted = _predictor(places, facets, hues, _best_reach(places, facets, hues))
+    facets = _best_facets(geometry, places, brightness)
+    density = np.log(brightness / facets.reflectance(geometry))
+    predicted = _predictor(places, density, hues, _best_reach(places, density, hues))
     # phi_d and pi - phi_d are mirror images: half of the azimuths give the other half
     half_angle = ((np.arange(SHAPE[0]) + 0.5) / SHAPE[0]) ** 2 * (np.pi / 2.0)
     difference_angle = (np.arange(SHAPE[1]) + 0.5)[:, None] / SHAPE[1] * (np.pi / 2.0)
     azimuth = (np.arange(SHAPE[2] // 2) + 0.5) / SHAPE[2] * np.pi
     table = np.empty((*SHAPE[:2], SHAPE[2] // 2, 3))
     for row, theta_h in zip(table, half_angle, strict=True):
-        light, view = directions_from_angles(theta_h, difference_angle, azimuth)
-        boundary = _boundary(light[..., 2], view[..., 2], np.cos(difference_angle))
         cells = _coordinates(*np.broadcast_arrays(theta_h, difference_angle, azimuth))
-        log_facets, hue = predicted(cells.reshape(-1, 3))
-        fitted = np.exp(log_facets).reshape(boundary.shape) * boundary
-        row[:] = fitted[..., None] * hue.reshape(*boundary.shape, 3)
-    return Tabulated(np.concatenate([table, table[:, :, ::-1]], axis=2), spec, scattered=True)
+        log_density, hue = predicted(cells.reshape(-1, 3))
+        row[:] = (np.exp(log_density)[:, None] * hue).reshape(row.shape)
+    return Scattered(Tabulated(np.concatenate([table, table[:, :, ::-1]], axis=2), spec), facets)
 
 
 def _coordinates(theta_h: Array, theta_d: Array, phi_d: Array) -> Array:
@@ -111,41 +166,51 @@ def _coordinates(theta_h: Array, theta_d: Array, phi_d: Array) -> Array:
     return np.stack([half, DIFFERENCE_SCALE * theta_d * (2.0 / np.pi), azimuth], axis=-1)
 
 
-def _boundary(n_dot_l: Array, n_dot_v: Array, h_dot_l: Array) -> Array:
-    """F / (4 n.l n.v), the factor between facets and reflectance."""
-    fresnel = fresnel_schlick(h_dot_l, 0.04)
-    boundary: Array = fresnel / (4.0 * np.maximum(n_dot_l, HORIZON) * np.maximum(n_dot_v, HORIZON))
-    return boundary
+def _best_facets(geometry: Geometry, places: Array, brightness: Array) -> Facets:
+    """The facets by which samples near the horizon are predicted best, in the root of the light they reflect.
+
+    The root lets neither the peak's few samples decide alone, nor the many dark ones.
+    """
+    lowest = np.minimum(geometry.n_dot_l, geometry.n_dot_v)
+    grazing, others = np.split(np.argsort(lowest, kind="stable"), [len(lowest) // GRAZING])
+    root = np.sqrt(brightness * np.sqrt(geometry.n_dot_l * geometry.n_dot_v))[grazing]
+    unhued = np.ones((len(others), 1))
+    missed = np.zeros(len(FACETS))
+    for row, facets in enumerate(FACETS):
+        density = np.log(brightness / facets.reflectance(geometry))
+        found, _ = _fit(places[grazing], places[others], density[others], unhued)
+        missed[row] = np.sum((np.expm1(0.5 * (found - density[grazing])) * root) ** 2)
+    return FACETS[first_greatest(-missed)]
 
 
-def _best_reach(places: Array, facets: Array, hues: Array) -> float:
+def _best_reach(places: Array, density: Array, hues: Array) -> float:
     """The reach [degrees] of the peak's profile that predicts left-out samples best; 0 where none does."""
     reaches = (0.0, *REACHES)
     missed = np.zeros(len(reaches))
     for index in np.argsort(places[:, 0], kind="stable")[:PREDICTED]:
-        others = np.arange(len(facets)) != index
+        others = np.arange(len(density)) != index
         for row, reach in enumerate(reaches):
-            predicted = _predictor(places[others], facets[others], hues[others], reach)
+            predicted = _predictor(places[others], density[others], hues[others], reach)
             found, _ = predicted(places[index : index + 1])
-            missed[row] += (found[0] - facets[index]) ** 2
+            missed[row] += (found[0] - density[index]) ** 2
     best = first_greatest(-missed)
     return reaches[best] if missed[best] < BETTER**2 * missed[0] else 0.0
 
 
 def _predictor(
-    places: Array, facets: Array, hues: Array, reach: float
+    places: Array, density: Array, hues: Array, reach: float
 ) -> Callable[[Array], tuple[Array, Array]]:
-    """What gives the logarithm of facets, shape (P,), and hues at some `_coordinates`, shape (P, 3)."""
+    """What gives the logarithm of density, shape (P,), and hues at some `_coordinates`, shape (P, 3)."""
     if not reach:
-        return lambda points: _fit(points, places, facets, hues)
+        return lambda points: _fit(points, places, density, hues)
     knots = np.linspace(0.0, np.sqrt(reach / 90.0), KNOTS)
-    profile, _ = _fit(knots[:, None], places[:, :1], facets, hues)
+    profile, _ = _fit(knots[:, None], places[:, :1], density, hues)
 
     def peak(points: Array) -> Array:
         values: Array = np.interp(points[:, 0], knots, profile)
         return values
 
-    rest = facets - peak(places)
+    rest = density - peak(places)
 
     def predicted(points: Array) -> tuple[Array, Array]:
         value, hue = _fit(points, places, rest, hues)

@@ -29,6 +29,7 @@ from .ggx import Ggx
 from .he_torrance import HeTorrance
 from .lambert import Lambert
 from .layered import Layered, Sum
+from .measured_cornell import Scattered
 from .measured_material import MeasuredMaterial
 from .measured_rgl import MeasuredRgl
 from .metals import METALS
@@ -124,7 +125,7 @@ def spec_from_brdf(brdf: Brdf) -> str:
     RangeError
         No text can describe the model.
     """
-    if isinstance(brdf, Tabulated | MeasuredRgl | MeasuredMaterial):
+    if isinstance(brdf, Tabulated | Scattered | MeasuredRgl | MeasuredMaterial):
         return brdf.spec
     for name, owner in MODELS.items():
         if type(brdf) is owner:

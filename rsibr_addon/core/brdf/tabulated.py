@@ -27,8 +27,6 @@ class Tabulated(Brdf):
         Whether azimuths phi_d + pi, which swap light and view, have the values of phi_d. Otherwise they have
         those of 2 pi - (phi_d + pi): an isotropic surface is symmetric about the plane of normal and half
         vector.
-    scattered : bool
-        Whether it is made of few samples, whose errors spread over cells.
 
     Raises
     ------
@@ -43,16 +41,10 @@ class Tabulated(Brdf):
     table: Array
     spec: str
     reciprocal: bool = True
-    scattered: bool = False
 
     def __post_init__(self) -> None:
         if self.table.ndim != 4 or self.table.shape[3] != 3 or 0 in self.table.shape:
             raise ShapeError(f"A reflectance table has shape (H, D, P, 3), not {self.table.shape}.")
-
-    @property
-    def is_noisy(self) -> bool:
-        """See `Brdf`."""
-        return self.scattered
 
     def above_horizon(self, geometry: Geometry) -> Array:
         """See `Brdf`."""

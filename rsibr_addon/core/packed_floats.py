@@ -7,6 +7,9 @@ from .conventions import Array, Indices
 LARGEST = 64512.0
 """The largest value that all three channels have; blue ends there, red and green at 65024."""
 
+DARKEST = 2.0**-14
+"""The least value of full precision; steps between darker ones are as wide."""
+
 
 def packed_r11g11b10(radiance: Array) -> Indices:
     """Radiance as R11F_G11F_B10F.

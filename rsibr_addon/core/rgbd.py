@@ -9,6 +9,9 @@ GAMMA = 2.2
 LARGEST = 255.0
 """The largest value: a whole colour over the smallest divisor."""
 
+DARKEST = 1e-2
+"""Radiance below which rounding takes more than 1 % of a value in the median, and 3 % of a thousandth."""
+
 TRIED = 24
 """Divisors that are tried for each texel, from the largest on."""
 

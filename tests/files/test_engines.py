@@ -3,6 +3,7 @@
 import re
 import struct
 import subprocess
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 
@@ -258,6 +259,25 @@ def test_engines_that_need_half_floats_get_them(name: str, scale: float, told: s
             export_for_engine(tmp_path / "sky.exr", tmp_path / "sky.ktx2", name, CubeSettings(size=16))
         )
     assert {read_ktx2(path).format for path in paths} == {97}
+
+
+@pytest.mark.parametrize(
+    ("name", "ending", "darkest"),
+    [("three", "dds", 6e-5), ("filament", "ktx", 6e-5), ("babylon", "env", 0.01), ("gltf", "glb", 0.01)],
+)
+def test_light_that_the_texels_do_not_hold_well_is_told_of(
+    name: str, ending: str, darkest: float, tmp_path: Path
+) -> None:
+    mean = float(np.mean(sky(64)))
+    for share, told in ((2.0, False), (0.5, True)):
+        write_radiance(tmp_path / "sky.exr", share * darkest / mean * sky(64), force=True)
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            export = export_for_engine(
+                tmp_path / "sky.exr", tmp_path / f"sky.{ending}", name, CubeSettings(size=32), force=True
+            )
+            drain(export)
+        assert [" is coarse below " in str(warning.message) for warning in caught] == [True] * told
 
 
 def test_the_pages_commands_do_what_they_say(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from rsibr.rsibr_addon.core.errors import InputFileError
 from rsibr.rsibr_addon.files.exr import read_parts
 from rsibr.rsibr_addon.files.kinds.environment import is_environment
 from rsibr.rsibr_addon.files.map_set import read_map_set, read_map_set_header
@@ -32,6 +33,12 @@ def opens(read: Callable[[Path], Any], path: Path, monkeypatch: pytest.MonkeyPat
 @pytest.mark.parametrize("read", [read_parts, is_environment, read_map_set, read_map_set_header])
 def test_a_map_set(read: Callable[[Path], Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert opens(read, write_flat_capture(tmp_path / "a.rsibr.exr", (0.5, 0.5, 0.5)), monkeypatch) == 1
+
+
+def test_a_path_through_a_file_does_not_exist(tmp_path: Path) -> None:
+    (tmp_path / "a.exr").touch()
+    with pytest.raises(InputFileError, match=r"a\.exr/b\.exr does not exist: check the name and the folder"):
+        read_radiance(tmp_path / "a.exr" / "b.exr")
 
 
 @pytest.mark.parametrize("read", [read_parts, read_exr, read_radiance, describe_exr])

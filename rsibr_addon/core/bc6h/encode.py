@@ -12,6 +12,9 @@ from .layout import ANCHORS, MODES, PARTITIONS, WEIGHTS, Mode, packed
 LARGEST = 65504.0
 """The largest value, that of half floats."""
 
+DARKEST = 2.0**-14
+"""The least value of full precision; steps between darker ones are as wide."""
+
 AT_ONCE = 4096
 """Blocks at a time, so that what is made of them stays in the processor's memory."""
 

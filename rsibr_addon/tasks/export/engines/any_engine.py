@@ -7,12 +7,21 @@ from pathlib import Path
 
 import numpy as np
 
-from ....core.bc6h.encode import LARGEST
 from ....core.kinds.mip_chain.ggx import ROUGHNESS_RULES
 from ....files.dds import write_dds
 from ....files.ktx2 import Texels, write_ktx2
 from ....files.textures import Texture, Up
-from .engine import MIRRORED_X, MIRRORED_Z, Y_UP, CubeEngine, EngineLight, mips_down_to, within
+from .engine import (
+    BC6H,
+    MIRRORED_X,
+    MIRRORED_Z,
+    Y_UP,
+    CubeEngine,
+    EngineLight,
+    as_halves,
+    mips_down_to,
+    within,
+)
 from .settings import AnySettings
 
 AXES = {Up.Z: np.eye(3), Up.Y: Y_UP}
@@ -28,7 +37,7 @@ def write_as_ktx2(settings: AnySettings, light: EngineLight, output: Path, force
         "harmonics": light.harmonics.tolist(),
     }
     texels = Texels.BC6H if settings.texels == "bc6h" else Texels.FITTING
-    mips = within(light.mips, LARGEST, light.name, "BC6H") if texels is Texels.BC6H else light.mips
+    mips = within(light.mips, light.name, BC6H) if texels is Texels.BC6H else light.mips
     notes = {"KTXwriter": light.software, "rsibr": json.dumps(note, allow_nan=False)}
     write_ktx2(output, Texture(mips, is_cube=True), notes, force, texels)
     return [output]
@@ -36,8 +45,9 @@ def write_as_ktx2(settings: AnySettings, light: EngineLight, output: Path, force
 
 def write_as_dds(settings: AnySettings, light: EngineLight, output: Path, force: bool) -> list[Path]:
     """Write NAME.dds: see `CubeEngine.writers`."""
-    mips = within(light.mips, LARGEST, light.name, "DDS")
-    write_dds(output, mips, settings.texels == "bc6h", force)
+    compressed = settings.texels == "bc6h"
+    mips = within(light.mips, light.name, BC6H) if compressed else as_halves(light.mips, light.name)
+    write_dds(output, mips, compressed, force)
     return [output]
 
 

@@ -4,9 +4,8 @@ from pathlib import Path
 
 from ....core.conventions import Array
 from ....core.filtering.irradiance import diffuse_terms
-from ....core.rgbd import LARGEST
 from ....files.babylon_env import write_env
-from .engine import MIRRORED_X, Y_UP, CubeEngine, EngineLight, mips_down_to, within
+from .engine import MIRRORED_X, RGBD, Y_UP, CubeEngine, EngineLight, mips_down_to, within
 
 SCALE = 0.8
 """Mips for each doubling of alpha, as its shader has it unless a file says otherwise."""
@@ -50,7 +49,7 @@ def polynomial(harmonics: Array) -> dict[str, list[float]]:
 
 def write(light: EngineLight, output: Path, force: bool) -> list[Path]:
     """Write NAME.env: see `CubeEngine.writers`."""
-    mips = within(light.mips, LARGEST, light.name, "RGBD")
+    mips = within(light.mips, light.name, RGBD)
     write_env(output, mips, polynomial(light.harmonics), SCALE, force)
     return [output]
 

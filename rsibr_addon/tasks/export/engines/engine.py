@@ -7,6 +7,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from ....core import packed_floats, rgbd
+from ....core.bc6h import encode as bc6h
 from ....core.conventions import Array
 from ....core.half_floats import half_holds
 from ....core.warned import warn
@@ -20,6 +22,29 @@ MIRRORED_X = np.diag([-1.0, 1.0, 1.0])
 
 MIRRORED_Z = np.diag([1.0, 1.0, -1.0])
 """For engines that look cubes up by (x, y, -z)."""
+
+
+@dataclass(frozen=True)
+class Encoding:
+    """How texels hold radiance.
+
+    Attributes
+    ----------
+    name : str
+    largest : float
+        Radiance that is cut to.
+    darkest : float
+        Radiance below which texels err by more of it than above.
+    """
+
+    name: str
+    largest: float
+    darkest: float
+
+
+BC6H = Encoding("BC6H", bc6h.LARGEST, bc6h.DARKEST)
+R11F_G11F_B10F = Encoding("R11F_G11F_B10F", packed_floats.LARGEST, packed_floats.DARKEST)
+RGBD = Encoding("RGBD", rgbd.LARGEST, rgbd.DARKEST)
 
 LARGEST_HALF = float(np.finfo(np.float16).max)
 
@@ -152,28 +177,37 @@ def as_halves(mips: tuple[Array, ...], name: str) -> tuple[Array, ...]:
     RsibrWarning
         Something was cut, or is so dark that it loses precision.
     """
-    cut = within(mips, LARGEST_HALF, name, "a half float")
+    cut = _cut(mips, name, "a half float", LARGEST_HALF)
     if not half_holds(cut):
         warn(f"{name} is so dark that half floats round it by more than a thousandth: make it brighter.")
     return cut
 
 
-def within(mips: tuple[Array, ...], largest: float, name: str, encoding: str) -> tuple[Array, ...]:
+def within(mips: tuple[Array, ...], name: str, encoding: Encoding) -> tuple[Array, ...]:
     """The mips, with what an encoding cannot hold cut to its largest value.
 
     Parameters
     ----------
-    mips : tuple of ndarray, shape (6, n, n, 3)
-    largest : float
-        Radiance.
-    name, encoding : str
-        The light and the encoding in words.
+    mips : tuple of ndarray
+    name : str
+        The light's.
+    encoding : Encoding
 
     Warns
     -----
     RsibrWarning
-        Something was cut.
+        Something was cut, or the mean is so dark that it loses precision.
     """
+    mean = float(np.mean(mips[0], dtype=np.float64))
+    if 0.0 < mean < encoding.darkest:
+        warn(
+            f"{name} has a mean radiance of {mean:.2g}, and {encoding.name} is coarse below "
+            f"{encoding.darkest:.2g}: make it brighter."
+        )
+    return _cut(mips, name, encoding.name, encoding.largest)
+
+
+def _cut(mips: tuple[Array, ...], name: str, encoding: str, largest: float) -> tuple[Array, ...]:
     brightest = max(float(faces.max()) for faces in mips)
     if brightest <= largest:
         return mips

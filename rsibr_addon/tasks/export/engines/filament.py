@@ -4,9 +4,8 @@ from pathlib import Path
 
 from ....core.filtering.irradiance import diffuse_terms
 from ....core.kinds.mip_chain.ggx import quadratic_roughness
-from ....core.packed_floats import LARGEST
 from ....files.ktx1 import write_ktx1
-from .engine import Y_UP, CubeEngine, EngineLight, mips_down_to, within
+from .engine import R11F_G11F_B10F, Y_UP, CubeEngine, EngineLight, mips_down_to, within
 
 LAST = 16
 """Width of the last mip, which cmgen ends at."""
@@ -14,7 +13,7 @@ LAST = 16
 
 def write(light: EngineLight, output: Path, force: bool) -> list[Path]:
     """Write NAME.ktx and NAME-skybox.ktx: see `CubeEngine.writers`."""
-    mips = within(light.mips, LARGEST, light.name, "R11F_G11F_B10F")
+    mips = within(light.mips, light.name, R11F_G11F_B10F)
     # Rows of the text are terms, its columns colours
     terms = "".join(
         " ".join(f"{value:.6g}" for value in row) + "\n" for row in diffuse_terms(light.harmonics)

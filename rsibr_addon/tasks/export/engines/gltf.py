@@ -6,9 +6,8 @@ import numpy as np
 
 from ....core.filtering.irradiance import irradiance_coefficients
 from ....core.kinds.mip_chain.ggx import linear_roughness
-from ....core.rgbd import LARGEST
 from ....files.gltf_light import write_gltf_light
-from .engine import MIRRORED_X, Y_UP, CubeEngine, EngineLight, mips_down_to, within
+from .engine import MIRRORED_X, RGBD, Y_UP, CubeEngine, EngineLight, mips_down_to, within
 
 LAST = 16
 """Width of the last mip, which the extension suggests."""
@@ -19,7 +18,7 @@ SIGNS = np.array([1, -1, 1, -1, 1, -1, 1, -1, 1])[:, None]
 
 def write(light: EngineLight, output: Path, force: bool) -> list[Path]:
     """Write NAME.glb or NAME.gltf: see `CubeEngine.writers`."""
-    mips = within(light.mips, LARGEST, light.name, "RGBD")
+    mips = within(light.mips, light.name, RGBD)
     coefficients = SIGNS * irradiance_coefficients(light.harmonics)
     write_gltf_light(output, mips, coefficients, light.name, light.software, force)
     return [output]

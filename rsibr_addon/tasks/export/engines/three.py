@@ -2,12 +2,11 @@
 
 from pathlib import Path
 
-from ....core.bc6h.encode import LARGEST
 from ....core.kinds.mip_chain.ggx import quadratic_roughness
 from ....files.dds import write_dds
 from ....files.ktx2 import Texels, write_ktx2
 from ....files.textures import Texture
-from .engine import MIRRORED_X, Y_UP, CubeEngine, EngineLight, as_halves, mips_down_to, within
+from .engine import BC6H, MIRRORED_X, Y_UP, CubeEngine, EngineLight, as_halves, mips_down_to, within
 
 LAST = 8
 """Width of the last mip, that of roughness 1, from which diffuse light comes too."""
@@ -15,7 +14,7 @@ LAST = 8
 
 def write_compressed(light: EngineLight, output: Path, force: bool) -> list[Path]:
     """Write NAME.dds: see `CubeEngine.writers`."""
-    write_dds(output, within(light.mips, LARGEST, light.name, "BC6H"), compressed=True, force=force)
+    write_dds(output, within(light.mips, light.name, BC6H), compressed=True, force=force)
     return [output]
 
 

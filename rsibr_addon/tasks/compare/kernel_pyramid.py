@@ -15,7 +15,7 @@ from ...files.kinds.kernel_pyramid import shipped_families
 from ...host.meshes import load_mesh
 from ...settings.kernel_pyramid import PyramidComparison
 from ..reflectance.brdfs import load_brdf
-from . import either
+from . import model_or_cycles
 from .comparison import cameras_of
 from .exact import exact_pictures, made, name, notes, picture, quality, rings_of
 from .truth import Drawn, Truth
@@ -66,8 +66,8 @@ def draw(
     ours, look = GpuPyramid(pyramid, shipped_families()), PrincipledLook(own=False, **inputs)
     drawn = [picture(ours, look, mesh, camera, settings.size) for camera in cameras]
     way = PyramidWay(settings.text)
-    truth = either.ByModel(references)
-    return either.beside(
+    truth = model_or_cycles.ByModel(references)
+    return model_or_cycles.beside(
         truth, {way: drawn}, settings.text, pyramid.mirror.shape[1], replace(settings, rings=rings)
     )
 

@@ -12,7 +12,7 @@ from ...device.kinds.lobe_stack import GpuLobeStack
 from ...host.meshes import load_mesh
 from ...settings.lobe_stack import StackComparison
 from ..reflectance.brdfs import check_told_brdf, load_brdf
-from . import either
+from . import model_or_cycles
 from .comparison import cameras_of
 from .exact import LEAST_RINGS, exact_pictures, made, name, notes, picture, quality
 from .truth import Drawn, Truth
@@ -67,8 +67,8 @@ def draw(
     ours = GpuLobeStack(stack)
     drawn = [picture(ours, StackLook(), mesh, camera, settings.size) for camera in cameras]
     way = StackWay(len(stack.maps), len(stack.mu), stack.taps.shape[2])
-    truth = either.ByModel(references)
-    return either.beside(truth, {way: drawn}, spec, stack.size, replace(settings, rings=rings))
+    truth = model_or_cycles.ByModel(references)
+    return model_or_cycles.beside(truth, {way: drawn}, spec, stack.size, replace(settings, rings=rings))
 
 
 TRUTH = Truth(

@@ -13,7 +13,7 @@ from ...core.progress import Steps
 from ...device.kinds.mip_chain import GpuMipChain
 from ...host.meshes import load_mesh
 from ...settings.mip_chain import MipComparison
-from . import either
+from . import model_or_cycles
 from .comparison import cameras_of
 from .exact import exact_pictures, picture, rings_of
 from .truth import Drawn, Truth
@@ -64,12 +64,12 @@ def draw(
         settings = replace(settings, rings=rings)
         model = glossy_model(look.f0, look.kd, look.roughness, look.exponent)
         pictures = yield from exact_pictures(model, environment, cameras, mesh, settings.size, rings)
-        truth: either.Pictures = either.ByModel(pictures)
+        truth: model_or_cycles.Pictures = model_or_cycles.ByModel(pictures)
     else:
-        truth = yield from either.by_cycles(environment, mesh, cameras, settings)
+        truth = yield from model_or_cycles.by_cycles(environment, mesh, cameras, settings)
     ours = GpuMipChain(replace(chain, probes=()))  # in its own light, as the truth is
     drawn = {MipWay(_lobe(look)): [picture(ours, look, mesh, camera, settings.size) for camera in cameras]}
-    return either.beside(truth, drawn, _lobe(look), chain.size, settings)
+    return model_or_cycles.beside(truth, drawn, _lobe(look), chain.size, settings)
 
 
 def _look(settings: MipComparison) -> MipLook:
@@ -98,9 +98,9 @@ def _is_look(way: MipWay, look: MipLook) -> bool:
 TRUTH = Truth(
     way=MipWay,
     draw=draw,
-    name=either.UNLESS_NAMED.name,
-    made=either.UNLESS_NAMED.made,
-    notes=either.UNLESS_NAMED.notes,
-    quality=either.UNLESS_NAMED.quality,
+    name=model_or_cycles.UNLESS_NAMED.name,
+    made=model_or_cycles.UNLESS_NAMED.made,
+    notes=model_or_cycles.UNLESS_NAMED.notes,
+    quality=model_or_cycles.UNLESS_NAMED.quality,
     is_look=_is_look,
 )

@@ -22,7 +22,7 @@ from ...host.materials import names_other_file
 from ...host.meshes import load_mesh
 from ...settings.radiance_views import ViewsComparison
 from ..reflectance.brdfs import load_brdf, told_brdf
-from . import either, exact, references
+from . import exact, model_or_cycles, references
 from .comparison import cameras_of
 from .truth import Drawn, Truth
 
@@ -69,19 +69,19 @@ def draw(
     """
     settings = replace(settings, material=_material(map_set, material, settings))
     mesh, cameras = load_mesh(settings.mesh), cameras_of(settings)
-    truth: either.Pictures
+    truth: model_or_cycles.Pictures
     if _TELLING.by_model(settings):
         model = yield from load_brdf(settings.material or "")
         rings = ring_count(views.size, len(environment.radiance), narrowest_alpha(model))
         pictures = yield from exact.exact_pictures(model, environment, cameras, mesh, settings.size, rings)
-        truth = either.ByModel(pictures)
+        truth = model_or_cycles.ByModel(pictures)
     else:
         if "fingerprint" in material:  # views of a reflectance model have none
             references.check_material(settings.material or "", material["fingerprint"])
-        truth = yield from either.by_cycles(environment, mesh, cameras, settings)
+        truth = yield from model_or_cycles.by_cycles(environment, mesh, cameras, settings)
     easel = _Easel(views, settings)
     drawn = {way: [easel.draw(way, camera) for camera in cameras] for way in easel.ways}
-    return either.beside(truth, drawn, settings.material or "", views.size, settings)
+    return model_or_cycles.beside(truth, drawn, settings.material or "", views.size, settings)
 
 
 class _Easel:
@@ -128,7 +128,7 @@ def _is_look(way: ViewsWay, look: ViewsLook) -> bool:
     return fades_alike and way.mode is look.mode and look.warping in (WarpChoice.AUTO, way.warping)
 
 
-_TELLING = either.Telling(lambda settings: is_model(settings.material or ""))
+_TELLING = model_or_cycles.Telling(lambda settings: is_model(settings.material or ""))
 
 TRUTH = Truth(
     way=ViewsWay,

@@ -21,7 +21,7 @@ from ...device.kinds.reflection_tables import GpuReflectionTables
 from ...files.brdfs import read_measured
 from ...host.meshes import TriangleMesh, load_mesh
 from ...settings.reflection_tables import TablesComparison
-from . import either
+from . import model_or_cycles
 from .comparison import cameras_of
 from .exact import exact_pictures, picture, rings_of
 from .truth import Drawn, Truth
@@ -72,16 +72,20 @@ def draw(
     if settings.material is None:
         rings = settings.rings or _rings(model)
         settings = replace(settings, rings=rings)
-        truth: either.Pictures = yield from _by_model(model, environment, mesh, cameras, settings.size, rings)
+        truth: model_or_cycles.Pictures = yield from _by_model(
+            model, environment, mesh, cameras, settings.size, rings
+        )
     else:
-        truth = yield from either.by_cycles(environment, mesh, cameras, settings)
+        truth = yield from model_or_cycles.by_cycles(environment, mesh, cameras, settings)
     ours = GpuReflectionTables(tables)
     drawn = {
         way: [picture(ours, TablesLook(fade=way.fade), mesh, camera, settings.size) for camera in cameras]
         for way in (TablesWay(True), TablesWay(False))
     }
     told = ", ".join(f"{part} {text}" for part, text in tables.parts.items())
-    return either.beside(truth, drawn, told, max(each.shape[1] for each in tables.maps.values()), settings)
+    return model_or_cycles.beside(
+        truth, drawn, told, max(each.shape[1] for each in tables.maps.values()), settings
+    )
 
 
 def _rings(model: TableMaterial) -> int:
@@ -97,7 +101,7 @@ def _by_model(
     cameras: Sequence[Camera],
     size: int,
     rings: int,
-) -> Steps[either.ByModel]:
+) -> Steps[model_or_cycles.ByModel]:
     """Lobes by exact sums, and mirrors by many lookups of the environment."""
     pictures = [np.zeros((size, size, 4), dtype=np.float32) for _ in cameras]
     reflectance = lobes_reflectance(model)
@@ -109,7 +113,7 @@ def _by_model(
         points = TablesLook(antialiased=False)
         finer = [picture(content, points, mesh, camera, FINER * size) for camera in cameras]
         pictures = [_added(*each) for each in zip(pictures, map(_coarser, finer), strict=True)]
-    return either.ByModel(pictures)
+    return model_or_cycles.ByModel(pictures)
 
 
 def _coarser(picture: Array) -> Array:
@@ -131,9 +135,9 @@ def _is_look(way: TablesWay, look: TablesLook) -> bool:
 TRUTH = Truth(
     way=TablesWay,
     draw=draw,
-    name=either.UNLESS_NAMED.name,
-    made=either.UNLESS_NAMED.made,
-    notes=either.UNLESS_NAMED.notes,
-    quality=either.UNLESS_NAMED.quality,
+    name=model_or_cycles.UNLESS_NAMED.name,
+    made=model_or_cycles.UNLESS_NAMED.made,
+    notes=model_or_cycles.UNLESS_NAMED.notes,
+    quality=model_or_cycles.UNLESS_NAMED.quality,
     is_look=_is_look,
 )

@@ -5,7 +5,7 @@ from pathlib import Path
 import bpy
 
 from ..rsibr_addon.files.output_paths import HASH_LETTERS, bare_name
-from ..rsibr_addon.host.bake_settings import baked_folder
+from ..rsibr_addon.host.bake_settings import baked_folder, make_writable
 from ..rsibr_addon.host.map_sets import planned_path, stored_path, use_map_set, written_file
 from ..rsibr_addon.host.painted import end_painting, write_painted
 from ..rsibr_addon.tasks.queue.bake_request import plain_name
@@ -35,6 +35,7 @@ class RSIBR_OT_save_back(Undoable, bpy.types.Operator):
         digest = shown.parent.name[:HASH_LETTERS]
         path = baked_folder() / f"{before}{PAINTED}-{digest}.rsibr.exr"
         if not path.is_file():  # else the same was saved before, and undone since
+            make_writable(path.parent)
             write_painted(path, settings, written_file(settings))
         end_painting(settings)
         use_map_set(settings, stored_path(path))

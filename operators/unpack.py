@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..rsibr_addon.host.bake_settings import baked_folder
+from ..rsibr_addon.host.bake_settings import baked_folder, make_writable
 from ..rsibr_addon.host.map_sets import is_packed, unpack
 from .at_once import Undoable
 
@@ -24,5 +24,7 @@ class RSIBR_OT_unpack(Undoable, bpy.types.Operator):
 
     def work(self, context: bpy.types.Context) -> None:
         """Write it; nothing that is there is replaced."""
-        path = unpack(context.object.rsibr, baked_folder())
+        folder = baked_folder()
+        make_writable(folder)
+        path = unpack(context.object.rsibr, folder)
         self.report({"INFO"}, f"Wrote {path}")

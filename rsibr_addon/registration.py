@@ -14,6 +14,7 @@ def register() -> None:
     from .. import operators
     from ..operators import background, keep_fresh
     from . import properties, ui
+    from .host.baked_beside import bring_baked_files
     from .host.handlers import add_handlers
     from .host.map_sets import unpacked
     from .host.overrides import complete_overrides
@@ -42,6 +43,7 @@ def register() -> None:
             undo.callback(delattr, owner, name)
         add_handlers(dict.fromkeys(("load_post", "blend_import_post", "save_pre"), complete_overrides), undo)
         add_handlers({"save_pre": keep_paint}, undo)
+        add_handlers({"save_pre": bring_baked_files}, undo)
         undo.callback(unpacked.remove)
         undo.callback(painted_files.remove)
         viewport_handlers.start(undo)

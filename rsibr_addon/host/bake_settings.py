@@ -163,18 +163,35 @@ def own_material(item: bpy.types.Object) -> bpy.types.Material:
     return material
 
 
-def baked_folder() -> Path:
-    """The folder of baked files: that of the preferences, or beside the open file, or among the user's files.
+def baked_folder(blend: str | None = None) -> Path:
+    """The folder of baked files: that of the preferences, or beside a .blend, or among the user's files.
+
+    Parameters
+    ----------
+    blend : str, optional
+        Path of the .blend, empty before it is saved; that of the open file by default.
+
+    Returns
+    -------
+    Path
+        There may be none yet: to look for a file makes no folder.
+    """
+    chosen = _preferences()
+    wished = (chosen and chosen.folder) or FOLDER
+    blend = bpy.data.filepath if blend is None else blend
+    if not blend and wished.startswith("//"):
+        return user_folder()
+    return Path(bpy.path.abspath(wished, start=str(Path(blend).parent)))
+
+
+def make_writable(folder: Path) -> None:
+    """Make the folder of baked files, unless it is there, as a file is about to be written there.
 
     Raises
     ------
     OutputFileError
         The folder cannot be made, or written to.
     """
-    chosen = _preferences()
-    wished = (chosen and chosen.folder) or FOLDER
-    known = bool(bpy.data.filepath) or not wished.startswith("//")
-    folder = Path(bpy.path.abspath(wished)) if known else user_folder()
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -185,7 +202,6 @@ def baked_folder() -> Path:
         raise OutputFileError(
             f"{folder} cannot be written to: choose another folder in the add-on's preferences."
         )
-    return folder
 
 
 def chosen_inputs_settings() -> Any:

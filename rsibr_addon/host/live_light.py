@@ -51,34 +51,9 @@ def points_of(item: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Array:
     return positions.reshape(-1, 3).astype(np.float64)
 
 
-def shows_surroundings(space: bpy.types.SpaceView3D, layer: tuple[int, str]) -> bool:
-    """Whether surroundings are rendered with a viewport's shading.
-
-    Parameters
-    ----------
-    space : bpy.types.SpaceView3D
-    layer : (int, str)
-        The viewport's view layer: its scene's number in this session, and its name.
-
-    Returns
-    -------
-    bool
-        True for at most one viewport of a layer: the first of those that come nearest to real light.
-        Viewports of Cycles and of engines that are not Blender's own do not count.
-    """
-    spaces = [
-        area.spaces.active
-        for window in bpy.context.window_manager.windows
-        if (window.scene.session_uid, window.view_layer.name) == layer
-        for area in window.screen.areas
-        if area.type == "VIEW_3D"
-    ]
-    return _nearness(space) >= 0 and max(spaces, key=_nearness) == space
-
-
 def is_readable(space: bpy.types.SpaceView3D) -> bool:
     """Whether what a viewport shows can be rendered once more: Cycles' pictures and other engines' cannot."""
-    return _nearness(space) >= 0
+    return nearness(space, bpy.context.engine) >= 0
 
 
 def appearance_of(space: bpy.types.SpaceView3D) -> tuple[object, ...]:
@@ -126,7 +101,15 @@ def hidden(item: bpy.types.Object, layer: bpy.types.ViewLayer) -> Iterator[None]
             window.view_layer.update()
 
 
-def _nearness(space: bpy.types.SpaceView3D) -> int:
+def nearness(space: bpy.types.SpaceView3D, engine: str) -> int:
+    """How near a viewport's shading comes to real light; -1 where what it shows cannot be rendered once more.
+
+    Parameters
+    ----------
+    space : bpy.types.SpaceView3D
+    engine : str
+        Of its scene. Pictures by Cycles and by engines that are not Blender's own do not count.
+    """
     kind = space.shading.type
-    foreign = kind == "RENDERED" and not bpy.context.engine.startswith(("BLENDER_EEVEE", "BLENDER_WORKBENCH"))
+    foreign = kind == "RENDERED" and not engine.startswith(("BLENDER_EEVEE", "BLENDER_WORKBENCH"))
     return -1 if foreign or kind not in _SHADINGS else _SHADINGS.index(kind)

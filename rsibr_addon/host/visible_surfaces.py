@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.conventions import Array
 from ..core.pictures.matte import PictureFrame
-from .live_light import live_name
+from .live_light import live_name, nearness
 from .map_sets import planned_path
 from .world_light import AS_IT_IS, WorldLight, follows_world, world_light
 
@@ -121,7 +121,7 @@ class View:
 
     def shows(self, surface: Surface) -> bool:
         """Whether a surface is not hidden."""
-        return bool(surface.shown_by.visible_in_viewport_get(self.space))
+        return _shows(self.space, surface.shown_by, self.depsgraph)
 
     def has_shadow_of(self, surface: Surface) -> bool:
         """Whether a surface casts shadows."""
@@ -200,6 +200,41 @@ def layer_of(shows: bpy.types.Context | bpy.types.Window) -> Layer:
 def shown_layers() -> dict[Layer, bpy.types.Window]:
     """The view layers that windows show, each with one of them."""
     return {layer_of(window): window for window in bpy.context.window_manager.windows}
+
+
+def renders_surroundings(
+    space: bpy.types.SpaceView3D, item: bpy.types.Object, layers: Collection[Layer]
+) -> bool:
+    """Whether the light around an object is rendered with a viewport's shading.
+
+    Parameters
+    ----------
+    space : bpy.types.SpaceView3D
+    item : bpy.types.Object
+        Whose visibility counts.
+    layers : collection of Layer
+        The view layers that have it.
+
+    Returns
+    -------
+    bool
+        True for at most one viewport of all windows: the first of those that show the object and come
+        nearest to real light.
+    """
+    spaces = {
+        area.spaces.active: nearness(area.spaces.active, window.scene.render.engine)
+        for window in bpy.context.window_manager.windows
+        if layer_of(window) in layers
+        for area in window.screen.areas
+        if area.type == "VIEW_3D" and _shows(area.spaces.active, item, window.view_layer.depsgraph)
+    }
+    return spaces.get(space, -1) >= 0 and max(spaces, key=spaces.__getitem__) == space
+
+
+def _shows(space: bpy.types.SpaceView3D, item: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> bool:
+    if space.use_local_collections:  # which evaluated copies alone know of
+        item = item.evaluated_get(depsgraph)
+    return bool(item.visible_in_viewport_get(space))
 
 
 def map_set_of(item: bpy.types.Object) -> str:

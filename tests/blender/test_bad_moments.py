@@ -11,7 +11,7 @@ import pytest
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError, RsibrError, SceneError
 from rsibr.rsibr_addon.files.kinds.registry import look_types
-from rsibr.rsibr_addon.host.bake_settings import baked_folder
+from rsibr.rsibr_addon.host.bake_settings import baked_folder, make_writable
 from rsibr.rsibr_addon.host.option_properties import options_of
 from rsibr.rsibr_addon.tasks.queue.bake_request import request_for
 from rsibr.tests.bake_jobs import run_job
@@ -85,7 +85,7 @@ def test_a_read_only_folder_is_told_of_before_anything_is_baked(
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "artist.blend"))
     monkeypatch.setattr(os, "access", lambda path, mode: False)  # to root, every folder is writable
     with pytest.raises(OutputFileError, match=r"rsibr cannot be written to: choose another folder"):
-        baked_folder()
+        make_writable(baked_folder())
     with pytest.raises(RuntimeError, match=r"rsibr cannot be written to"):
         bpy.ops.rsibr.bake()
 

@@ -300,11 +300,11 @@ def test_folders_that_cannot_be_made_are_named(tmp_path: Path) -> None:
     from rsibr.rsibr_addon.host import bake_settings
 
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "artist.blend"))
-    assert bake_settings.baked_folder() == tmp_path / "rsibr"
-    (tmp_path / "rsibr").rmdir()
-    (tmp_path / "rsibr").touch()
+    folder = bake_settings.baked_folder()
+    assert folder == tmp_path / "rsibr"
+    folder.touch()
     with pytest.raises(OutputFileError, match=r"rsibr cannot be made \(File exists\): choose another folder"):
-        bake_settings.baked_folder()
+        bake_settings.make_writable(folder)
 
 
 def test_the_original_counts_as_open(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

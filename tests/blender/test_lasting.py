@@ -222,6 +222,7 @@ def baked_with(size: str) -> Path:
     chosen.mip_chain.size, chosen.mip_chain.filter = size, "box"
     order = request_for(bpy.context.scene.rsibr_bake, bpy.context.scene, cube())
     path = output_for(order, bpy.context.scene, cube())
+    path.parent.mkdir(exist_ok=True)
     assert run_job(order.job(path), path.parent) == 0
     return path
 

@@ -9,9 +9,8 @@ from rsibr.rsibr_addon.host.live_light import (
     is_live_name,
     live_name,
     points_of,
-    shows_surroundings,
 )
-from rsibr.rsibr_addon.host.visible_surfaces import is_wanted, map_set_of
+from rsibr.rsibr_addon.host.visible_surfaces import is_wanted, layer_of, map_set_of, renders_surroundings
 
 pytestmark = pytest.mark.usefixtures("registered")
 
@@ -80,17 +79,20 @@ def test_a_viewport_s_settings_make_its_appearance(name: str, value: object) -> 
     assert appearance_of(space) != before
 
 
-def test_one_viewport_of_a_layer_shows_surroundings() -> None:
+def test_one_viewport_renders_an_object_s_surroundings() -> None:
     scene = bpy.context.scene
-    layer = scene.session_uid, bpy.context.view_layer.name
+    cube, layer = bpy.data.objects["Cube"], layer_of(bpy.context)
     other = next(area for area in bpy.context.screen.areas if area.type != "VIEW_3D")
     other.type = "VIEW_3D"
     both = [area.spaces.active for area in bpy.context.screen.areas if area.type == "VIEW_3D"]
 
     def showing() -> list[bool]:
-        return [shows_surroundings(each, layer) for each in both]
+        return [renders_surroundings(each, cube, {layer}) for each in both]
 
     assert showing() == [True, False]
+    both[0].show_object_viewport_mesh = False
+    assert showing() == [False, True]
+    both[0].show_object_viewport_mesh = True
     for each in both:
         each.shading.type = "MATERIAL"
         assert sum(showing()) == 1
@@ -100,3 +102,5 @@ def test_one_viewport_of_a_layer_shows_surroundings() -> None:
     assert showing() == [True, False]
     both[0].shading.type = "WIREFRAME"
     assert showing() == [False, False]
+    both[0].shading.type = "SOLID"
+    assert not renders_surroundings(both[0], cube, {(scene.session_uid, "Another")})

@@ -245,3 +245,27 @@ def test_an_animation_s_light_is_followed_while_it_plays(told: Told) -> None:
     answer = told(PRELUDE + PLAYED)
     assert answer["area"] > 2000
     assert answer["errors"] == [0, 0, 0]
+
+
+LAYERS = """
+def scenario(told):
+    # The first window shows another view layer in another shading than the second
+    mirror()
+    room([(0.5, 0.2, 0.5)] * 6)
+    bpy.data.objects["Cube"].rsibr.live.on = True
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.wm.window_new_main()
+    window().view_layer = bpy.context.scene.view_layers.new("Another")
+    view().spaces.active.shading.light = "STUDIO"
+    for _ in range(3):
+        yield from drawn()
+    faces, set_face = [], only_light().gpu_map_set.set_face
+    only_light().gpu_map_set.set_face = lambda face, seen: (faces.append(face), set_face(face, seen))
+    for _ in range(3):
+        yield from drawn()
+    told["at rest"], told["layers"] = faces, len(previews._layers.layers)
+"""
+
+
+def test_an_object_in_two_view_layers_has_one_light(told: Told) -> None:
+    assert told(PRELUDE + LAYERS) == {"at rest": [], "layers": 2}

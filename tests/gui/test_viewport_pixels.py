@@ -52,6 +52,15 @@ def scenario(told):
     space.overlay.show_overlays = False
     space.region_3d.view_perspective = "CAMERA"
     yield from cover(told, "camera, no overlays")
+    space.use_local_collections = True
+    yield from cover(told, "local collections")
+    with bpy.context.temp_override(window=window(), area=view(), region=region(view())):
+        bpy.ops.object.hide_collection(collection_index=1, toggle=True)
+    yield from drawn()
+    told["hidden here"] = int(like(pixels(), (188, 0, 188)).sum())
+    space.use_local_collections = False
+    yield from drawn()
+    told["shown again"] = int(like(pixels(), (188, 0, 188)).sum())
     cube.hide_set(True)
     yield from drawn()
     told["hidden"] = int(like(pixels(), (188, 0, 188)).sum())
@@ -86,8 +95,9 @@ def scenario(told):
 
 def test_in_every_view(told: Told) -> None:
     answer = told(PRELUDE + VIEWS)
-    assert answer.pop("hidden") == 0
-    assert set(answer) == {"perspective", "orthographic", "camera, no overlays"}
+    assert answer.pop("hidden") == answer.pop("hidden here") == 0
+    assert answer.pop("shown again") == answer["local collections"][1]
+    assert set(answer) == {"perspective", "orthographic", "camera, no overlays", "local collections"}
     check_exact(answer)
 
 

@@ -21,6 +21,7 @@ from ...host.bake_settings import (
     check_object,
     chosen_environment,
     existing,
+    make_writable,
     open_file,
     own_material,
     plain_settings,
@@ -84,10 +85,18 @@ class BakeRequest:
     @property
     def title(self) -> str:
         """What is baked, in words."""
-        environment = self.light.environment
-        light = "the world" if environment is None else split_layer(environment)[0].stem
         what = METHODS[self.settings.KIND].material(self.settings) or self.settings.LABEL.lower()
-        return f"{what} in {light}"
+        return f"{what} in {self._light_name}"
+
+    def title_for(self, shaded: str) -> str:
+        """What is baked for these objects, in words that fit into a line of the panel."""
+        own = KINDS[self.settings.KIND].own
+        return f"{shaded} in {self._light_name}" if own else f"{shaded}: {self.title}"
+
+    @property
+    def _light_name(self) -> str:
+        environment = self.light.environment
+        return "the world" if environment is None else split_layer(environment)[0].stem
 
     @property
     def cost(self) -> Cost:
@@ -183,11 +192,6 @@ def output_for(request: BakeRequest, scene: Any, item: Any) -> Path:
     -------
     Path
         Its name tells what it depends on, by a hash: method, light, material, version.
-
-    Raises
-    ------
-    OutputFileError
-        Its folder cannot be made.
     """
     sources = METHODS[request.settings.KIND].sources(request.settings)
     material = fingerprint(own_material(item)) if request.own_material else None
@@ -228,13 +232,13 @@ def bake_of(
     SceneError
         This is no Blender that could be started again.
     OutputFileError
-        The open file cannot be copied.
+        The open file cannot be copied, or nothing can be written to the output's folder.
     """
+    make_writable(output.parent)
     shaded = items[0].name if len(items) == 1 else f"{len(items)} objects"
-    title = f"{shaded}: {request.title}"
     job = request.job(output)
     needed = scene if request.needs_file else None
-    bake = in_background(title, job, needed, items, output, ObjectBake, farm)
+    bake = in_background(request.title_for(shaded), job, needed, items, output, ObjectBake, farm)
     bake.settings = request.shown
     return bake
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from ...core.options import to_plain
 from ...files.output_paths import HASH_LETTERS
-from ...host.bake_settings import baked_folder, chosen_inputs_settings
+from ...host.bake_settings import baked_folder, chosen_inputs_settings, make_writable
 from ...host.option_properties import options_of
 from ...job import BakeJob
 from ...settings.baked_inputs import BakedInputsSettings, ObjectInputsSettings
@@ -45,8 +45,6 @@ def inputs_file(item: Any, depsgraph: Any) -> Path | None:
     ------
     SceneError
         An image of its materials is not saved, or they are too long to follow.
-    OutputFileError
-        The bakes' folder cannot be made.
     """
     wanted = wanted_pictures(item)
     if not wanted:
@@ -85,8 +83,9 @@ def input_bake_of(scene: Any, item: Any, output: Path, farm: Farm | None = None)
     SceneError
         This is no Blender that could be started again.
     OutputFileError
-        The open file cannot be copied.
+        The open file cannot be copied, or nothing can be written to the output's folder.
     """
+    make_writable(output.parent)
     if farm is not None:
         output.unlink(missing_ok=True)  # it is damaged, and what a farm has made replaces no other file
     job, title = input_job(item, output), f"{item.name}: materials"

@@ -7,7 +7,7 @@ from typing import Any
 from ...core.progress import Steps
 from ...files.kinds.registry import STORED
 from ...files.map_set import is_whole_map_set
-from ...host.bake_settings import check_choices
+from ...host.bake_settings import check_choices, make_writable
 from ...host.materials import check_saved
 from ...host.option_properties import options_of
 from ...host.scenes import worked_in
@@ -54,8 +54,6 @@ def world_file(scene: Any) -> Path:
     ------
     SceneError, RangeError
         See `world_request`.
-    OutputFileError
-        The folder of baked files cannot be made.
     """
     return output_for(world_request(scene), scene, None)
 
@@ -66,10 +64,11 @@ def bake_world(scene: Any) -> Steps[Path]:
     Raises
     ------
     RsibrError
-        See `world_file` and `methods.bake.bake`.
+        See `world_file`, `make_writable` and `methods.bake.bake`.
     """
     output = world_file(scene)
     if not is_whole_map_set(output):
+        make_writable(output.parent)
         with worked_in(scene):
             yield from bake(world_request(scene).job(output))
     return output
@@ -81,7 +80,8 @@ def world_bake_of(scene: Any) -> WorldBake:
     Raises
     ------
     SceneError, OutputFileError
-        See `world_file` and `bake_request.in_background`.
+        See `world_file`, `make_writable` and `bake_request.in_background`.
     """
     request, output = world_request(scene), world_file(scene)
+    make_writable(output.parent)
     return in_background(request.title, request.job(output), scene, [], output, WorldBake)

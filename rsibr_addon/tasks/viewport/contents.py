@@ -16,6 +16,7 @@ from ...host.visible_surfaces import (
     is_hole,
     is_wanted,
     map_set_of,
+    renders_surroundings,
     shown_layers,
     surfaces,
 )
@@ -185,6 +186,35 @@ class LayerContents:
         """What has a preview, of some view layers or of all."""
         shown = [each for (layer, _), each in self.layers.items() if layers is None or layer in layers]
         return [each for contents in shown for each in contents.previews]
+
+    def to_be_lit(self, view: View, lights: Collection[str]) -> dict[str, Surface]:
+        """The surfaces in live light whose surroundings a viewport renders, by their lights.
+
+        Parameters
+        ----------
+        view : View
+            The viewport's.
+        lights : collection of str
+            Names of lights: see `live_name`.
+        """
+        contents = self.layers.get(view.content)
+        first: dict[str, Surface] = {}  # instances share the light of their object
+        for each in contents.previews if contents else ():
+            if each.surface.path in lights and each.is_seen(view):
+                first.setdefault(each.surface.path, each.surface)
+        return {
+            name: surface
+            for name, surface in first.items()
+            if renders_surroundings(view.space, surface.shown_by, self._layers_with(name))
+        }
+
+    def _layers_with(self, path: str) -> set[Layer]:
+        """The view layers that show what is shaded from a file, or in a live light."""
+        return {
+            layer
+            for (layer, _), contents in self.layers.items()
+            if any(each.surface.path == path for each in contents.previews)
+        }
 
     def _fill(self, contents: Contents, view: View, faults: Faults) -> None:
         for surface, evaluated in surfaces(view.depsgraph):

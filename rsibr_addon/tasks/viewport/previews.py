@@ -16,7 +16,7 @@ from ...device.preview_stage import (
     draw_scale_numbers,
 )
 from ...host.bake_settings import bakes_inputs_by_itself
-from ...host.live_light import is_readable, shows_surroundings
+from ...host.live_light import is_readable
 from ...host.visible_surfaces import Layer, Side, Surface, View, map_set_of, objects_numbered
 from ..methods.kinds import KINDS
 from ..methods.live_materials import LiveFits
@@ -255,17 +255,12 @@ class Previews:
         bool
             Whether any light has changed, and what shows it has to be drawn again.
         """
-        lights, contents = self._map_sets.lights, self._layers.layers.get(view.content)
-        if self.faults.trouble or not (lights and contents and shows_surroundings(view.space, view.layer)):
+        lights, changed = self._map_sets.lights, False
+        if self.faults.trouble or not lights:
             return False
-        first: dict[str, Surface] = {}  # instances share the light of their object
-        for each in contents.previews:
-            if each.surface.path in lights and each.is_seen(view):
-                first.setdefault(each.surface.path, each.surface)
-        changed = False
         self.is_hiding = True
         try:
-            for name, surface in first.items():
+            for name, surface in self._layers.to_be_lit(view, lights).items():
                 try:
                     changed |= lights[name].render(view, surface)
                 except Exception as error:

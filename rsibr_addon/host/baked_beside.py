@@ -1,0 +1,42 @@
+"""What was baked before a .blend was saved moves beside it, so that both can be handed on together."""
+
+import shutil
+from contextlib import suppress
+from pathlib import Path
+
+import bpy
+from bpy.app.handlers import persistent
+
+from ..core.errors import OutputFileError
+from ..files.atomic import written_aside
+from .bake_settings import baked_folder, make_writable, user_folder
+from .map_sets import stored_path
+
+
+@persistent
+def bring_baked_files(saved_as: str, *_: object) -> None:
+    """Copy files from among the user's into the folder of baked files, and use the copies.
+
+    What cannot be copied is used where it is.
+
+    Parameters
+    ----------
+    saved_as : str
+        Path that Blender is about to save to; empty for its start-up file.
+    """
+    folder = baked_folder(bpy.data.filepath or saved_as)
+    for image in bpy.data.images:
+        path = Path(bpy.path.abspath(image.filepath))
+        if path.parent == user_folder() != folder and image.is_editable and not image.packed_file:
+            with suppress(OSError, OutputFileError):
+                image.filepath = stored_path(_copied(path, folder))
+
+
+def _copied(path: Path, folder: Path) -> Path:
+    """The copy of a file, whose name tells what it holds: one that is there is the same."""
+    copy = folder / path.name
+    if not copy.exists():
+        make_writable(folder)
+        with written_aside(copy) as aside:
+            shutil.copyfile(path, aside)
+    return copy

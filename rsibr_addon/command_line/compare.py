@@ -41,7 +41,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     from ..tasks.compare.compare import compare, truth_of
     from ..tasks.methods.kinds import kind_of
 
-    against = truth_of(arguments.map_set).name
+    against = truth_of(arguments.map_set).telling.name
     settings = options.given_of(arguments, _owners(), kind_of(arguments.map_set))
     comparison = console.steps(compare(arguments.map_set, settings, arguments.output, arguments.force))
     page = arguments.output / "index.html"

@@ -11,7 +11,7 @@ from rsibr.rsibr_addon.core.progress import Progress, Steps
 from rsibr.rsibr_addon.device.preview import PreviewRenderer
 from rsibr.rsibr_addon.host.meshes import load_mesh
 from rsibr.rsibr_addon.tasks.compare.comparison import cameras_of, way_error
-from rsibr.rsibr_addon.tasks.compare.truth import Drawn, Truth
+from rsibr.rsibr_addon.tasks.compare.truth import Drawn, Telling, Truth
 from rsibr.tests.toys.disk_core import Disk, DiskLook
 from rsibr.tests.toys.disk_device import GpuDisk
 from rsibr.tests.toys.disk_settings import DiskComparison
@@ -46,8 +46,10 @@ def draw(
 TRUTH = Truth(
     way=DiskWay,
     draw=draw,
-    name=lambda settings: "a brighter disk",
-    made=lambda settings: "drawn brighter",
-    notes=lambda comparison: "",
-    quality=lambda settings: f"{settings.brighter} times",
+    telling=Telling(
+        name=lambda settings: "a brighter disk",
+        made=lambda settings: "drawn brighter",
+        notes=lambda comparison: "",
+        quality=lambda settings: f"{settings.brighter} times",
+    ),
 )

@@ -17,8 +17,8 @@ from ...device.drawing import GpuMapSet
 from ...device.lit_sphere import GpuLitSphere
 from ...device.preview import PreviewRenderer
 from ...host.meshes import TriangleMesh
-from ...settings.comparison import ExactComparison
 from .comparison import Comparison, Way, WayError, way_error
+from .truth import Telling
 
 LEAST_RINGS, MOST_RINGS = 32, 256
 """Fewest and most rings of a reference, where no number is asked for."""
@@ -68,24 +68,17 @@ def error_of(way: Way, drawn: Sequence[Array], references: Sequence[Array]) -> W
     return way_error(way, relative_rmse, unpremultiplied(pictures), unpremultiplied(true), true[..., 3])
 
 
-def name(settings: ExactComparison) -> str:
-    """See `Truth`."""
-    return "the model itself"
-
-
-def made(settings: ExactComparison) -> str:
-    """See `Truth`."""
-    return "integrated exactly"
-
-
-def notes(comparison: Comparison) -> str:
-    """See `Truth`."""
+def _notes(comparison: Comparison) -> str:
     return (
         "The reference is the sum over all texels of the environment of radiance times BRDF times cosine, "
         "without noise; in neither picture does the mesh hide its surroundings from itself."
     )
 
 
-def quality(settings: ExactComparison) -> str:
-    """See `Truth`."""
-    return f"{settings.rings} rings of surface points"
+EXACT = Telling(
+    name=lambda settings: "the model itself",
+    made=lambda settings: "integrated exactly",
+    notes=_notes,
+    quality=lambda settings: f"{settings.rings} rings of surface points",
+)
+"""What is told of pictures of the model itself."""

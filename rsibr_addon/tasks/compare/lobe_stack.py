@@ -14,7 +14,7 @@ from ...settings.lobe_stack import StackComparison
 from ..reflectance.brdfs import check_told_brdf, load_brdf
 from . import model_or_cycles
 from .comparison import cameras_of
-from .exact import LEAST_RINGS, exact_pictures, made, name, notes, picture, quality
+from .exact import EXACT, LEAST_RINGS, exact_pictures, picture
 from .truth import Drawn, Truth
 
 
@@ -74,8 +74,5 @@ def draw(
 TRUTH = Truth(
     way=StackWay,
     draw=draw,
-    name=name,
-    made=made,
-    notes=notes,
-    quality=quality,
+    telling=EXACT,
 )

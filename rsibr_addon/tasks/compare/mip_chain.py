@@ -98,9 +98,6 @@ def _is_look(way: MipWay, look: MipLook) -> bool:
 TRUTH = Truth(
     way=MipWay,
     draw=draw,
-    name=model_or_cycles.UNLESS_NAMED.name,
-    made=model_or_cycles.UNLESS_NAMED.made,
-    notes=model_or_cycles.UNLESS_NAMED.notes,
-    quality=model_or_cycles.UNLESS_NAMED.quality,
+    telling=model_or_cycles.UNLESS_NAMED,
     is_look=_is_look,
 )

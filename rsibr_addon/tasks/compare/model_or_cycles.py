@@ -10,9 +10,9 @@ from ...core.geometry.camera import Camera
 from ...core.progress import Steps
 from ...host.meshes import TriangleMesh
 from . import exact, references
-from .comparison import Comparison, Way, WayError
+from .comparison import Way, WayError
 from .references import Captured, Reference
-from .truth import Drawn
+from .truth import Drawn, Telling
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,37 +93,34 @@ def beside(
     )
 
 
-@dataclass(frozen=True)
-class Telling:
-    """What `Truth` tells of such references.
+BY_CYCLES = Telling(
+    name=lambda settings: "Cycles" if settings.material is None else f"{settings.material} by Cycles",
+    made=lambda settings: "rendered by Cycles",
+    notes=references.notes,
+    quality=references.quality,
+)
+"""What is told of pictures by Cycles."""
 
-    Attributes
+
+def telling(is_by_model: Callable[[Any], bool]) -> Telling:
+    """What is told of such references.
+
+    Parameters
     ----------
-    by_model : callable
+    is_by_model : callable
         Settings to whether the truth is the model itself.
     """
 
-    by_model: Callable[[Any], bool]
+    def of(settings: Any) -> Telling:
+        return exact.EXACT if is_by_model(settings) else BY_CYCLES
 
-    def name(self, settings: Any) -> str:
-        """See `Truth`."""
-        if self.by_model(settings):
-            return exact.name(settings)
-        return "Cycles" if settings.material is None else f"{settings.material} by Cycles"
-
-    def made(self, settings: Any) -> str:
-        """See `Truth`."""
-        return exact.made(settings) if self.by_model(settings) else "rendered by Cycles"
-
-    def notes(self, comparison: Comparison) -> str:
-        """See `Truth`."""
-        by_model = self.by_model(comparison.settings)
-        return exact.notes(comparison) if by_model else references.notes(comparison)
-
-    def quality(self, settings: Any) -> str:
-        """See `Truth`."""
-        return exact.quality(settings) if self.by_model(settings) else references.quality(settings)
+    return Telling(
+        name=lambda settings: of(settings).name(settings),
+        made=lambda settings: of(settings).made(settings),
+        notes=lambda comparison: of(comparison.settings).notes(comparison),
+        quality=lambda settings: of(settings).quality(settings),
+    )
 
 
-UNLESS_NAMED = Telling(lambda settings: settings.material is None)
+UNLESS_NAMED = telling(lambda settings: settings.material is None)
 """The truth is the map set's model, unless settings name a material, which Cycles renders."""

@@ -70,7 +70,7 @@ def draw(
     settings = replace(settings, material=_material(map_set, material, settings))
     mesh, cameras = load_mesh(settings.mesh), cameras_of(settings)
     truth: model_or_cycles.Pictures
-    if _TELLING.by_model(settings):
+    if _is_by_model(settings):
         model = yield from load_brdf(settings.material or "")
         rings = ring_count(views.size, len(environment.radiance), narrowest_alpha(model))
         pictures = yield from exact.exact_pictures(model, environment, cameras, mesh, settings.size, rings)
@@ -128,14 +128,17 @@ def _is_look(way: ViewsWay, look: ViewsLook) -> bool:
     return fades_alike and way.mode is look.mode and look.warping in (WarpChoice.AUTO, way.warping)
 
 
-_TELLING = model_or_cycles.Telling(lambda settings: is_model(settings.material or ""))
+def _is_by_model(settings: ViewsComparison) -> bool:
+    return is_model(settings.material or "")
+
+
+def _quality(settings: ViewsComparison) -> str:
+    return "sums over rings of points" if _is_by_model(settings) else references.quality(settings)
+
 
 TRUTH = Truth(
     way=ViewsWay,
     draw=draw,
-    name=_TELLING.name,
-    made=_TELLING.made,
-    notes=_TELLING.notes,
-    quality=lambda each: "sums over rings of points" if _TELLING.by_model(each) else references.quality(each),
+    telling=replace(model_or_cycles.telling(_is_by_model), quality=_quality),
     is_look=_is_look,
 )

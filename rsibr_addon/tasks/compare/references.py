@@ -166,7 +166,7 @@ def noise_of(references: Sequence[Reference]) -> float:
 
 
 def notes(comparison: Comparison) -> str:
-    """See `truth.Truth`."""
+    """See `truth.Telling`."""
     noise = f"{100.0 * comparison.reference_noise:.2g}&thinsp;%"
     told = (
         f"Cycles&rsquo; own noise, which makes <b>{noise}</b> of the reference, is not counted: two renders "
@@ -181,7 +181,7 @@ def notes(comparison: Comparison) -> str:
 
 
 def quality(settings: Any) -> str:
-    """See `truth.Truth`."""
+    """See `truth.Telling`."""
     return f"two renders of {settings.samples // 2} samples a pixel, not denoised"
 
 

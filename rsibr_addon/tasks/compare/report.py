@@ -8,18 +8,19 @@ from string import Template
 
 from .comparison import Comparison, Way, WayError
 from .pictures import BRIGHTER, COLUMNS, DARKER, FULL_DIFFERENCE, Sheets
-from .truth import Truth
+from .truth import Telling
 
 TEMPLATE = Path(__file__).with_suffix(".html")
 
 
-def comparison_report(comparison: Comparison, truth: Truth, sheets: Sheets) -> str:
+def comparison_report(comparison: Comparison, telling: Telling, sheets: Sheets) -> str:
     """Show numbers and pictures of a comparison.
 
     Parameters
     ----------
     comparison : Comparison
-    truth : Truth
+    telling : Telling
+        Of its references.
         What it was held against.
     sheets : Sheets
         Its pictures, which the report takes in.
@@ -36,9 +37,9 @@ def comparison_report(comparison: Comparison, truth: Truth, sheets: Sheets) -> s
         environment=escape(comparison.environment),
         map_set=escape(comparison.map_set),
         mesh=escape(_mesh(comparison)),
-        reference_name=truth.name(comparison.settings),
-        made=truth.made(comparison.settings),
-        notes=truth.notes(comparison),
+        reference_name=telling.name(comparison.settings),
+        made=telling.made(comparison.settings),
+        notes=telling.notes(comparison),
         view_count=count,
         full_difference=f"{100.0 * FULL_DIFFERENCE:g}&thinsp;%",
         brighter=_css_colour(BRIGHTER),
@@ -47,9 +48,9 @@ def comparison_report(comparison: Comparison, truth: Truth, sheets: Sheets) -> s
         reference=_embedded(sheets.reference),
         rules="\n".join(_rules(error.way, sheets) for error in comparison.errors),
         ways="\n".join(_row(error, comparison, error.way == shown) for error in comparison.errors),
-        figures="\n".join(_figure(comparison, truth, number) for number in range(count)),
+        figures="\n".join(_figure(comparison, telling, number) for number in range(count)),
         settings="\n".join(
-            f"<dt>{name}</dt><dd>{value}</dd>" for name, value in _settings(comparison, truth)
+            f"<dt>{name}</dt><dd>{value}</dd>" for name, value in _settings(comparison, telling)
         ),
     )
 
@@ -74,13 +75,13 @@ def _row(error: WayError, comparison: Comparison, checked: bool) -> str:
     return f"<tr><td><label>{button}{way.name}</label></td>{numbers}{bar}</tr>"
 
 
-def _figure(comparison: Comparison, truth: Truth, number: int) -> str:
+def _figure(comparison: Comparison, telling: Telling, number: int) -> str:
     count = len(comparison.view_dirs)
     columns, rows = min(count, COLUMNS), math.ceil(count / COLUMNS)
     row, column = divmod(number, COLUMNS)
     # Percentages of a background's position run from its first tile to its last.
     at = f"{100.0 * column / max(columns - 1, 1):.4f}% {100.0 * row / max(rows - 1, 1):.4f}%"
-    names = {"reference": truth.name(comparison.settings), "drawing": "RSIBR", "difference": "difference"}
+    names = {"reference": telling.name(comparison.settings), "drawing": "RSIBR", "difference": "difference"}
     tiles = "".join(
         f'<div class="tile {kind}" style="--at: {at}" role="img" aria-label="{name}, view {number + 1}">'
         "</div>"
@@ -96,7 +97,7 @@ def _figure(comparison: Comparison, truth: Truth, number: int) -> str:
     return f"<figure>{tiles}{labels}<figcaption>{caption}</figcaption></figure>"
 
 
-def _settings(comparison: Comparison, truth: Truth) -> list[tuple[str, str]]:
+def _settings(comparison: Comparison, telling: Telling) -> list[tuple[str, str]]:
     """Names and values, in words."""
     settings = comparison.settings
     angle = settings.perspective
@@ -108,7 +109,7 @@ def _settings(comparison: Comparison, truth: Truth) -> list[tuple[str, str]]:
         ("mesh", escape(_mesh(comparison))),
         ("camera", "orthographic" if angle is None else f"perspective, {angle:g}&deg;"),
         ("pictures", f"{settings.size}&times;{settings.size}"),
-        (truth.name(settings), truth.quality(settings)),
+        (telling.name(settings), telling.quality(settings)),
         ("seed", str(settings.seed)),
     ]
 

@@ -43,6 +43,28 @@ class Drawn:
 
 
 @dataclass(frozen=True)
+class Telling:
+    """What is told of references.
+
+    Attributes
+    ----------
+    name : callable
+        Settings to who tells the truth: "Cycles".
+    made : callable
+        Settings to how: "rendered by Cycles".
+    notes : callable
+        A comparison to what else there is to know of its references, as HTML.
+    quality : callable
+        Settings to how good the references are, in words.
+    """
+
+    name: Callable[[Any], str]
+    made: Callable[[Any], str]
+    notes: Callable[[Comparison], str]
+    quality: Callable[[Any], str]
+
+
+@dataclass(frozen=True)
 class Truth:
     """How map sets of a kind are compared.
 
@@ -52,22 +74,13 @@ class Truth:
         A dataclass that is a `Way`.
     draw : callable
         The map set's file, for messages; its content, environment and material; and settings, to `Drawn`.
-    name : callable
-        Settings to who tells the truth: "Cycles".
-    made : callable
-        Settings to how: "rendered by Cycles".
-    notes : callable
-        A comparison to what else there is to know of its references, as HTML.
-    quality : callable
-        Settings to how good the references are, in words.
+    telling : Telling
+        Of the references.
     is_look : callable
         Whether a way to draw is that of a look.
     """
 
     way: type[Way]
     draw: Callable[[Any, Any, Environment, dict[str, Any], Any], Steps[Drawn]]
-    name: Callable[[Any], str]
-    made: Callable[[Any], str]
-    notes: Callable[[Comparison], str]
-    quality: Callable[[Any], str]
+    telling: Telling
     is_look: Callable[[Any, Any], bool] = lambda way, look: True

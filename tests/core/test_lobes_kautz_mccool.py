@@ -5,8 +5,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.brdf.albedo import directional_albedo
+from rsibr.rsibr_addon.core.brdf.fresnel import Schlick
 from rsibr.rsibr_addon.core.brdf.ggx import Ggx
 from rsibr.rsibr_addon.core.brdf.lambert import Lambert
+from rsibr.rsibr_addon.core.brdf.layered import Sum
 from rsibr.rsibr_addon.core.brdf.metals import METALS
 from rsibr.rsibr_addon.core.brdf.retroreflective import Retroreflective
 from rsibr.rsibr_addon.core.brdf.ward import Ward
@@ -64,6 +66,14 @@ def test_profiles_become_kernels_with_the_same_integral() -> None:
     np.testing.assert_allclose(weights.sum(axis=0), profile.integral, rtol=1e-10)
     back = bank.values(np.sin(0.5 * angles) ** 2) @ weights
     assert np.all(np.abs(back - values).max(axis=0) < 3e-3 * values.max(axis=0))
+
+
+def test_kernels_within_the_innermost_ring_have_no_weight() -> None:
+    # A coat that shines at grazing alone: its kernels end within the rings about a broad lobe near the normal
+    coat, base = Ggx(alpha=0.01, fresnel=Schlick(f0=0.0)), Ggx(alpha=0.4, fresnel=Schlick(f0=0.5))
+    paint = Sum(parts=(coat, base))
+    for fit in (single_fit(paint, "", MU), greedy_fit(paint, "", MU, 1)):
+        assert fit_errors(fit, paint).error < 0.5  # no lobe at all has 1
 
 
 def test_a_single_lobe_has_the_models_energy() -> None:

@@ -9,6 +9,7 @@ from ..geometry.directions import camera_frame, dot
 from .bank import KernelBank
 
 _SINGULAR = 1e-7
+_NARROWEST = 2.0  # kappa * angle^2: the kernel is e^-1 of its peak there
 
 
 @dataclass(frozen=True)
@@ -48,14 +49,17 @@ class RadialProfile:
         Returns
         -------
         ndarray, shape (K, 3)
-            Least squares over solid angle; kernels that the rings cannot tell apart share their weight.
+            Least squares over solid angle; kernels that the rings cannot tell apart share their weight, and
+            those that end within the innermost ring have none.
         """
         cells = np.gradient(self.angles) * np.sin(self.angles)
         root = np.sqrt(cells)[:, None]
         kernels = bank.values(np.sin(0.5 * self.angles) ** 2)
         norm: Array = np.sqrt(np.sum((root * kernels) ** 2, axis=0))
-        weights = np.linalg.lstsq(root * kernels / norm, root * self.values, rcond=_SINGULAR)[0]
-        weights /= norm[:, None]
+        seen = bank.kappa * self.angles[1] ** 2 <= _NARROWEST
+        weights = np.zeros((len(bank), 3))
+        found = np.linalg.lstsq((root * kernels / norm)[:, seen], root * self.values, rcond=_SINGULAR)[0]
+        weights[seen] = found / norm[seen, None]
         got, wanted = weights.sum(axis=0), self.integral
         result: Array = weights * np.divide(wanted, got, out=np.ones(3), where=got * wanted > 0.0)
         return result

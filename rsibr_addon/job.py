@@ -151,7 +151,9 @@ def _bake_job(found: _BakeFile) -> BakeJob[Any]:
 
 
 def _settings_type(kind: str) -> type[MethodSettings]:
-    kinds = (*STORED, ObjectInputsSettings.KIND)
-    if kind not in kinds:
-        raise SchemaError(f"kind is not one of {', '.join(kinds)}")
-    return STORED[kind].settings if kind in STORED else ObjectInputsSettings
+    known = kind.replace("-", "_")
+    if known == ObjectInputsSettings.KIND:
+        return ObjectInputsSettings
+    if known not in STORED:
+        raise SchemaError(f"kind is not one of {', '.join((*STORED, ObjectInputsSettings.KIND))}")
+    return STORED[known].settings

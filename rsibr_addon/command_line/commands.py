@@ -101,7 +101,7 @@ def _with_todays_names(argv: Sequence[str]) -> Sequence[str]:
     name, rest = (argv[0], argv[1:]) if argv else ("", argv)
     if name in OLD_NAMES:
         return _as_in_version_01(OLD_NAMES[name], rest)
-    if name == "bake" and rest and rest[0].endswith(".json"):
+    if name == "bake" and rest and rest[0].lower().endswith(".json"):
         return ["job", *rest]
     if name == "bake" and rest and rest[0].startswith("--") and rest[0] != "--help":
         return _as_in_version_01("lobe-stack", rest)

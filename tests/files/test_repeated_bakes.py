@@ -20,7 +20,7 @@ from rsibr.rsibr_addon.files.fits import write_fit
 from rsibr.rsibr_addon.files.map_set import read_map_set, read_map_set_header, write_map_set
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.files.work_folder import held_work_folder, work_folder_beside
-from rsibr.rsibr_addon.job import BakeJob
+from rsibr.rsibr_addon.job import BakeJob, read_job
 from rsibr.rsibr_addon.settings.kernel_bank import KernelBankSettings
 from rsibr.rsibr_addon.settings.light import Light
 from rsibr.rsibr_addon.settings.lobe_stack import LobeStackSettings
@@ -139,6 +139,20 @@ def test_a_file_that_nobody_could_use_is_not_kept_for_its_recipe(damage: str) ->
         drain(bake(job_of()))
     drain(bake(replace(job_of(), force=True, if_missing=False)))
     assert drain(bake(job_of())).figures == {"found": True}
+
+
+def test_a_folder_is_no_output_that_could_be_kept() -> None:
+    OUTPUT.mkdir()
+    with pytest.raises(OutputFileError, match="is a folder: give the name of a file in it"):
+        drain(bake(job_of()))
+
+
+def test_a_job_may_name_its_kind_as_commands_do(tmp_path: Path) -> None:
+    plain = json.loads(job_of().to_json())
+    job = Path("JOB.JSON")
+    job.write_text(json.dumps(plain | {"kind": "mip-chain"}))
+    assert read_job(job.read_text(), "job") == job_of()
+    assert run(["bake", str(job)]) == 0
 
 
 def test_a_command_keeps_what_is_there_only_if_asked(capfd: pytest.CaptureFixture[str]) -> None:

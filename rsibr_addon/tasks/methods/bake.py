@@ -46,14 +46,14 @@ def bake(job: BakeJob[Any]) -> Steps[Baked]:
     folder = work_folder_beside(output)
     # A process killed at its very end has written its output, and left its folder
     keeps = not job.force and (job.if_missing or folder.is_dir())
-    if not (keeps and output.exists()):
+    if not (keeps and output.is_file()):
         check_map_set_target(output, job.force)
     recipe = recipe_for(job)
-    if keeps and output.exists() and not folder.is_dir():
+    if keeps and output.is_file() and not folder.is_dir():
         return _found(output, recipe)
     with ExitStack() as stack:
         yield from _hold(folder, output, stack)
-        if keeps and output.exists():
+        if keeps and output.is_file():
             found = _found(output, recipe)
             clear_parts(folder)
             return found
@@ -61,7 +61,7 @@ def bake(job: BakeJob[Any]) -> Steps[Baked]:
             baked: Baked = yield from method.bake(job, recipe)
         except OutputFileError:
             # Where the disk knows no locks, another process may have been first
-            if keeps and output.exists():
+            if keeps and output.is_file():
                 return _found(output, recipe)
             raise
     return baked

@@ -21,7 +21,6 @@ def comparison_report(comparison: Comparison, telling: Telling, sheets: Sheets) 
     comparison : Comparison
     telling : Telling
         Of its references.
-        What it was held against.
     sheets : Sheets
         Its pictures, which the report takes in.
 

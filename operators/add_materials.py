@@ -3,7 +3,7 @@
 import bpy
 
 from ..rsibr_addon.host.assets import add_library, asset_folder
-from ..rsibr_addon.host.bake_settings import EXTENSION
+from ..rsibr_addon.host.preferences import EXTENSION
 from ..rsibr_addon.session.running import session
 from ..rsibr_addon.tasks.queue.assets_bake import assets_bake_in
 from . import background

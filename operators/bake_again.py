@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..rsibr_addon.host.bake_settings import apply_settings, plain_settings
+from ..rsibr_addon.host.plain_settings import apply_settings, plain_settings
 from ..rsibr_addon.tasks.queue.bake_request import request_for
 from .at_once import Undoable
 from .bake_in_background import queue_bake

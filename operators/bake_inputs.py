@@ -5,7 +5,7 @@ from pathlib import Path
 import bpy
 
 from ..rsibr_addon.core.errors import RsibrError
-from ..rsibr_addon.host.bake_settings import bakes_inputs_by_itself
+from ..rsibr_addon.host.preferences import bakes_inputs_by_itself
 from ..rsibr_addon.host.visible_surfaces import layer_of
 from ..rsibr_addon.session.running import session
 from ..rsibr_addon.tasks.queue.background import Farm, State

@@ -5,9 +5,9 @@ from pathlib import Path
 import bpy
 
 from ..rsibr_addon.files.output_paths import HASH_LETTERS, bare_name
-from ..rsibr_addon.host.bake_settings import baked_folder, make_writable
 from ..rsibr_addon.host.map_sets import planned_path, stored_path, use_map_set, written_file
 from ..rsibr_addon.host.painted import end_painting, write_painted
+from ..rsibr_addon.host.preferences import baked_folder, make_writable
 from ..rsibr_addon.tasks.queue.bake_request import plain_name
 from .at_once import Undoable
 

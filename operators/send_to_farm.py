@@ -7,7 +7,7 @@ import bpy
 from ..rsibr_addon.core.errors import RsibrError, SceneError
 from ..rsibr_addon.core.warned import warn
 from ..rsibr_addon.files.baked_inputs import is_whole
-from ..rsibr_addon.host.bake_settings import check_online, farm_address, farm_folder
+from ..rsibr_addon.host.preferences import check_online, farm_address, farm_folder
 from ..rsibr_addon.tasks.methods.kinds import KINDS
 from ..rsibr_addon.tasks.queue.background import Farm
 from ..rsibr_addon.tasks.queue.bake_request import request_for

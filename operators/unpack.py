@@ -2,8 +2,8 @@
 
 import bpy
 
-from ..rsibr_addon.host.bake_settings import baked_folder, make_writable
 from ..rsibr_addon.host.map_sets import is_packed, unpack
+from ..rsibr_addon.host.preferences import baked_folder, make_writable
 from .at_once import Undoable
 
 

@@ -189,7 +189,8 @@ def _worker_command() -> list[str]:
     """What starts a worker: this Blender, if it is one, or this Python."""
     code = f"from {__package__}.worker import serve; serve()"
     if "bpy" in sys.modules:
-        from ..host.bake_settings import EXTENSION, blender_program
+        from ..host.installation import blender_program
+        from ..host.preferences import EXTENSION
 
         if program := blender_program():
             quiet = (program, "--background", "--disable-autoexec")

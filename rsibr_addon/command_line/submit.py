@@ -91,7 +91,7 @@ def _sent(
     from ..tasks.farm.send import PROGRAM, bake_on_farm, send
 
     if "bpy" in sys.modules:
-        from ..host.bake_settings import check_online
+        from ..host.preferences import check_online
 
         check_online()
     manager, program = Manager(arguments.flamenco), arguments.program or PROGRAM

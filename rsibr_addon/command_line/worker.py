@@ -68,9 +68,9 @@ def _open(opened: dict[str, str] | None) -> None:
     """Open the file of Blender that a job means, once for all jobs that follow and mean the same."""
     if opened is None:
         return
-    from ..host.bake_settings import enable_extension
     from ..host.blend_files import is_open, open_blend
     from ..host.materials import ORIGINAL
+    from ..host.preferences import enable_extension
 
     if not is_open(Path(opened["file"])):
         enable_extension()

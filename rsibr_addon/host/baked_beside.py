@@ -9,8 +9,8 @@ from bpy.app.handlers import persistent
 
 from ..core.errors import OutputFileError
 from ..files.atomic import written_aside
-from .bake_settings import baked_folder, make_writable, user_folder
 from .map_sets import stored_path
+from .preferences import baked_folder, make_writable, user_folder
 
 
 @persistent

@@ -1,11 +1,11 @@
-"""Blender's own files: what names them, and opening them."""
+"""Blender's own files: what names them, opening them, and copies of the open one."""
 
 import re
 from pathlib import Path
 
 import bpy
 
-from ..core.errors import InputFileError
+from ..core.errors import InputFileError, OutputFileError
 
 
 def blend_name(spec: str) -> tuple[str, str] | None:
@@ -57,3 +57,32 @@ def unreadable(path: Path) -> InputFileError:
     return InputFileError(
         f"{path} is no file that Blender {version} can read: save it with Blender {version}."
     )
+
+
+def open_file() -> str:
+    """Path of the open file; empty before it is saved."""
+    return bpy.data.filepath
+
+
+def save_copy(path: Path, scene: bpy.types.Scene) -> None:
+    """Write a scene and all that it needs, with unsaved changes; the open file stays as it was.
+
+    Parameters
+    ----------
+    path : Path
+        The file to write.
+    scene : bpy.types.Scene
+
+    Raises
+    ------
+    OutputFileError
+
+    Notes
+    -----
+    *Save a Copy* would rewrite the open file's relative paths and put them back, which evaluates objects
+    anew: particles would be gone until the next frame.
+    """
+    try:
+        bpy.data.libraries.write(str(path), {scene}, path_remap="ABSOLUTE")
+    except (OSError, RuntimeError) as error:
+        raise OutputFileError(f"No copy of the file can be written to {path}: free some space.") from error

@@ -1,4 +1,4 @@
-"""Whether there is a Blender, and the environments that come with it, without starting it."""
+"""The Blender that is there, if any: its program, and the environments that come with it."""
 
 import sys
 from importlib.util import find_spec
@@ -8,6 +8,13 @@ from pathlib import Path
 def has_blender() -> bool:
     """Whether Blender runs here or can be imported."""
     return "bpy" in sys.modules or find_spec("bpy") is not None
+
+
+def blender_program() -> str:
+    """The program of this Blender; empty where Blender is a module of Python."""
+    import bpy
+
+    return bpy.app.binary_path
 
 
 def studio_environments() -> dict[str, Path]:

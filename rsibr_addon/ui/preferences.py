@@ -3,8 +3,8 @@
 import bpy
 
 from ..core.options import declared_options
-from ..host.bake_settings import EXTENSION, FOLDER
 from ..host.option_properties import group_of, properties_of
+from ..host.preferences import EXTENSION, FOLDER
 from ..settings.baked_inputs import BakedInputsSettings
 
 INPUTS_GROUP = group_of(

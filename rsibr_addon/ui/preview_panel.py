@@ -4,8 +4,8 @@ import bpy
 
 from ..core.errors import RsibrError
 from ..files.kinds.registry import STORED
-from ..host.bake_settings import bakes_inputs_by_itself, check_online, farm_address
 from ..host.map_sets import written_path
+from ..host.preferences import bakes_inputs_by_itself, check_online, farm_address
 from ..session.running import session
 from ..tasks.methods.kinds import KINDS
 from ..tasks.queue.bake_request import request_for

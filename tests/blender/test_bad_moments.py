@@ -11,8 +11,8 @@ import pytest
 from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError, RsibrError, SceneError
 from rsibr.rsibr_addon.files.kinds.registry import look_types
-from rsibr.rsibr_addon.host.bake_settings import baked_folder, make_writable
 from rsibr.rsibr_addon.host.option_properties import options_of
+from rsibr.rsibr_addon.host.preferences import baked_folder, make_writable
 from rsibr.rsibr_addon.tasks.queue.bake_request import request_for
 from rsibr.tests.bake_jobs import run_job
 from rsibr.tests.open_file import linked_cube

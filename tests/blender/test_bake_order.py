@@ -13,7 +13,7 @@ from rsibr.rsibr_addon.files.exr import write_parts
 from rsibr.rsibr_addon.files.exr_part import Part
 from rsibr.rsibr_addon.files.map_set import is_whole_map_set, read_map_set, write_map_set
 from rsibr.rsibr_addon.files.staging import is_staging_folder
-from rsibr.rsibr_addon.host.bake_settings import apply_settings, plain_settings
+from rsibr.rsibr_addon.host.plain_settings import apply_settings, plain_settings
 from rsibr.rsibr_addon.job import read_job
 from rsibr.rsibr_addon.tasks.light.light_pictures import NO_RADIANCE, light_remarks
 from rsibr.rsibr_addon.tasks.queue.bake_request import (
@@ -297,14 +297,14 @@ def test_the_material_is_recorded_as_the_original_has_it(monkeypatch: pytest.Mon
 
 
 def test_folders_that_cannot_be_made_are_named(tmp_path: Path) -> None:
-    from rsibr.rsibr_addon.host import bake_settings
+    from rsibr.rsibr_addon.host import preferences
 
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "artist.blend"))
-    folder = bake_settings.baked_folder()
+    folder = preferences.baked_folder()
     assert folder == tmp_path / "rsibr"
     folder.touch()
     with pytest.raises(OutputFileError, match=r"rsibr cannot be made \(File exists\): choose another folder"):
-        bake_settings.make_writable(folder)
+        preferences.make_writable(folder)
 
 
 def test_the_original_counts_as_open(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

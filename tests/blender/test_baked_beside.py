@@ -7,8 +7,9 @@ import bpy
 import pytest
 import rsibr
 from rsibr.rsibr_addon.core.errors import OutputFileError
-from rsibr.rsibr_addon.host import bake_settings, baked_beside
-from rsibr.rsibr_addon.host.bake_settings import assign, plain_settings
+from rsibr.rsibr_addon.host import baked_beside, preferences
+from rsibr.rsibr_addon.host.bake_settings import assign
+from rsibr.rsibr_addon.host.plain_settings import plain_settings
 from rsibr.rsibr_addon.tasks.queue.bake_request import output_for, request_for
 
 
@@ -24,7 +25,7 @@ def users(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The folder among the user's files."""
     folder = tmp_path / "user"
     folder.mkdir()
-    for module in (bake_settings, baked_beside):
+    for module in (preferences, baked_beside):
         monkeypatch.setattr(module, "user_folder", lambda: folder)
     return folder
 

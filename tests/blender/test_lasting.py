@@ -9,8 +9,9 @@ import pytest
 import rsibr
 from rsibr.rsibr_addon import properties
 from rsibr.rsibr_addon.core.errors import OutputFileError
-from rsibr.rsibr_addon.host.bake_settings import chosen_environment, plain_settings
+from rsibr.rsibr_addon.host.bake_settings import chosen_environment
 from rsibr.rsibr_addon.host.map_sets import is_packed, unpacked
+from rsibr.rsibr_addon.host.plain_settings import plain_settings
 from rsibr.rsibr_addon.host.visible_surfaces import map_set_of
 from rsibr.rsibr_addon.tasks.queue.bake_request import output_for, request_for
 from rsibr.rsibr_addon.tasks.report.facts import map_set_content

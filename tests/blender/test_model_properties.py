@@ -16,9 +16,9 @@ from rsibr.rsibr_addon.core.kinds.reflection_tables.material import (
 from rsibr.rsibr_addon.core.kinds.reflection_tables.shading import TablesLook
 from rsibr.rsibr_addon.core.options import declared_options
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
-from rsibr.rsibr_addon.host.bake_settings import apply_settings, plain_settings
 from rsibr.rsibr_addon.host.model_properties import NONE, shown_keys, take_curves, text_of_curves
 from rsibr.rsibr_addon.host.option_properties import options_of
+from rsibr.rsibr_addon.host.plain_settings import apply_settings, plain_settings
 from rsibr.rsibr_addon.settings.reflection_tables import ReflectionTablesSettings
 
 pytestmark = pytest.mark.usefixtures("registered")

@@ -13,22 +13,13 @@ from ...files.kinds.registry import STORED
 from ...files.output_paths import HASH_LETTERS, comparison_beside, comparison_page, portable_name
 from ...files.pictures import split_layer
 from ...files.temporary import temporary_folder
-from ...host.bake_settings import (
-    EXTENSION,
-    baked_folder,
-    blender_program,
-    check_choices,
-    check_object,
-    chosen_environment,
-    existing,
-    make_writable,
-    open_file,
-    own_material,
-    plain_settings,
-    save_copy,
-)
+from ...host.bake_settings import check_choices, check_object, chosen_environment, existing, own_material
+from ...host.blend_files import open_file, save_copy
+from ...host.installation import blender_program
 from ...host.materials import ORIGINAL, fingerprint
 from ...host.option_properties import FILE, OWN, options_of
+from ...host.plain_settings import plain_settings
+from ...host.preferences import EXTENSION, baked_folder, make_writable
 from ...host.shape_dependence import shape_dependence
 from ...host.world_light import world_light
 from ...job import BakeJob, CommandJob

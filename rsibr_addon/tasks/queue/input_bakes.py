@@ -6,8 +6,8 @@ from typing import Any
 
 from ...core.options import to_plain
 from ...files.output_paths import HASH_LETTERS
-from ...host.bake_settings import baked_folder, chosen_inputs_settings, make_writable
 from ...host.option_properties import options_of
+from ...host.preferences import baked_folder, chosen_inputs_settings, make_writable
 from ...job import BakeJob
 from ...settings.baked_inputs import BakedInputsSettings, ObjectInputsSettings
 from ..baked_inputs import inputs_recipe, wanted_pictures

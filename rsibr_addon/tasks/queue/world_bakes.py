@@ -7,9 +7,10 @@ from typing import Any
 from ...core.progress import Steps
 from ...files.kinds.registry import STORED
 from ...files.map_set import is_whole_map_set
-from ...host.bake_settings import check_choices, make_writable
+from ...host.bake_settings import check_choices
 from ...host.materials import check_saved
 from ...host.option_properties import options_of
+from ...host.preferences import make_writable
 from ...host.scenes import worked_in
 from ...host.world_light import world_light
 from ...host.worlds import world_of

@@ -9,8 +9,8 @@ from ...core.warned import recorded_warnings, warn
 from ...device.context import ensure_context
 from ...files.atomic import check_target, written_aside
 from ...files.outputs import make_folder
-from ...host.bake_settings import enable_extension
 from ...host.blend_files import open_blend
+from ...host.preferences import enable_extension
 from ...host.render_views import STEREOSCOPY, checked_camera, without
 from ...host.rendering import render_frame
 from ...host.scenes import find_scene

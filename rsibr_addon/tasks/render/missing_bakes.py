@@ -6,7 +6,8 @@ from typing import Any
 from ...core.errors import SceneError
 from ...core.progress import Steps
 from ...files.baked_inputs import is_whole
-from ...host.bake_settings import SHAPED, bakes_inputs_by_itself
+from ...host.bake_settings import SHAPED
+from ...host.preferences import bakes_inputs_by_itself
 from ...host.render_views import scenes_of_ours
 from ...host.scenes import evaluated
 from ..methods.bake import bake

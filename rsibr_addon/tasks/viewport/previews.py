@@ -15,8 +15,8 @@ from ...device.preview_stage import (
     current_sight,
     draw_scale_numbers,
 )
-from ...host.bake_settings import bakes_inputs_by_itself
 from ...host.live_light import is_readable
+from ...host.preferences import bakes_inputs_by_itself
 from ...host.visible_surfaces import Layer, Side, Surface, View, map_set_of, objects_numbered
 from ..methods.kinds import KINDS
 from ..methods.live_materials import LiveFits

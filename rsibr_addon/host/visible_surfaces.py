@@ -129,8 +129,12 @@ class View:
 
     @property
     def has_depth(self) -> bool:
-        """Whether Blender leaves its surfaces' depths for later drawing."""
-        return bool(self.space.shading.type == "SOLID" or self.space.overlay.show_overlays)
+        """Whether Blender leaves its surfaces' depths for later drawing.
+
+        Where all objects are shaded, its depths would hide what is seen through holes: they know of no alpha.
+        """
+        drawn = self.space.shading.type == "SOLID" or self.space.overlay.show_overlays
+        return bool(drawn) and not self.shades_all
 
     @property
     def sides(self) -> tuple[Side, ...]:

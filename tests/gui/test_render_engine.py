@@ -72,6 +72,12 @@ def scenario(told):
     bpy.ops.mesh.primitive_monkey_add(location=(0.0, -2.5, 0.5))
     bpy.ops.mesh.primitive_plane_add(size=6.0, location=(0.0, 0.0, -1.0))
     bpy.context.object.is_shadow_catcher = True
+    # A card before the cube, all of which is a hole
+    camera = scene.camera
+    bpy.ops.mesh.primitive_plane_add(location=0.5 * camera.location, rotation=camera.rotation_euler)
+    hole = bpy.data.materials.new("Hole")
+    hole.node_tree.nodes["Principled BSDF"].inputs["Alpha"].default_value = 0.0
+    bpy.context.object.data.materials.append(hole)
     scene.render.resolution_x, scene.render.resolution_y = part.width, part.height
     bare(view())
     space = view().spaces.active

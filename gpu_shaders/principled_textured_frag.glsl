@@ -2,8 +2,9 @@
 // material whose inputs are affine in the texels of textures. The uniform block `material` and the textures
 // `image_0` to `image_7` are those of device/textured_materials.py.
 //
-// A program for materials without bumps, without textures whose alpha counts before they are interpolated, or
-// of four textures at most, may define UNBUMPED, UNCOVERED or FEW_TEXTURES: see principled_lib.glsl.
+// A program for materials without bumps may define UNBUMPED: see principled_lib.glsl. Others may be TEXTURES,
+// how many it samples at most, and FIRST_COVERED, the first of them that is multiplied by alpha before it is
+// interpolated.
 #include "lib/footprint_lib.glsl"
 #include "lib/principled_radiance_lib.glsl"
 #include "lib/shading_normal_lib.glsl"
@@ -15,15 +16,11 @@ const bool MAY_BE_BUMPED = false;
 #else
 const bool MAY_BE_BUMPED = true;
 #endif
-#ifdef UNCOVERED
-const bool MAY_BE_COVERED = false;
-#else
-const bool MAY_BE_COVERED = true;
+#ifndef TEXTURES
+#define TEXTURES 8
 #endif
-#ifdef FEW_TEXTURES
-const bool MAY_HAVE_MANY = false;
-#else
-const bool MAY_HAVE_MANY = true;
+#ifndef FIRST_COVERED
+#define FIRST_COVERED 0
 #endif
 
 // Bits of what changes the normal.
@@ -110,7 +107,7 @@ vec4 texel_of(sampler2D image, int number)
 {
   vec2 place = texture_place(number);
   float degree = material.mapping[2 * number + 1].w;
-  if (!MAY_BE_COVERED || degree < COVERED_AND_INTERPOLATED) {
+  if (number < FIRST_COVERED || degree < COVERED_AND_INTERPOLATED) {
     vec4 texel = texture(image, place);
     return (degree < COVERED) ? texel : times_alpha(texel);
   }
@@ -143,32 +140,36 @@ void add_texels(int number, vec4 texel)
 // that derivatives exist.
 void evaluate_inputs()
 {
-  for (int number = 0; number < NUMBERS; number++) {
-    numbers[number] = material.constants[number / 4][number % 4];
+  // By fours: software drivers do not unroll loops of more than 32 rounds, and index each number at run time
+  for (int row = 0; row < NUMBERS / 4; row++) {
+    vec4 constants = material.constants[row];
+    for (int column = 0; column < 4; column++) {
+      numbers[4 * row + column] = constants[column];
+    }
   }
   int count = int(material.counts.x);
-  if (count > 0) {
+  if (TEXTURES > 0 && count > 0) {
     add_texels(0, texel_of(image_0, 0));
   }
-  if (count > 1) {
+  if (TEXTURES > 1 && count > 1) {
     add_texels(1, texel_of(image_1, 1));
   }
-  if (count > 2) {
+  if (TEXTURES > 2 && count > 2) {
     add_texels(2, texel_of(image_2, 2));
   }
-  if (count > 3) {
+  if (TEXTURES > 3 && count > 3) {
     add_texels(3, texel_of(image_3, 3));
   }
-  if (MAY_HAVE_MANY && count > 4) {
+  if (TEXTURES > 4 && count > 4) {
     add_texels(4, texel_of(image_4, 4));
   }
-  if (MAY_HAVE_MANY && count > 5) {
+  if (TEXTURES > 5 && count > 5) {
     add_texels(5, texel_of(image_5, 5));
   }
-  if (MAY_HAVE_MANY && count > 6) {
+  if (TEXTURES > 6 && count > 6) {
     add_texels(6, texel_of(image_6, 6));
   }
-  if (MAY_HAVE_MANY && count > 7) {
+  if (TEXTURES > 7 && count > 7) {
     add_texels(7, texel_of(image_7, 7));
   }
 }

@@ -13,12 +13,14 @@ const int FUNCTIONS = 5;
 const int LOBES = 4;
 const int LEANING_LOBES = 2;
 
-// Rising powers of glass, of an index of 1.5, over the first of them: `GLASS` of
+// Coefficients of glass, of an index of 1.5, over the first rising one: `GLASS` of
 // device/kinds/kernel_pyramid_texels.py.
-const vec4 GLASS = vec4(1.0, 22.052702, -36.772641, 24.508813);
+const float GLASS_ZEROTH = 0.45133402;
+const vec4 GLASS_RISING = vec4(1.0, 22.052702, -36.772641, 24.508813);
 
-// Coefficients of less are not looked up, beside others of the same lobes: roundings of `GLASS`.
-const vec3 LEAST = vec3(1e-3);
+// Coefficients of less are not looked up, beside others of the same lobes: roundings of `GLASS`. That of 1 is
+// to be so much less than it was.
+const float LEAST = 1e-3;
 
 // The sum of a family's lobes, which has one function or all; first: of its columns.
 vec3 lobes_radiance(sampler2D atlas,
@@ -41,14 +43,16 @@ vec3 lobes_radiance(sampler2D atlas,
       octahedral_uv(axes[0]), octahedral_uv(axes[1]), octahedral_uv(axes[2]), octahedral_uv(axes[3]));
   // What is left beside glass, of which the first of the rising functions is made
   vec3 glass = coefficients.rising[0];
-  mat4x3 rest = coefficients.rising - outerProduct(glass, GLASS);
-  vec3 factors[FUNCTIONS] = vec3[FUNCTIONS](glass, coefficients.zeroth, rest[1], rest[2], rest[3]);
+  vec3 even = coefficients.zeroth - GLASS_ZEROTH * glass;
+  mat4x3 rest = coefficients.rising - outerProduct(glass, GLASS_RISING);
+  vec3 factors[FUNCTIONS] = vec3[FUNCTIONS](glass, even, rest[1], rest[2], rest[3]);
   // Those that count are neighbours
   int begin = (glass == vec3(0.0)) ? 1 : 0;
-  bvec3 counts = bvec3(any(greaterThan(abs(rest[1]), LEAST)),
-                       any(greaterThan(abs(rest[2]), LEAST)),
-                       any(greaterThan(abs(rest[3]), LEAST)));
-  int end = counts.z ? 5 : (counts.y ? 4 : (counts.x ? 3 : 2));
+  bvec4 counts = bvec4(any(greaterThan(abs(even), LEAST * coefficients.zeroth)),
+                       any(greaterThan(abs(rest[1]), vec3(LEAST))),
+                       any(greaterThan(abs(rest[2]), vec3(LEAST))),
+                       any(greaterThan(abs(rest[3]), vec3(LEAST))));
+  int end = counts.w ? 5 : (counts.z ? 4 : (counts.y ? 3 : (counts.x ? 2 : 1)));
   vec3 radiance = vec3(0.0);
   int column = first + family_column(family, place);
   int kernels = int(texelFetch(lookups, ivec2(column, 0), 0).x);

@@ -15,10 +15,11 @@ MOST_UV_MAPS = 4
 """UV maps that a mesh may have on the GPU."""
 
 TRANSLUCENT, SHEENLESS, UNCOATED, SMOOTH_DIFFUSE = "TRANSLUCENT", "SHEENLESS", "UNCOATED", "SMOOTH_DIFFUSE"
-UNBUMPED, UNCOVERED, FEW_TEXTURES = "UNBUMPED", "UNCOVERED", "FEW_TEXTURES"
+UNBUMPED, TEXTURES, FIRST_COVERED = "UNBUMPED", "TEXTURES", "FIRST_COVERED"
 """What programs may have defined: see `DrawnMaterial.defines`."""
 
-_FEW = 4
+_COUNTS = 0, 4
+"""Numbers of textures that there are programs for, besides `MOST_TEXTURES`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +31,8 @@ class DrawnMaterial:
     inputs : PrincipledInputs
         Without `Baked`: whoever makes this has put something in its place.
     textures : mapping of Texture to GPUTexture
-        The images of all textures that the inputs have, `MOST_TEXTURES` at most, in scene-linear colours.
+        The images of all textures that the inputs have, `MOST_TEXTURES` at most, in scene-linear colours; in
+        the order of `textured_materials.textures_of`.
     """
 
     inputs: PrincipledInputs
@@ -44,13 +46,13 @@ class DrawnMaterial:
 
     @cached_property
     def defines(self) -> tuple[str, ...]:
-        """What its program has defined.
+        """What its program has defined: names, or names with numbers behind them.
 
-        A program without sheen, a coat, rough facets, bumps, more textures than `_FEW`, or textures that are
-        multiplied by alpha before they are interpolated, is a good deal faster than one in which nothing
-        comes of them: drivers compute both ways of a branch. One with `TRANSLUCENT` leaves
-        out what covers nothing, and draws what covers all if its constant `whole` is 1, and the rest if that
-        is 0. A program that leaves fragments out is a fifth slower, everywhere.
+        A program without sheen, a coat, rough facets, bumps, more than `TEXTURES` textures, or textures up to
+        `FIRST_COVERED` that are multiplied by alpha before they are interpolated, is a good deal faster than
+        one in which nothing comes of them: drivers compute both ways of a branch. One with `TRANSLUCENT`
+        leaves out what covers nothing, and draws what covers all if its constant `whole` is 1, and the rest
+        if that is 0. A program that leaves fragments out is a fifth slower, everywhere.
         """
         wanted = {
             TRANSLUCENT: not self.is_opaque,
@@ -58,10 +60,11 @@ class DrawnMaterial:
             UNCOATED: _is_zero(self.inputs.coat_weight),
             SMOOTH_DIFFUSE: _is_zero(self.inputs.diffuse_roughness),
             UNBUMPED: not isinstance(self.inputs.normal, Bump),
-            UNCOVERED: not any(texture.covered and not texture.closest for texture in self.textures),
-            FEW_TEXTURES: len(self.textures) <= _FEW,
         }
-        return tuple(name for name, is_so in wanted.items() if is_so)
+        names = [name for name, is_so in wanted.items() if is_so]
+        count = next((each for each in _COUNTS if each >= len(self.textures)), MOST_TEXTURES)
+        covered = (number for number, each in enumerate(self.textures) if each.is_premultiplied)
+        return *names, f"{TEXTURES} {count}", f"{FIRST_COVERED} {next(covered, MOST_TEXTURES)}"
 
 
 def _is_zero(value: Input | Baked) -> bool:

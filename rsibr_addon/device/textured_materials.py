@@ -87,7 +87,7 @@ def textured_program(
     samplers : mapping of str to str
         Textures of what lights the material, as `MeshProgram` takes them.
     defines : collection of str
-        Names that are defined: `NORMALS`, or see `DrawnMaterial.defines`.
+        What is defined: `NORMALS`, or see `DrawnMaterial.defines`.
 
     Raises
     ------
@@ -95,8 +95,8 @@ def textured_program(
         The driver refuses it.
     """
     info = mesh_interface(MATERIAL_STRUCT)
-    for name in defines:
-        info.define(name)
+    for each in defines:
+        info.define(*each.split())
     if TRANSLUCENT in defines:
         info.push_constant("FLOAT", "whole")
     info.uniform_buf(1, "Material", "material")
@@ -192,10 +192,14 @@ def drawn_rows(
 
 
 def textures_of(inputs: PrincipledInputs) -> tuple[Texture, ...]:
-    """The textures that a material samples, each once: a bump's height first, then a normal map's color."""
+    """The textures that a material samples, each once.
+
+    A bump's height comes first, then a normal map's color; what is premultiplied of the others comes last.
+    """
     normal = _normal_map(inputs.normal)
     first = [_bump(inputs).height, *([normal.color] if normal else [])]
-    return tuple(dict.fromkeys(each.texture for each in [*first, *_inputs(inputs)] if each.texture))
+    others = sorted(_inputs(inputs), key=lambda each: bool(each.texture and each.texture.is_premultiplied))
+    return tuple(dict.fromkeys(each.texture for each in [*first, *others] if each.texture))
 
 
 def material_rows(inputs: PrincipledInputs, textures: tuple[Texture, ...], uv_maps: tuple[str, ...]) -> Array:

@@ -34,6 +34,7 @@ from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.drawing import Draw, GpuMesh
 from rsibr.rsibr_addon.device.kinds.kernel_pyramid import GpuPyramid
 from rsibr.rsibr_addon.device.own_materials import MOST_TEXTURES, DrawnMaterial, OwnMaterials
+from rsibr.rsibr_addon.device.textured_materials import textures_of
 from rsibr.rsibr_addon.device.textured_mesh import GpuTexturedMesh
 from rsibr.tests.glsl.principled_inputs import families, pyramid
 from rsibr.tests.placed_drawing import depth_tested
@@ -115,12 +116,17 @@ TEXTURED = replace(
 
 
 @pytest.mark.parametrize("extension", ["REPEAT", "EXTEND", "CLIP", "MIRROR"])
-@pytest.mark.parametrize(("closest", "covered"), [(False, False), (False, True), (True, True)])
+@pytest.mark.parametrize(
+    ("closest", "covered"),
+    [(False, (False, False)), (False, (True, True)), (True, (True, True)), (False, (True, False))],
+)
 def test_a_picture_is_what_the_reference_says(
-    content: GpuPyramid, extension: str, closest: bool, covered: bool
+    content: GpuPyramid, extension: str, closest: bool, covered: tuple[bool, bool]
 ) -> None:
-    changes = {"extension": extension, "closest": closest, "covered": covered}
-    first, second = (replace(texture, **changes) for texture in (PLACED, OTHER))
+    first, second = (
+        replace(texture, extension=extension, closest=closest, covered=is_covered)
+        for texture, is_covered in zip((PLACED, OTHER), covered, strict=True)
+    )
     inputs = replace(
         TEXTURED,
         **{
@@ -130,14 +136,15 @@ def test_a_picture_is_what_the_reference_says(
         },
     )
     of_first, of_second = texels(1), texels(2, 4, 6)
-    textures = {first: buffers.texture(of_first), second: buffers.texture(of_second)}
+    images = {first: of_first, second: of_second}
+    textures = {texture: buffers.texture(images[texture]) for texture in textures_of(inputs)}
     other_uv = UV[:, :1] @ [[0.3, 1.9], [-1.4, 0.2]] + [0.1, 0.7]
     mesh = square(np.concatenate([other_uv, UV], axis=1), uv_maps=("other", "UVMap"))
     picture = drawn(content, mesh, OwnMaterials((DrawnMaterial(inputs, textures),), antialiased=False))
     centres = texel_centres(SIZE, SIZE).reshape(-1, 2)
     uv = {"": centres @ [[0.3, 1.9], [-1.4, 0.2]] + [0.1, 0.7]}
     uv["other"] = uv[""]
-    surface = surface_at(inputs, {first: of_first, second: of_second}, uv)
+    surface = surface_at(inputs, images, uv)
     expected = reference(surface)
     wrong = np.abs(picture[..., :3] - expected).max(axis=-1) > 4e-3 * expected.max()
     # What lies on an edge between texels may be on either side of it

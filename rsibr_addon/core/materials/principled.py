@@ -51,6 +51,11 @@ class Texture:
     bake: str = ""
     covered: bool = False
 
+    @property
+    def is_premultiplied(self) -> bool:
+        """Whether colours are multiplied by alpha before they are interpolated."""
+        return self.covered and not self.closest
+
 
 @dataclass(frozen=True)
 class Input:

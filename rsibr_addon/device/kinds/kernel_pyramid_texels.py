@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ...core.brdf.fresnel_powers import rise
+from ...core.brdf.fresnel_powers import dielectric
 from ...core.conventions import Array
 from ...core.errors import ShapeError
 from ...core.kinds.kernel_pyramid.shading import Families
@@ -11,11 +11,11 @@ from ...core.lobes.family import KERNELS, Family
 MOST_LOBES = 4
 """Lobes of a family at most, as many as a texel has numbers."""
 
-GLASS = rise(0.2)[1:] / rise(0.2)[1]
-"""Rising powers of glass, of an index of 1.5, over the first of them.
+GLASS = dielectric(1.5) / dielectric(1.5)[1]
+"""Coefficients of glass, of an index of 1.5, over the first rising one.
 
 Most coats and plastics are glass: their weights are a function of their own, in the place of the first rising
-one, which metals do not have. So glass costs two lookups of weights, as does a metal without tinted edges.
+one, which metals do not have. So glass costs one lookup of weights, and a metal without tinted edges two.
 """
 
 _WIDTHS_AN_OCTAVE = 4
@@ -51,7 +51,7 @@ def family_texels(family: Family) -> Array:
         )
     weights = family.weights.astype(np.float64)
     if weights.shape[4] > 1:
-        weights[..., :2] = np.stack([weights[..., 1:] @ GLASS, weights[..., 0]], axis=-1)
+        weights[..., :2] = np.stack([weights @ GLASS, weights[..., 0]], axis=-1)
     by_function = weights.transpose(3, 4, 1, 0, 2).reshape(-1, rows, count, lobes)
     texels = np.zeros((1 + len(by_function), rows, count, MOST_LOBES), dtype=np.float32)
     texels[0, ..., :lobes] = family.tilts.swapaxes(0, 1)

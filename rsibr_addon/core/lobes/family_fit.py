@@ -271,9 +271,9 @@ def _kept(
         equations.append([])
         for target, each in zip(rows[row], tilts[row], strict=True):
             projector, lookups = Projector(_guided(target, guides), bank), _lookups(target, each)
-            system, right = projector.equations(lookups)
+            system, right = own = projector.equations(lookups)
             error = 1.0 + UNIFORM_LIGHT - np.sum(right * np.linalg.solve(system, right))
-            system, right = _equations(projector, lookups, natural)
+            system, right = _with_natural_light(own, projector, lookups, natural)
             # Each elevation's error counts by itself: those of steep views are far larger than the others
             equations[row].append(_spread_out(system / error, right / error, used))
     return kept & thinned(equations, np.full(len(widths), float(tilts.shape[1])), thrift, len(KERNELS))
@@ -286,13 +286,13 @@ def _spread_out(system: Array, right: Array, used: NDArray[np.bool_]) -> Equatio
     return wider, of_all
 
 
-def _equations(projector: Projector, lookups: Lookups, natural: float) -> Equations:
-    """Those of a projector, with natural light."""
-    system, right = projector.equations(lookups)
-    if natural > 0.0:
-        more, of_more = natural_equations(projector.target, projector.bank, lookups, natural)
-        system, right = system + more, right + of_more
-    return system, right
+def _with_natural_light(own: Equations, projector: Projector, lookups: Lookups, natural: float) -> Equations:
+    """The equations of a projector, with those of natural light."""
+    if natural == 0.0:
+        return own
+    system, right = own
+    more, of_more = natural_equations(projector.target, projector.bank, lookups, natural)
+    return system + more, right + of_more
 
 
 def _solved(
@@ -308,7 +308,8 @@ def _solved(
     kept: shape (K,), those that count; the others are 0.
     """
     lookups, projector = _lookups(target, tilts), Projector(target, bank)
-    system, right = _equations(projector, lookups, natural)
+    own = projector.equations(lookups)
+    system, right = _with_natural_light(own, projector, lookups, natural)
     stiffness, ridge = 1.0, np.zeros_like(system)
     while True:
         found = solution((system + (stiffness - 1.0) * ridge, right), kept)
@@ -320,6 +321,5 @@ def _solved(
         if loudest <= MOST_AMPLIFICATION or stiffness > _STIFFEST:
             return weights
         if stiffness == 1.0:  # ridges are in proportion to it
-            stiffer = Projector(target, bank, 2.0).equations(lookups)[0]
-            ridge = stiffer - projector.equations(lookups)[0]
+            ridge = Projector(target, bank, 2.0).equations(lookups)[0] - own[0]
         stiffness *= _STIFFER

@@ -115,7 +115,7 @@ def _run_part(name: str, bakes: Sequence["BatchBake"], folder: Path, console: Co
     parts = parts_of(bakes)
     if name not in parts:
         raise InputFileError(
-            f"There is no part {name}{did_you_mean(name, parts)}: choose one of {', '.join(parts)}."
+            f"There is no part {name}{did_you_mean(name, parts)}: choose one that --dry-run lists."
         )
     result = console.steps(run_bakes(folder, parts[name], _worker_command()))
     _warn_of(result.failures)

@@ -8,7 +8,7 @@ from ...core.progress import Steps
 from ...files.map_set_header import Recipe
 from ...job import BakeJob
 from ...settings.baked_inputs import ObjectInputsSettings
-from .method import BLENDER_MEMORY, BLENDER_SECONDS, RGB, STORED, Baked, Cost, Method
+from .method import BLENDER_MEMORY, RGB, STORED, Baked, Cost, Method
 
 PICTURES = 2
 """Of a usual object."""
@@ -22,7 +22,7 @@ def cost(settings: ObjectInputsSettings) -> Cost:
     texels = PICTURES * settings.size**2
     seconds = (TEXEL_SECONDS + SAMPLE_SECONDS * settings.samples) * texels
     memory = BLENDER_MEMORY + bytes_needed(PICTURES, settings.size)
-    return Cost(BLENDER_SECONDS + seconds, memory, STORED * RGB * texels)
+    return Cost(seconds, memory, STORED * RGB * texels)
 
 
 def material(settings: ObjectInputsSettings) -> str:

@@ -22,7 +22,7 @@ BLENDER_MEMORY = 350e6
 """Bytes that a background Blender takes with a small file, before any work."""
 
 BLENDER_SECONDS = 3.0
-"""Processor time that its start takes."""
+"""Processor time that it takes to start."""
 
 ENVIRONMENT_ROWS = 512
 """Rows of an environment that comes with Blender, and of a world."""
@@ -44,7 +44,7 @@ class Cost:
     Attributes
     ----------
     processor_seconds : float
-        Seconds of all cores together.
+        Seconds of all cores together, without the start of Blender, which batches share.
     memory : float
         Bytes.
     disk : float
@@ -57,8 +57,8 @@ class Cost:
 
     @property
     def seconds(self) -> float:
-        """Estimated duration if all cores are free; work on a single core is a small part."""
-        return self.processor_seconds / (os.cpu_count() or 1)
+        """Estimated duration in a Blender of its own if all cores are free; one alone does little of it."""
+        return (BLENDER_SECONDS + self.processor_seconds) / (os.cpu_count() or 1)
 
 
 def measured_files(describe: Callable[[ReadMeasured], object]) -> tuple[str, ...]:
@@ -85,7 +85,7 @@ ENVIRONMENT_MEMORY = ENVIRONMENT_TEXELS * RGB
 
 def cost_in_blender(seconds: float, memory: float, disk: float) -> Cost:
     """What a method takes, with the Blender that it runs in and the environment that its file holds."""
-    return Cost(BLENDER_SECONDS + seconds, BLENDER_MEMORY + memory, disk + STORED * ENVIRONMENT_MEMORY)
+    return Cost(seconds, BLENDER_MEMORY + memory, disk + STORED * ENVIRONMENT_MEMORY)
 
 
 @dataclass(frozen=True)

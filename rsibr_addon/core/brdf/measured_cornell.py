@@ -87,7 +87,7 @@ class Scattered(Brdf):
 
     @property
     def spec(self) -> str:
-        """The text that stands for it, `cornell:path=paint.brdf` for example."""
+        """The text that stands for it: see `core.brdf.spec`."""
         return self.density.spec
 
     @property

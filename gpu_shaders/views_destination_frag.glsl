@@ -6,7 +6,7 @@
 void main()
 {
   Seen seen = seen_surface(draw.eye, draw.model, world_position, world_normal, gl_FrontFacing);
-  mat3 frame = camera_frame(destination.view_dir.xyz);
+  mat3 frame = camera_frame(object_view_direction(draw.eye, draw.model, draw.turn));
   vec2 normal_uv = uv_from_normal(seen.normal * frame);
   vec3 mirror_dir = reflect_dir(seen.view_dir, seen.mirror_normal);
   vec3 across, up;

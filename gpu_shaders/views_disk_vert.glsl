@@ -1,11 +1,12 @@
 // Twin of core/kinds `destination_by_mesh`, first half: at each vertex of the tessellated disk,
 // where every source shows its central direction, and at which cosine. The sources are the same at all.
+#include "lib/draw_lib.glsl"
 #include "lib/geodesic_lib.glsl"
 #include "lib/radiance_views_lib.glsl"
 
 void main()
 {
-  vec3 view_dir = destination.view_dir.xyz;
+  vec3 view_dir = object_view_direction(draw.eye, draw.model, draw.turn);
   vec3 unit_normal = camera_frame(view_dir) * normal_from_uv(0.5 * position + 0.5);
   sources = find_triangle(sphere, int(mode.last_level), view_dir);
   mat3 corners = geodesic_corners(sphere, sources);

@@ -12,3 +12,9 @@ vec3 view_direction(vec4 eye, vec3 world_position)
 {
   return normalize(eye.xyz - eye.w * world_position);
 }
+
+// From the object to the eye: the view of destination maps.
+vec3 object_view_direction(vec4 eye, mat4 model, mat4 turn)
+{
+  return view_direction(eye, (turn * model[3]).xyz);
+}

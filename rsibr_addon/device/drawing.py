@@ -45,13 +45,6 @@ class Draw:
     turn: Array = field(default_factory=lambda: np.eye(3))
     strength: float = 1.0
 
-    @property
-    def view_dir(self) -> Array:
-        """Unit vector, shape (3,), from the object to the eye, turned: the view of destination maps."""
-        to_eye = self.turn @ (self.eye[:3] - self.eye[3] * self.model[:3, 3])
-        view_dir: Array = to_eye / np.sqrt(to_eye @ to_eye)
-        return view_dir
-
     @cached_property
     def rows(self) -> Array:
         """The rows of the block `Draw` of the shaders, shape (18, 4), float32, with matrices by column."""
@@ -88,6 +81,10 @@ class GpuMesh:
         other._placed = buffers.KeptBlock()
         return other
 
+    def place(self, shader: gpu.types.GPUShader, draw: Draw) -> None:
+        """Give a program, bound, the block `draw`."""
+        shader.uniform_block("draw", self._placed.with_rows(draw.rows))
+
     def draw(self, shader: gpu.types.GPUShader, draw: Draw) -> None:
         """Draw the mesh into the active frame buffer.
 
@@ -97,7 +94,7 @@ class GpuMesh:
             A program of `shaders.mesh_interface`, bound, with all that it needs but the block `draw`.
         draw : Draw
         """
-        shader.uniform_block("draw", self._placed.with_rows(draw.rows))
+        self.place(shader, draw)
         self._batch.draw(shader)
 
 

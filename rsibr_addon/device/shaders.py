@@ -16,7 +16,6 @@ from .shader_source import shader_source
 
 # Uniform blocks hold only vec4 and mat4, so that the layout is the same for every driver.
 DRAW_STRUCT = "struct Draw { mat4 model; mat4 view; mat4 projection; mat4 turn; vec4 eye; vec4 strength; };"
-_DESTINATION_BLOCK = "struct Destination { vec4 view_dir; };"
 
 
 Given = ParamSpec("Given")
@@ -53,9 +52,8 @@ def release_programs() -> None:
 @kept_until_exit
 def views_destination_shader() -> gpu.types.GPUShader:
     """Draws a mesh from the destination maps of one view."""
-    info = mesh_interface(views_fragment_shader.struct + _DESTINATION_BLOCK)
+    info = mesh_interface(views_fragment_shader.struct)
     info.uniform_buf(1, "Mode", "mode")
-    info.uniform_buf(2, "Destination", "destination")
     info.sampler(0, "FLOAT_2D", "albedo")
     info.sampler(1, "FLOAT_2D", "by_normal")
     info.sampler(2, "FLOAT_2D", "by_mirror")
@@ -163,8 +161,8 @@ views_fragment_shader = MeshProgram(
 
 def _destination_interface(varyings: gpu.types.GPUStageInterfaceInfo) -> gpu.types.GPUShaderCreateInfo:
     info = gpu.types.GPUShaderCreateInfo()
-    info.typedef_source(_DESTINATION_BLOCK + views_fragment_shader.struct)
-    info.uniform_buf(0, "Destination", "destination")
+    info.typedef_source(DRAW_STRUCT + views_fragment_shader.struct)
+    info.uniform_buf(0, "Draw", "draw")
     info.uniform_buf(1, "Mode", "mode")
     info.sampler(0, "FLOAT_2D", "albedo")
     info.sampler(1, "FLOAT_2D_ARRAY", "views")

@@ -61,7 +61,7 @@ class GpuTexturedMesh(GpuMesh):
         ends = [0, *self._ends]
         begin, end = ends[min(slot, len(ends) - 1)], ends[-1 if last else min(slot + 1, len(ends) - 1)]
         if end > begin:
-            shader.uniform_block("draw", self._placed.with_rows(draw.rows))
+            self.place(shader, draw)
             self._batch.draw_range(shader, elem_start=3 * begin, elem_count=3 * (end - begin))
 
 

@@ -219,7 +219,7 @@ def test_normals_are_what_the_reference_says(
     own = transformed_normal(model[:3, :3], up)
     own /= np.linalg.norm(own)
     surface = Surface(metallic=0.5, roughness=0.6)
-    expected = reference(surface, shown @ turn.T, draw.view_dir, own @ turn.T)
+    expected = reference(surface, shown @ turn.T, turn @ draw.eye[:3], own @ turn.T)
     wrong = np.abs(picture[..., :3] - expected).max(axis=-1) > 0.01 * expected.max()
     # Where a tenth of a pixel crosses a line between texels, a bump's slope is another
     assert np.count_nonzero(wrong) <= (0.15 * SIZE**2 if isinstance(normal, Bump) else 0)

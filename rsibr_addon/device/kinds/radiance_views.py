@@ -34,7 +34,6 @@ class GpuRadianceViews(ProgramMapSet):
         self._geodesic = GpuTexture("geodesic sphere", _geodesic_texels(views.sphere))
         self.textures = (self._views, self._albedo, self._geodesic)
         self._last_level = len(views.sphere.levels) - 1
-        self._view_dir = buffers.KeptBlock()
 
     @cached_property
     def _destination(self) -> "_Destination":
@@ -43,34 +42,31 @@ class GpuRadianceViews(ProgramMapSet):
     def inputs(self, look: ViewsLook) -> Inputs:
         """See `ProgramMapSet.inputs`; of `fragment` mode. Reference: core/kinds/radiance_views/shading.py."""
         textures = {"albedo": self._albedo, "views": self._views, "sphere": self._geodesic}
-        return Inputs(shaders.views_fragment_shader, (self._numbers(look),), textures)
+        warping = chosen_warping(look.warping, self._left_out)
+        choices = _WARPINGS.index(warping), _FADINGS.index(look.fading)
+        numbers = np.array([*choices, self._last_level, look.antialiased], dtype=float)
+        return Inputs(shaders.views_fragment_shader, (numbers,), textures)
 
     def draw(self, mesh: GpuMesh, draw: Draw, look: ViewsLook) -> None:
         """See `GpuMapSet.draw`. Reference: core/kinds/radiance_views/shading.py."""
         if look.mode is Mode.FRAGMENT:
             super().draw(mesh, draw, look)
             return
-        mode, destination = self._block.filled(self._numbers(look)), self._view_dir.filled(draw.view_dir)
-        self._make_destination(destination, mode, look)
+        mode = self._block.with_rows(self._inputs(look).rows)
+        self._make_destination(mesh, draw, mode, look.mode)
         shader = shaders.views_destination_shader()
         shader.bind()
-        shader.uniform_block("destination", destination)
         shader.uniform_sampler("by_normal", self._destination.targets[0])
         shader.uniform_sampler("by_mirror", self._destination.targets[1])
         shader.uniform_block("mode", mode)
         shader.uniform_sampler("albedo", self._albedo.whole())
         mesh.draw(shader, draw)
 
-    def _numbers(self, look: ViewsLook) -> Array:
-        """The block `mode`."""
-        warping = chosen_warping(look.warping, self._left_out)
-        choices = _WARPINGS.index(warping), _FADINGS.index(look.fading)
-        return np.array([*choices, self._last_level, look.antialiased], dtype=float)
-
     def _make_destination(
-        self, destination: gpu.types.GPUUniformBuf, mode: gpu.types.GPUUniformBuf, look: ViewsLook
+        self, mesh: GpuMesh, draw: Draw, block: gpu.types.GPUUniformBuf, mode: Mode
     ) -> None:
-        if look.mode is Mode.PAPER:
+        """Draw the maps for the view of a mesh; block: of the look."""
+        if mode is Mode.PAPER:
             shader, surface = shaders.views_disk_shader(), self._destination.disk
         else:
             shader, surface = shaders.views_texel_shader(), self._destination.screen
@@ -78,8 +74,8 @@ class GpuRadianceViews(ProgramMapSet):
         with self._destination.framebuffer.bind():
             gpu.state.depth_test_set("NONE")
             shader.bind()
-            shader.uniform_block("destination", destination)
-            shader.uniform_block("mode", mode)
+            mesh.place(shader, draw)
+            shader.uniform_block("mode", block)
             shader.uniform_sampler("views", self._views.whole())
             shader.uniform_sampler("albedo", self._albedo.whole())
             shader.uniform_sampler("sphere", self._geodesic.whole())

@@ -59,7 +59,7 @@ def unreadable(path: Path) -> InputFileError:
     )
 
 
-def open_file() -> str:
+def path_of_open() -> str:
     """Path of the open file; empty before it is saved."""
     return bpy.data.filepath
 

@@ -14,7 +14,7 @@ from ...files.output_paths import HASH_LETTERS, comparison_beside, comparison_pa
 from ...files.pictures import split_layer
 from ...files.temporary import temporary_folder
 from ...host.bake_settings import check_choices, check_object, chosen_environment, existing, own_material
-from ...host.blend_files import open_file, save_copy
+from ...host.blend_files import path_of_open, save_copy
 from ...host.installation import blender_program
 from ...host.materials import ORIGINAL, fingerprint
 from ...host.option_properties import FILE, OWN, options_of
@@ -352,7 +352,7 @@ def in_background(
         output=output,
         command=blender_command(program, EXTENSION, opened, path, farm),
         # What a Blender leaves that is ended while it starts goes with the folder
-        variables={ORIGINAL: open_file(), "TMPDIR": str(folder)},
+        variables={ORIGINAL: path_of_open(), "TMPDIR": str(folder)},
         items=[item.session_uid for item in items],
         elsewhere=farm is not None,
         reads=reads,

@@ -24,10 +24,10 @@ def bring_baked_files(saved_as: str, *_: object) -> None:
     saved_as : str
         Path that Blender is about to save to; empty for its start-up file.
     """
-    folder = baked_folder(bpy.data.filepath or saved_as)
-    for image in bpy.data.images:
+    users, folder = user_folder(), baked_folder(bpy.data.filepath or saved_as)
+    for image in bpy.data.images if users != folder else ():
         path = Path(bpy.path.abspath(image.filepath))
-        if path.parent == user_folder() != folder and image.is_editable and not image.packed_file:
+        if path.parent == users and image.is_editable and not image.packed_file:
             with suppress(OSError, OutputFileError):
                 image.filepath = stored_path(_copied(path, folder))
 

@@ -76,6 +76,25 @@ def test_kernels_within_the_innermost_ring_have_no_weight() -> None:
         assert fit_errors(fit, paint).error < 0.5  # no lobe at all has 1
 
 
+def test_one_profile_for_all_is_the_mean_of_least_error() -> None:
+    coat, base = Ggx(alpha=0.05, fresnel=Schlick(f0=0.01)), Ggx(alpha=0.4, fresnel=METALS["copper"])
+    paint = Sum(parts=(coat, base))
+    fit = single_2d_fit(paint, "", MU)
+    each = single_fit(paint, "", MU)
+    power = each.bank.products(np.zeros(()))[0]
+
+    def error(weights: np.ndarray) -> float:
+        """Squared error against the lobes of each elevation, over their power."""
+        missed = weights * fit.scale[0, :, None] - each.weights[0]
+        of_each = [np.einsum("skc,km,smc->s", lobe, power, lobe) for lobe in (missed, each.weights[0])]
+        return float(np.sum(of_each[0] / of_each[1]))
+
+    best = fit.weights[0, 0]
+    for own in each.weights[0] / each.albedo[0][:, None]:
+        assert error(best) < error(best + 0.01 * (own - best))
+        assert error(best) < error(best - 0.01 * (own - best))
+
+
 def test_a_single_lobe_has_the_models_energy() -> None:
     fit = single_fit(COPPER, "copper", MU)
     np.testing.assert_allclose(fit.albedo[0], directional_albedo(COPPER, MU), rtol=1e-3)

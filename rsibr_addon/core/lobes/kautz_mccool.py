@@ -183,21 +183,23 @@ def single_fit(brdf: BrdfFunction, spec: str, mu: Array, sharpest: float = SHARP
 
 
 def single_2d_fit(brdf: BrdfFunction, spec: str, mu: Array, sharpest: float = SHARPEST) -> Fit:
-    """Section 3.2: one profile for all elevations, the mean of theirs, times the elevation's albedo.
+    """Section 3.2: one profile for all elevations, a mean of theirs, times the elevation's albedo.
 
-    As `single_fit`, but with one profile, so that one map is enough.
+    As `single_fit`, but with one profile, so that one map is enough: the mean of least relative error, to
+    which an elevation adds the less the brighter and sharper its lobe is.
     """
     each = single_fit(brdf, spec, mu, sharpest)
     albedo = each.albedo
-    shapes = np.divide(
-        each.weights, albedo[:, :, None], out=np.zeros_like(each.weights), where=albedo[:, :, None] > 0
-    )
+    power = np.einsum("lskc,km,lsmc->ls", each.weights, each.bank.products(np.zeros(()))[0], each.weights)
+    share = albedo / power[:, :, None]
+    profile, whole = np.einsum("lsc,lskc->lkc", share, each.weights), np.sum(share * albedo, axis=1)[:, None]
+    profile = np.divide(profile, whole, out=np.zeros_like(profile), where=whole > 0.0)
     return Fit(
         brdf=spec,
         method="single-2d",
         mu=mu,
         bank=each.bank,
-        weights=shapes.mean(axis=1, keepdims=True),
+        weights=profile[:, None],
         scale=albedo,
         offsets=each.offsets,
         taps=each.taps,

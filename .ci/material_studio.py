@@ -21,6 +21,7 @@ from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import bake_pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import Pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import Families
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.split_sum import split_families
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.suns import NO_SUNS
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.context import ensure_context
@@ -108,7 +109,8 @@ class Studio:
             draw(previews, self._view)
             if split:
                 used, key = previews._map_sets, str(self._light.path)
-                peer = GpuPyramid(self._light.pyramid, split_families(self._families))
+                whole = dataclasses.replace(self._light.pyramid, suns=NO_SUNS)
+                peer = GpuPyramid(whole, split_families(self._families))
                 for texture in peer.textures:
                     texture.whole()
                 used.used[key] = used._shown[item.session_uid] = dataclasses.replace(

@@ -8,6 +8,7 @@
 #include "lib/oren_nayar_lib.glsl"
 #include "lib/principled_lib.glsl"
 #include "lib/pyramid_lib.glsl"
+#include "lib/suns_lib.glsl"
 
 const int FUNCTIONS = 5;
 const int LOBES = 4;
@@ -56,6 +57,7 @@ vec3 lobes_radiance(sampler2D atlas,
   vec3 radiance = vec3(0.0);
   int column = first + family_column(family, place);
   int kernels = int(texelFetch(lookups, ivec2(column, 0), 0).x);
+  Suns suns = suns_of(lookups);
   // Loops end with their test: one that begins with it is run once more in vain, where fragments differ
   int kernel = 0;
   do {
@@ -69,7 +71,11 @@ vec3 lobes_radiance(sampler2D atlas,
       weights += outerProduct(factors[number], textureLod(family, texel, 0.0));
     } while (++number < end);
     for (int lobe = 0; lobe < lobes; lobe++) {
-      radiance += weights[lobe] * atlas_radiance(atlas, map.xyz, uv[lobe]);
+      vec3 shown = atlas_radiance(atlas, map.xyz, uv[lobe]);
+      if (MAY_HAVE_SUNS && int(map.w) >= suns.resolved) {
+        shown = min(shown, suns.ceiling);
+      }
+      radiance += weights[lobe] * shown;
     }
   } while (++kernel < kernels);
   return radiance;
@@ -92,12 +98,20 @@ vec3 ggx_radiance(sampler2D atlas,
     radiance = lobes_radiance(
         atlas, lookups, ggx, 0, FUNCTIONS, LOBES, alpha, mu, rough, normal, mirror_dir);
   }
-  if (share > 0.0) {
+  Suns suns = suns_of(lookups);
+  float of_suns = MAY_HAVE_SUNS ? sun_mirror_share(suns, alpha) : 0.0;
+  if (share > 0.0 || of_suns > 0.0) {
     vec3 factor = coefficients.zeroth + coefficients.rising * powers_of(mu);
-    vec2 uv = octahedral_uv(mirror_dir);
-    radiance += share * factor * pyramid_radiance(atlas, lookups, MIRROR_MAP, uv);
+    vec3 shown = pyramid_radiance(atlas, lookups, MIRROR_MAP, octahedral_uv(mirror_dir));
+    vec3 below = MAY_HAVE_SUNS ? min(shown, suns.ceiling) : shown;
+    radiance += factor * (share * below + of_suns * (shown - below));
   }
-  return max(radiance, 0.0);
+  radiance = max(radiance, 0.0);
+  if (MAY_HAVE_SUNS) {
+    vec3 view_dir = reflect_dir(mirror_dir, normal);
+    radiance += sunlit_gloss(lookups, suns, alpha, mu, coefficients, normal, view_dir);
+  }
+  return radiance;
 }
 
 // Oren and Nayar's reflection of the base colour.
@@ -124,6 +138,9 @@ vec3 diffuse_radiance(sampler2D atlas,
     int column = textureSize(lookups, 0).x - 2;
     vec3 leant = lobes_radiance(
         atlas, lookups, leaning, column, 1, LEANING_LOBES, 1.0, mu, white_facets, normal, mirror_dir);
+    if (MAY_HAVE_SUNS) {
+      leant += sunlit_leaning(lookups, suns_of(lookups), mu, normal, reflect_dir(mirror_dir, normal));
+    }
     radiance += ab.y * (bounces(color, roughness, mu) * lost + leant);
   }
   return left.w * color * max(radiance, 0.0);

@@ -4,7 +4,7 @@ Each raises a DeviceError where the driver refuses the program.
 """
 
 import atexit
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache, wraps
 from threading import get_ident, main_thread
 from typing import Any, ParamSpec
@@ -119,11 +119,15 @@ class MeshProgram:
         The block's fields.
     samplers : mapping of str to str
         Name of each texture in the order of slots -> its type.
+    defines : sequence of str
+        Names that are defined in it.
     """
 
-    def __init__(self, name: str, block: str, fields: str, samplers: Mapping[str, str]) -> None:
-        self.name, self.fields, self.samplers = name, fields, samplers
-        self.__name__ = f"{name}_shader"
+    def __init__(
+        self, name: str, block: str, fields: str, samplers: Mapping[str, str], defines: Sequence[str] = ()
+    ) -> None:
+        self.name, self.fields, self.samplers, self.defines = name, fields, samplers, defines
+        self.__name__ = "_".join([name, *map(str.lower, defines), "shader"])
         self.block_type, self.block = block.split()
         self._built = kept_until_exit(self._build)
 
@@ -144,6 +148,8 @@ class MeshProgram:
 
     def _build(self) -> gpu.types.GPUShader:
         info = mesh_interface(self.struct)
+        for name in self.defines:
+            info.define(name)
         info.uniform_buf(1, self.block_type, self.block)
         for slot, (sampler, sampler_type) in enumerate(self.samplers.items()):
             info.sampler(slot, sampler_type, sampler)

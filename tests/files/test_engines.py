@@ -5,6 +5,7 @@ import struct
 import subprocess
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,9 @@ from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError, RsibrWarning
 from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_from_harmonics
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.atlas import atlas_texels
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import bake_pyramid
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.suns import NO_SUNS
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
 from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTables, Role
 from rsibr.rsibr_addon.core.maps.representation import representation
@@ -312,6 +316,20 @@ def test_lobes_say_how_light_is_shaded(tmp_path: Path) -> None:
     direction = representation("octahedral").texel_directions(size)[0]
     wanted = diffuse_truth(direction.reshape(-1, 3)).reshape(size, size, 3)
     np.testing.assert_allclose(shown, wanted, rtol=HALF, atol=SUM * wanted.max())
+
+
+def test_lobes_show_a_sun_as_they_show_all_light(tmp_path: Path) -> None:
+    """Engines' shaders have no other way for it."""
+    light = sky()
+    light[90, 100] = 2000.0, 1800.0, 1500.0
+    write_radiance(tmp_path / "sun.exr", light)
+    output = tmp_path / "sun.ktx2"
+    written, *_ = drain(export_for_engine(tmp_path / "sun.exr", output, "lobes", LobesSettings(widest=64)))
+    (shown,) = read_ktx2(written).levels
+    pyramid = drain(bake_pyramid(light, 64)).pyramid
+    assert len(pyramid.suns) == 1
+    wanted, _ = atlas_texels(replace(pyramid, suns=NO_SUNS))
+    np.testing.assert_allclose(shown[0, ..., :3], wanted[..., :3], rtol=HALF)
 
 
 @pytest.mark.parametrize(

@@ -48,6 +48,16 @@ def test_a_pyramid_comes_back_bit_by_bit(tmp_path: Path) -> None:
     np.testing.assert_array_equal(stated["leaning"]["bound"], baked.diffuse[1].bound)
 
 
+def test_suns_are_those_of_the_environment_that_the_file_holds() -> None:
+    _, map_set = make_map_set()
+    assert len(from_map_set(Path("a"), map_set).suns) == 0
+    map_set.maps["environment"] = map_set.maps["environment"].copy()
+    map_set.maps["environment"][3, 5] = 1000.0
+    assert len(from_map_set(Path("a"), map_set).suns) == 1
+    map_set.header["environment"]["part"] = None
+    assert len(from_map_set(Path("a"), map_set).suns) == 0
+
+
 @pytest.mark.parametrize(
     ("spoil", "sentence"),
     [

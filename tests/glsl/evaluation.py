@@ -22,6 +22,7 @@ def evaluate(
     arguments: Sequence[np.ndarray],
     results: int = 1,
     samplers: Samplers | None = None,
+    defines: Sequence[str] = (),
 ) -> np.ndarray:
     """Run a statement for each row of its arguments.
 
@@ -36,6 +37,8 @@ def evaluate(
         How many results there are.
     samplers : dict, optional
         Textures that the statement knows by name.
+    defines : sequence of str, optional
+        Names that are defined.
 
     Returns
     -------
@@ -51,7 +54,7 @@ def evaluate(
     for layer, argument in zip(packed, arguments, strict=False):
         layer[:count, : argument.shape[1]] = argument
     table = GpuTexture("table", packed.reshape(-1, rows, WIDTH, 4)).whole()
-    shader = _shader(library, code, len(arguments), results, samplers)
+    shader = _shader(library, code, len(arguments), results, samplers, defines)
     targets = tuple(gpu.types.GPUTexture((WIDTH, rows), format="RGBA32F") for _ in range(results))
     framebuffer = gpu.types.GPUFrameBuffer(color_slots=targets)
     corners = np.array([[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]])
@@ -66,8 +69,12 @@ def evaluate(
     return np.stack([np.array(values, np.float64).reshape(-1, 4)[:count] for values in found], axis=1)
 
 
-def _shader(library: str, code: str, arguments: int, results: int, samplers: Samplers) -> gpu.types.GPUShader:
+def _shader(
+    library: str, code: str, arguments: int, results: int, samplers: Samplers, defines: Sequence[str]
+) -> gpu.types.GPUShader:
     info = gpu.types.GPUShaderCreateInfo()
+    for name in defines:
+        info.define(name)
     info.sampler(0, "FLOAT_2D_ARRAY", "arguments")
     for slot, (name, (kind, _)) in enumerate(samplers.items(), start=1):
         info.sampler(slot, kind, name)

@@ -42,6 +42,7 @@ PROGRAMS = [
     environment.environment_shader,
     lobe_stack.lobe_stack_shader,
     kernel_pyramid.principled_shader,
+    kernel_pyramid.sunlit_shader,
     any_material_shader,
     plain_translucent_material_shader,
     kernel_pyramid.depth_first_shader,

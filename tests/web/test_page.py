@@ -12,6 +12,7 @@ from rsibr.rsibr_addon.core.geometry.directions import turn_about_z
 from rsibr.rsibr_addon.core.kinds.kernel_bank.shading import BankLook
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.look import PrincipledLook
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.split_sum import split_families
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.suns import NO_SUNS
 from rsibr.rsibr_addon.core.kinds.mip_chain.shading import MipLook
 from rsibr.rsibr_addon.core.pictures.display import displayed, table_radiance
 from rsibr.rsibr_addon.core.progress import drain
@@ -251,7 +252,12 @@ def test_dragging_and_sliders_change_what_the_preview_would(tmp_path: Path) -> N
 
 @pytest.mark.slow
 def test_the_split_sum_stands_beside(tmp_path: Path) -> None:
-    source = light_file(tmp_path, "kernel_pyramid")
+    """In light with a sun, which GGX itself reflects on one side and the split sum's lobe on the other."""
+    light, source = sky(), tmp_path / "light.rsibr.exr"
+    light[90, 100] = 2000.0, 1800.0, 1500.0
+    write_radiance(tmp_path / "sun.exr", light)
+    bake = ["bake", *BAKES["kernel_pyramid"], "--environment", str(tmp_path / "sun.exr"), "-o", str(source)]
+    assert run(bake) == 0
     script = """
     await set("metallic", 1);
     await set("beside", true);
@@ -265,11 +271,13 @@ def test_the_split_sum_stands_beside(tmp_path: Path) -> None:
     opened, mesh = open_map_set(source), load_mesh("sphere")
     surface = FILL * mesh.positions, mesh.normals, mesh.triangles
     rows = slice(SIZE // 4, SIZE // 4 + half)  # of a square within each half
-    for columns, families in (
-        (slice(0, half), shipped_families()),
-        (slice(half, SIZE), split_families(shipped_families())),
+    assert len(opened.content.suns) == 1
+    sunless = replace(opened.content, suns=NO_SUNS)
+    for columns, light, families in (
+        (slice(0, half), opened.content, shipped_families()),
+        (slice(half, SIZE), sunless, split_families(shipped_families())),
     ):
-        renderer = PreviewRenderer(GpuPyramid(opened.content, families))
+        renderer = PreviewRenderer(GpuPyramid(light, families))
         wanted = renderer.draw(*surface, SETTINGS.camera(VIEW), half, metal)
         check_alike(pixels[rows, columns], wanted)
 

@@ -11,14 +11,14 @@ from .model import Brdf, Geometry
 from .parameters import Range
 
 
-def ggx_ndf(half_sine_squared: ArrayLike, alpha: float) -> Array:
+def ggx_ndf(half_sine_squared: ArrayLike, alpha: float | Array) -> Array:
     """Trowbridge-Reitz (GGX) density of microfacet normals.
 
     Parameters
     ----------
     half_sine_squared : array_like, shape (...,)
         1 - (n.h)^2 in [0, 1]; it keeps the digits that n.h loses near 1.
-    alpha : float
+    alpha : float or ndarray, shape (...,)
         Width, roughness**2, in (0, 1].
 
     Returns
@@ -35,14 +35,14 @@ def ggx_ndf(half_sine_squared: ArrayLike, alpha: float) -> Array:
     return density
 
 
-def smith_visibility(n_dot_l: Array, n_dot_v: Array, alpha: float) -> Array:
+def smith_visibility(n_dot_l: Array, n_dot_v: Array, alpha: float | Array) -> Array:
     """Smith's shadowing and masking of GGX, correlated in height, over 4 n.l n.v.
 
     Parameters
     ----------
     n_dot_l, n_dot_v : ndarray, shape (...,)
         In (0, 1].
-    alpha : float
+    alpha : float or ndarray, shape (...,)
         Width, roughness**2, in (0, 1].
 
     Returns

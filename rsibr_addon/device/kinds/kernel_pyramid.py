@@ -1,5 +1,7 @@
 """A pyramid of kernels and the families of lobes on the GPU: draws meshes in Principled materials."""
 
+from dataclasses import replace
+
 import gpu
 import numpy as np
 
@@ -13,6 +15,7 @@ from ...core.kinds.kernel_pyramid.look import PrincipledLook
 from ...core.kinds.kernel_pyramid.pyramid import Pyramid
 from ...core.kinds.kernel_pyramid.shading import Families
 from ...core.kinds.kernel_pyramid.split_sum import split_families
+from ...core.kinds.kernel_pyramid.suns import NO_SUNS
 from ..drawing import Draw, GpuMesh, Inputs, ProgramMapSet
 from ..own_materials import OwnMaterials
 from ..shaders import MeshProgram, build, kept_until_exit, mesh_interface
@@ -32,18 +35,25 @@ SAMPLERS = {
 }
 """Name of each of a pyramid's textures, in their order -> its type."""
 
-principled_shader = MeshProgram(
-    "principled",
-    "PrincipledLook look",
-    "vec4 base; vec4 specular; vec4 coat; vec4 sheen; vec4 emission; vec4 boundary; vec4 coating;",
-    SAMPLERS,
+SUNS = "SUNS"
+"""Defined by programs for light with suns."""
+
+principled_shader, sunlit_shader = (
+    MeshProgram(
+        "principled",
+        "PrincipledLook look",
+        "vec4 base; vec4 specular; vec4 coat; vec4 sheen; vec4 emission; vec4 boundary; vec4 coating;",
+        SAMPLERS,
+        defines,
+    )
+    for defines in ((), (SUNS,))
 )
-"""Draws a mesh of one Principled material, the same all over."""
+"""Draw a mesh of one Principled material, the same all over; the second one in light with suns."""
 
 
 @kept_until_exit
 def material_shader(defines: tuple[str, ...]) -> gpu.types.GPUShader:
-    """Draws triangles of a material whose inputs are textures; defines: see `DrawnMaterial`."""
+    """Draws triangles of a material whose inputs are textures; defines: see `DrawnMaterial`, or `SUNS`."""
     return textured_program("principled_textured", SAMPLERS, defines)
 
 
@@ -69,17 +79,19 @@ class GpuPyramid(ProgramMapSet):
 
     def __init__(self, pyramid: Pyramid, families: Families) -> None:
         half = half_holds(pyramid.all_maps)
+        self._atlas_format = "RGBA16F" if half else "RGBA32F"
         atlas, places = atlas_texels(pyramid)
         self.textures = (
-            GpuTexture("kernel bank", atlas, "RGBA16F" if half else "RGBA32F"),
-            GpuTexture("lookups", lookup_texels(families, places)),
+            GpuTexture("kernel bank", atlas, self._atlas_format),
+            GpuTexture("lookups", lookup_texels(families, pyramid, places)),
             GpuTexture("family of GGX", family_texels(families.ggx)),
             GpuTexture("family of leaning facets", family_texels(families.leaning)),
             GpuTexture("albedos of GGX", albedo_texels(families)),
             GpuTexture("Fresnel terms", rise_table()[None, :, 1:]),
             GpuTexture("sheen", sheen_texels(families)),
         )
-        self._families, self._places = families, places
+        self._families, self._pyramid, self._places = families, pyramid, places
+        self._suns = (SUNS,) if len(pyramid.suns) else ()
         self._materials = MaterialBinding()
 
     def inputs(self, look: PrincipledLook | Surface) -> Inputs:
@@ -88,7 +100,7 @@ class GpuPyramid(ProgramMapSet):
         surface = look.surface if isinstance(look, PrincipledLook) else look
         textures = dict(zip(SAMPLERS, self.textures, strict=True))
         return Inputs(
-            principled_shader,
+            sunlit_shader if self._suns else principled_shader,
             look_fields(surface, is_antialiased),
             textures,
             exact_from={"atlas": 0},
@@ -96,11 +108,15 @@ class GpuPyramid(ProgramMapSet):
 
     def split_sum(self) -> dict[str, GpuTexture]:
         """See `WithSplitSum`."""
-        split = split_families(self._families)
-        return {
+        split, whole = split_families(self._families), replace(self._pyramid, suns=NO_SUNS)
+        textures = {
             "ggx": GpuTexture("split sum as a family", family_texels(split.ggx)),
-            "lookups": GpuTexture("split sum's lookups", lookup_texels(split, self._places)),
+            "lookups": GpuTexture("split sum's lookups", lookup_texels(split, whole, self._places)),
         }
+        if self._suns:
+            atlas, _ = atlas_texels(whole)
+            textures["atlas"] = GpuTexture("split sum's kernel bank", atlas, self._atlas_format)
+        return textures
 
     def draw(self, mesh: GpuMesh, draw: Draw, look: PrincipledLook | Surface | OwnMaterials) -> None:
         """See `GpuMapSet.draw`."""
@@ -154,7 +170,7 @@ class GpuPyramid(ProgramMapSet):
         bound: tuple[str, ...] | None = None
         for slot in slots:
             material = look.slots[slot]
-            shader = material_shader(material.defines)
+            shader = material_shader((*material.defines, *self._suns))
             if material.defines != bound:
                 bound = material.defines
                 shader.bind()

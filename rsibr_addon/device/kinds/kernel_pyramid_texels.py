@@ -5,7 +5,9 @@ import numpy as np
 from ...core.brdf.fresnel_powers import dielectric
 from ...core.conventions import Array
 from ...core.errors import ShapeError
+from ...core.kinds.kernel_pyramid.pyramid import Pyramid
 from ...core.kinds.kernel_pyramid.shading import Families
+from ...core.kinds.kernel_pyramid.suns import Suns
 from ...core.lobes.family import KERNELS, Family
 
 MOST_LOBES = 4
@@ -59,12 +61,13 @@ def family_texels(family: Family) -> Array:
     return texels
 
 
-def lookup_texels(families: Families, places: Array) -> Array:
+def lookup_texels(families: Families, pyramid: Pyramid, places: Array) -> Array:
     """Which maps are looked up about which axes, as gpu_shaders/lib/pyramid_lib.glsl reads it.
 
     Parameters
     ----------
     families : Families
+    pyramid : Pyramid
     places : ndarray, shape (1, K + 3 + R, 4)
         See `core.kinds.kernel_pyramid.atlas.atlas_texels`.
 
@@ -73,15 +76,25 @@ def lookup_texels(families: Families, places: Array) -> Array:
     ndarray, shape (L, A + A' + 1, 4), float32
         A column for each width of GGX, and of the leaning facets: the number of kernels that it or the next
         one needs; then of each of them the place of its map, and its number. A column with the places of the
-        mirror's map, both diffuse ones, and the rings.
+        mirror's map, both diffuse ones, and the rings; after them the ceiling and the narrowest width of the
+        suns, their number and that of kernels with maps of their own, and of each its direction and its
+        irradiance: see `Suns`.
     """
     of_maps = places[0, :, :3]  # all maps are squares
     columns = [column for family in (families.ggx, families.leaning) for column in _columns(family, of_maps)]
-    columns.append(np.pad(of_maps[len(KERNELS) :], ((0, 0), (0, 1))))
+    of_normals = np.pad(of_maps[len(KERNELS) :], ((0, 0), (0, 1)))
+    columns.append(np.vstack([of_normals, _sun_texels(pyramid.suns, len(pyramid.bank))]))
     texels = np.zeros((max(map(len, columns)), len(columns), 4), dtype=np.float32)
     for number, column in enumerate(columns):
         texels[: len(column), number] = column
     return texels
+
+
+def _sun_texels(suns: Suns, resolved: int) -> Array:
+    single = np.finfo(np.float32)
+    each = np.stack([suns.direction, np.minimum(suns.irradiance, single.max)], axis=1).reshape(-1, 3)
+    head = [*np.minimum(suns.ceiling, single.max), suns.narrowest], [len(suns), resolved, 0.0, 0.0]
+    return np.vstack([*head, np.pad(each, ((0, 0), (0, 1)))])
 
 
 def _columns(family: Family, places: Array) -> list[Array]:

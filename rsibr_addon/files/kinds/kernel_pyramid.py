@@ -12,6 +12,7 @@ from ...core.kinds.kernel_pyramid.bake import BakedPyramid, FilterErrors
 from ...core.kinds.kernel_pyramid.look import PrincipledLook
 from ...core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid
 from ...core.kinds.kernel_pyramid.shading import Families, principled_radiance
+from ...core.kinds.kernel_pyramid.suns import NO_SUNS, find_suns
 from ...core.lobes.bank import KernelBank
 from ...core.lobes.rings import WIDTHS
 from ...settings.kernel_pyramid import KernelPyramidSettings, PyramidComparison
@@ -67,7 +68,7 @@ def to_map_set(baked: BakedPyramid, origin: Origin) -> MapSet:
 
 
 def from_map_set(path: Path, map_set: MapSet) -> Pyramid:
-    """A pyramid as a map set holds it.
+    """A pyramid as a map set holds it; without its environment, lobes show its suns.
 
     Raises
     ------
@@ -91,6 +92,7 @@ def from_map_set(path: Path, map_set: MapSet) -> Pyramid:
     )
     if tuple(part["width"] for part in rings) != WIDTHS:
         raise MapSetError(f"{path} lacks the rings that sheen is made of: make it again.")
+    embedded = map_set.header["environment"]["part"]
     of_rings = [map_set.maps[part["name"]] for part in rings]
     try:
         for name, sheets in (("diffuse", [single[LAMBERT], single[LEANING]]), ("ring", of_rings)):
@@ -102,6 +104,7 @@ def from_map_set(path: Path, map_set: MapSet) -> Pyramid:
             tuple(map_set.maps[part["name"]][None] for part in kernels),
             np.stack([single[LAMBERT], single[LEANING]]),
             np.stack(of_rings),
+            NO_SUNS if embedded is None else find_suns(map_set.maps[embedded]),
         )
     except (RangeError, ShapeError) as error:
         raise MapSetError(f"{path} holds no light for own materials. {error}") from error

@@ -8,7 +8,7 @@ from .pyramid import OCTAHEDRAL, Pyramid
 
 
 def atlas_texels(pyramid: Pyramid) -> tuple[Array, Array]:
-    """The maps as gpu_shaders/lib/pyramid_lib.glsl reads them.
+    """The maps as gpu_shaders/lib/pyramid_lib.glsl reads them; those of kernels lack the suns.
 
     Returns
     -------
@@ -19,7 +19,8 @@ def atlas_texels(pyramid: Pyramid) -> tuple[Array, Array]:
         the mirror, both diffuse ones, and the rings. What the environment does not resolve is where the
         mirror is.
     """
-    sheets = [sheet for sheets in pyramid.all_maps for sheet in sheets]
+    every = (pyramid.mirror, *pyramid.sunless[::-1], pyramid.rings, pyramid.diffuse)
+    sheets = [sheet for sheets in every for sheet in sheets]
     corners, height = _shelves([len(sheet) + 2 for sheet in sheets])
     atlas = np.ones((height, max(map(len, sheets)) + 2, 4), dtype=np.float32)
     for sheet, (left, bottom) in zip(sheets, corners, strict=True):

@@ -22,6 +22,7 @@ from ...progress import Progress, Steps
 from ...resample import resample
 from ...ties import TIE
 from .pyramid import OCTAHEDRAL, Pyramid
+from .suns import find_suns
 
 EQUIRECT = representation("equirect")
 
@@ -123,7 +124,8 @@ def bake_pyramid(radiance: Array, size: int) -> Steps[BakedPyramid]:
         maps += [sheet[None] for sheet in found]
         errors += found_errors
     mirror = resample(radiance[None], EQUIRECT, OCTAHEDRAL, size, np.float32)
-    pyramid = Pyramid(bank, mirror, tuple(maps), np.stack([white / np.float32(np.pi), leant]), ring_maps)
+    both = np.stack([white / np.float32(np.pi), leant])
+    pyramid = Pyramid(bank, mirror, tuple(maps), both, ring_maps, find_suns(radiance))
     diffuse_errors[0] = replace(diffuse_errors[0], bound=diffuse_errors[0].bound / np.pi)
     return BakedPyramid(pyramid, tuple(errors), tuple(diffuse_errors), tuple(ring_errors))
 

@@ -1,6 +1,9 @@
 """An environment filtered with the kernels of families of lobes, each map as large as its kernel needs."""
 
 from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
 
 from ...conventions import Array, ArrayLike
 from ...errors import RangeError, ShapeError
@@ -9,6 +12,7 @@ from ...lobes.family import KERNELS
 from ...lobes.rings import WIDTHS
 from ...maps.representation import representation
 from ...resample import lookup
+from .suns import NO_SUNS, Suns
 
 OCTAHEDRAL = representation("octahedral")
 
@@ -30,6 +34,8 @@ class Pyramid:
         times n.l times `oren_nayar.leaning_albedo`.
     rings : ndarray, shape (R, n, n, 3)
         By direction of the normal: radiance filtered with `lobes.rings.ring` of each of its `WIDTHS`.
+    suns : Suns
+        What lobes leave to GGX itself. All maps have their light; with none, lobes show all.
 
     Raises
     ------
@@ -44,6 +50,7 @@ class Pyramid:
     maps: tuple[Array, ...]
     diffuse: Array
     rings: Array
+    suns: Suns = NO_SUNS
 
     def __post_init__(self) -> None:
         square = all(sheets.shape[1:] == (sheets.shape[1], sheets.shape[1], 3) for sheets in self.all_maps)
@@ -63,8 +70,20 @@ class Pyramid:
         """Number of texels of all maps; as half floats with four channels, each takes 8 bytes of memory."""
         return sum(sheets[..., 0].size for sheets in self.all_maps)
 
+    @cached_property
+    def sunless(self) -> tuple[Array, ...]:
+        """`maps` without the light of suns."""
+        if not len(self.suns):
+            return self.maps
+        sizes = {sheets.shape[1] for sheets in self.maps}
+        texel_dir = {size: OCTAHEDRAL.texel_directions(size) for size in sizes}
+        return tuple(
+            self.suns.left_of(sheets, texel_dir[sheets.shape[1]], kappa)
+            for sheets, kappa in zip(self.maps, self.bank.concentrations, strict=True)
+        )
+
     def kernel(self, concentration: float, direction: ArrayLike) -> Array:
-        """The environment filtered with a kernel.
+        """The environment without its suns, filtered with a kernel.
 
         Parameters
         ----------
@@ -78,6 +97,6 @@ class Pyramid:
         ndarray, shape (..., 3)
         """
         if concentration > self.bank.concentrations[-1]:
-            return lookup(self.mirror, direction, OCTAHEDRAL)
+            return np.minimum(lookup(self.mirror, direction, OCTAHEDRAL), self.suns.ceiling)
         number = self.bank.concentrations.index(concentration)
-        return lookup(self.maps[number], direction, OCTAHEDRAL)
+        return lookup(self.sunless[number], direction, OCTAHEDRAL)

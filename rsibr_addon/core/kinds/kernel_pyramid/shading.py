@@ -142,11 +142,15 @@ def _glossy(
     share = families.share(alpha)
     rough = (1.0 - share)[:, None, None] * coefficients
     radiance = _lobes(pyramid, families.ggx, alpha, mu, rough, normal, mirror_dir)
-    mirrors = share > 0.0
+    suns = pyramid.suns
+    of_suns = suns.mirror_share(alpha)
+    mirrors = (share > 0.0) | (of_suns > 0.0)
     factor = np.einsum("nc,nci->ni", powers_of(mu[mirrors]), coefficients[mirrors])
     shown = lookup(pyramid.mirror, mirror_dir[mirrors], OCTAHEDRAL)
-    radiance[mirrors] += share[mirrors, None] * factor * shown
-    return np.maximum(radiance, 0.0)
+    below = np.minimum(shown, suns.ceiling)
+    shown = share[mirrors, None] * below + of_suns[mirrors, None] * (shown - below)
+    radiance[mirrors] += factor * shown
+    return np.maximum(radiance, 0.0) + suns.glossy(alpha, coefficients, normal, view_dir)
 
 
 def _lobes(
@@ -195,6 +199,7 @@ def _diffuse(
     radiance[is_rough] += b[is_rough] * _lobes(
         pyramid, leaning, np.ones(len(ones)), mu[is_rough], ones, *axes
     )
+    radiance[is_rough] += b[is_rough] * pyramid.suns.leaning(normal[is_rough], view_dir[is_rough])
     return layers.diffuse * color * share[:, None] * np.maximum(radiance, 0.0)
 
 

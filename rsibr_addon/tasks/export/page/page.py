@@ -99,7 +99,7 @@ def export_page(
         sliders = [] if KINDS[opened.kind].live else parameters(drawable, look)
     else:
         objects, sliders = packed_objects(shown, look.antialiased), []
-        programs |= own_sources(inputs.program.samplers)
+        programs |= own_sources(inputs.program)
     content = {
         "programs": packed_bytes(json.dumps(programs).encode()),
         "parameters": sliders,
@@ -192,8 +192,11 @@ def _packed_split_sum(drawable: WithInputs, inputs: Inputs) -> dict[str, Any]:
     """What takes the place of textures for the split sum; nothing where the kind has none."""
     if not isinstance(drawable, WithSplitSum):
         return {}
-    split = drawable.split_sum().items()
-    return {name: {"type": inputs.program.samplers[name], **packed_texture(each)[0]} for name, each in split}
+    packed = {}
+    for name, texture in drawable.split_sum().items():
+        said, _ = packed_texture(texture, inputs.exact_from.get(name))
+        packed[name] = {"type": inputs.program.samplers[name], **said}
+    return packed
 
 
 def _told(map_set: Path, opened: OpenedMapSet, error: float) -> tuple[str, str]:

@@ -94,20 +94,20 @@ def _mesh_sources(program: MeshProgram) -> tuple[str, str]:
     block = (
         f"{program.struct}\nlayout(std140) uniform LookBlock {{ {program.block_type} {program.block}; }};\n"
     )
-    fragment = _DRAW + block + _samplers(program.samplers) + _RADIANCE
+    fragment = _defined(program) + _DRAW + block + _samplers(program.samplers) + _RADIANCE
     return (
         _at_corners(_DRAW + _CORNERS, _SURFACE, "mesh_vert.glsl"),
         _at_samples(fragment, _SURFACE, f"{program.name}_frag.glsl"),
     )
 
 
-def own_sources(samplers: Mapping[str, str]) -> dict[str, tuple[str, str]]:
+def own_sources(program: MeshProgram) -> dict[str, tuple[str, str]]:
     """The programs of objects in their own materials, in the place of "surface".
 
     Parameters
     ----------
-    samplers : mapping of str to str
-        Textures of what lights them, as `MeshProgram` has them.
+    program : MeshProgram
+        Whose textures light them.
 
     Returns
     -------
@@ -116,7 +116,7 @@ def own_sources(samplers: Mapping[str, str]) -> dict[str, tuple[str, str]]:
     """
     images = {f"image_{number}": "FLOAT_2D" for number in range(MOST_TEXTURES)}
     block = f"{MATERIAL_STRUCT}\nlayout(std140) uniform LookBlock {{ Material material; }};\n"
-    fragment = _DRAW + block + _samplers({**samplers, **images}) + _RADIANCE
+    fragment = _defined(program) + _DRAW + block + _samplers({**program.samplers, **images}) + _RADIANCE
     vertex = _at_corners(_DRAW + _TEXTURED_CORNERS, _TEXTURED_SURFACE, "textured_mesh_vert.glsl")
     name = "principled_textured_frag.glsl"
     translucent = f"#define TRANSLUCENT\nuniform float whole;\n{fragment}"
@@ -140,6 +140,10 @@ def _at_samples(interface: str, surface: Mapping[str, str], name: str) -> str:
     taken = " ".join(f"{each} = at_sample(drawn_{each}, away);" for each in surface)
     main = f"#undef main\nvoid main() {{ vec2 away = away_from_sample(); {taken} shade(); }}\n"
     return _source(f"{interface}{_own(SAMPLES)}{told}#define main shade\n", name) + main
+
+
+def _defined(program: MeshProgram) -> str:
+    return "".join(f"#define {name}\n" for name in program.defines)
 
 
 def _own(path: Path) -> str:

@@ -1,7 +1,7 @@
 """Measure lobes that are fitted to captured views, for docs/captured-lobes.md.
 
 Captures are exact: 42 views of a sphere, of 128 texels, each the mean over its area. Lobes are fitted to the
-first 12, or to one, and predict the 30 others, or each third of them; so do the three warps of [Cabral1999].
+first 12, or to one, and predict the 30 others; so do the three warps of [Cabral1999].
 """
 
 import argparse
@@ -22,9 +22,11 @@ from rsibr.rsibr_addon.core.kinds.radiance_views.shading import views_fragment
 from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
 from rsibr.rsibr_addon.core.kinds.radiance_views.warping import Warping
 from rsibr.rsibr_addon.core.lobes.captured_light import CapturedLight
-from rsibr.rsibr_addon.core.lobes.captured_texels import CapturedTexels, captured_texels, seen_functions
+from rsibr.rsibr_addon.core.lobes.captured_texels import captured_texels
 from rsibr.rsibr_addon.core.lobes.captures import fit_captures
 from rsibr.rsibr_addon.core.lobes.fit import Fit
+from rsibr.rsibr_addon.core.lobes.fit_in_views import fit_radiance
+from rsibr.rsibr_addon.core.lobes.next_views import compare_with_new
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.host.pictures import save_png
@@ -92,42 +94,35 @@ def captured(environment: Environment, name: str, folder: Path, view_dirs: Array
     return RadianceViews(*maps, np.stack(albedo).astype(np.float32), view_dirs=view_dirs)
 
 
-def predicted(fit: Fit, light: CapturedLight, views: RadianceViews, texels: int) -> tuple[Array, Array]:
-    """Radiance of texels that were not captured, by the lobes and as it is, shapes (N, 3).
-
-    Both are times the root of how many texels each stands for.
-    """
-    seen = captured_texels(views, len(views.diffuse), texels, light.sun_dir)
-    new = seen.view >= CAPTURED
-    root = np.sqrt(seen.stands_for[new, None])
-    return root * shown(fit, light, seen)[new], root * (seen.diffuse + seen.glossy)[new]
-
-
-def shown(fit: Fit, light: CapturedLight, seen: CapturedTexels) -> Array:
-    """What the lobes show of texels, shape (N, 3)."""
-    every = seen_functions(
-        seen, light, fit.mu, fit.offsets[:, :, 0, 0].T, np.moveaxis(fit.weights, 0, 1)
-    )  # each colour's lobes in each colour's light
-    return np.einsum("ncc->nc", every)
+def errors_and_powers(fit: Fit, light: CapturedLight, views: RadianceViews) -> tuple[Array, Array]:
+    """Squared error of each view by the lobes, and its squared radiance, shapes (V,)."""
+    seen = captured_texels(views, len(views.diffuse), TEXELS, light.sun_dir)
+    root = np.sqrt(seen.stands_for)[:, None]
+    true = root * (seen.diffuse + seen.glossy)
+    rest = root * fit_radiance(fit, light, seen) - true
+    squares, powers = (np.bincount(seen.view, np.sum(values**2, axis=1)) for values in (rest, true))
+    return squares, powers
 
 
-def worst_view(fit: Fit, light: CapturedLight, views: RadianceViews) -> list[Array]:
-    """The new view of which most is wrong: as it is, by the lobes, and what is between; bright in print."""
-    rows = []
-    for number in range(CAPTURED, len(views.diffuse)):
-        maps = views.diffuse[[number]], views.glossy[[number]]
-        one = RadianceViews(*maps, views.albedo, view_dirs=views.sphere.vertices[[number]])
-        inside = np.linalg.norm(2.0 * texel_centres(SIZE, SIZE) - 1.0, axis=-1) < 1.0
-        ours, true = np.zeros((2, SIZE, SIZE, 4))
-        seen = captured_texels(one, 1, SIZE**2, light.sun_dir)
-        centre = np.add.reduceat(
-            sphere_map.uv_from_normal(seen.normal @ one.frames[0]) * seen.share[:, None], seen.first
-        )
-        x, y = np.minimum((SIZE * centre).astype(np.intp), SIZE - 1).T
-        ours[y, x, :3], true[..., :3] = shown(fit, light, seen), one.combined[0] * inside[..., None]
-        ours[..., 3] = true[..., 3] = inside
-        rows.append((float(np.sum((ours - true) ** 2)), ours, true))
-    _, ours, true = max(rows, key=lambda row: row[0])
+def pooled(of_views: tuple[Array, Array], numbers: Array) -> float:
+    """Relative root-mean-square error of some views."""
+    squares, powers = of_views
+    return float(np.sqrt(squares[numbers].sum() / powers[numbers].sum()))
+
+
+def pictured(fit: Fit, light: CapturedLight, views: RadianceViews, number: int) -> list[Array]:
+    """A view as it is, by the lobes, and what is between; bright in print."""
+    maps = views.diffuse[[number]], views.glossy[[number]]
+    one = RadianceViews(*maps, views.albedo, view_dirs=views.sphere.vertices[[number]])
+    inside = np.linalg.norm(2.0 * texel_centres(SIZE, SIZE) - 1.0, axis=-1) < 1.0
+    ours, true = np.zeros((2, SIZE, SIZE, 4))
+    seen = captured_texels(one, 1, SIZE**2, light.sun_dir)
+    centre = np.add.reduceat(
+        sphere_map.uv_from_normal(seen.normal @ one.frames[0]) * seen.share[:, None], seen.first
+    )
+    x, y = np.minimum((SIZE * centre).astype(np.intp), SIZE - 1).T
+    ours[y, x, :3], true[..., :3] = fit_radiance(fit, light, seen), one.combined[0] * inside[..., None]
+    ours[..., 3] = true[..., 3] = inside
     scale = 0.35 / np.sqrt(np.mean(true[inside, :3] ** 2))
     bright = [each * np.array([scale, scale, scale, 1.0]) for each in (true, ours)]
     return [*bright, difference_picture(bright[1], bright[0], 0.1)]
@@ -156,45 +151,44 @@ def error(ours: Array, true: Array) -> float:
 def main() -> None:
     """Measure, and write the table."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folder", type=Path, help="where exact views are kept, half a gigabyte")
-    parser.add_argument("--third", action="store_true", help="predict each third of the other views alone")
-    arguments = parser.parse_args()
-    folder, step = arguments.folder, 3 if arguments.third else 1
-    view_dirs = DIRECTIONS[[*range(CAPTURED), *range(CAPTURED, VIEWS, step)]]
+    parser.add_argument("folder", type=Path, help="where exact views are kept, 80 megabytes")
+    folder = parser.parse_args().folder
     folder.mkdir(exist_ok=True)
     lights = {name: load_environment(name) for name in ENVIRONMENTS}
     filtered = {name: filtered_light(light.radiance) for name, light in lights.items()}
     warps = (Warping.SINGLE, Warping.SPLIT, Warping.ALBEDO)
     heads = (
-        *(
-            "material",
-            "environment",
-            "12 views, single, by distance",
-            *(f"12 views, {warp}" for warp in warps),
-        ),
-        *("lobes from 12", "left out", "lobes from 1", "relit in the other", "CPU"),
+        *("material", "environment", "single, by distance", *warps),
+        *("lobes", "left out", "untested", "lobes, tested views"),
+        *("lobes from 1", "relit in the other", "CPU"),
     )
     lines = [f"| {' | '.join(heads)} |", f"|---|---|{'---:|' * (len(heads) - 2)}"]
     sheet: list[Array] = []
+    new = np.arange(CAPTURED, VIEWS)
     for material in MATERIALS:
-        views = {name: captured(light, material, folder, view_dirs) for name, light in lights.items()}
+        views = {name: captured(light, material, folder, DIRECTIONS) for name, light in lights.items()}
         for name, other in zip(ENVIRONMENTS, reversed(ENVIRONMENTS), strict=True):
+            light, own = filtered[name], views[name]
             started = time.process_time()
-            fit = drain(fit_captures(views[name], filtered[name], shipped_families(), material, CAPTURED)).fit
+            found = drain(fit_captures(own, light, shipped_families(), material, CAPTURED))
             seconds = time.process_time() - started
-            one = drain(fit_captures(views[name], filtered[name], shipped_families(), material, 1)).fit
+            one = drain(fit_captures(own, light, shipped_families(), material, 1)).fit
+            untested = compare_with_new(DIRECTIONS[:CAPTURED], SIZE, light, found.weighed).untested
+            tested = new[~np.any(DIRECTIONS[new] @ untested.T > 1.0 - 1e-9, axis=1)]
+            of_views = errors_and_powers(found.fit, light, own)
+            blends = [error(*blended(own, Warping.SINGLE, Fading.DISTANCE))]
+            blends += [error(*blended(own, warp)) for warp in warps]
             figures = [
-                error(*blended(views[name], Warping.SINGLE, Fading.DISTANCE)),
-                *(error(*blended(views[name], warp)) for warp in warps),
-                error(*predicted(fit, filtered[name], views[name], TEXELS)),
-                fit.left_out or np.nan,
-                error(*predicted(one, filtered[name], views[name], TEXELS)),
-                error(*predicted(fit, filtered[other], views[other], TEXELS)),
+                *(f"{figure:.1%}" for figure in (*blends, pooled(of_views, new), found.fit.left_out)),
+                str(len(new) - len(tested)),
+                f"{pooled(of_views, tested):.1%}",
+                f"{pooled(errors_and_powers(one, light, own), new):.1%}",
+                f"{pooled(errors_and_powers(found.fit, filtered[other], views[other]), new):.1%}",
             ]
-            sheet += worst_view(fit, filtered[name], views[name])
-            told = " | ".join(f"{figure:.1%}" for figure in figures)
-            lines.append(f"| {material} | {name} | {told} | {seconds:.0f} s |")
-            print(lines[-1], flush=True)
+            worst = int(new[np.argmax(of_views[0][new])])
+            sheet += pictured(found.fit, light, own, worst)
+            lines.append(f"| {material} | {name} | {' | '.join(figures)} | {seconds:.0f} s |")
+            print(lines[-1], "worst", worst, "tested", len(tested), flush=True)
     save_png(PICTURE, contact_sheet(sheet, 6))
     write_table("captured-lobes.md", "captures", "\n".join(lines))
 

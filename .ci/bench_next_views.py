@@ -11,14 +11,13 @@ from pathlib import Path
 
 import bench_captures
 import numpy as np
-from bench_captures import CAPTURED, DIRECTIONS, captured, shown
+from bench_captures import CAPTURED, DIRECTIONS, captured, errors_and_powers
 from docs_table import write_table
 from rsibr.rsibr_addon.core.conventions import Array
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
 from rsibr.rsibr_addon.core.lobes import captures
 from rsibr.rsibr_addon.core.lobes.captured_light import CapturedLight
-from rsibr.rsibr_addon.core.lobes.captured_texels import captured_texels
 from rsibr.rsibr_addon.core.lobes.captures import CapturedFit, fit_captures
 from rsibr.rsibr_addon.core.lobes.next_views import next_views
 from rsibr.rsibr_addon.core.progress import drain
@@ -62,10 +61,7 @@ def with_chosen(views: RadianceViews, light: CapturedLight, found: CapturedFit) 
 
 def errors(views: RadianceViews, light: CapturedLight, found: CapturedFit, uncaptured: list[int]) -> Array:
     """Relative error of all views together, of the worst one in units of their mean, and of some of them."""
-    seen = captured_texels(views, len(views.diffuse), bench_captures.TEXELS, light.sun_dir)
-    root = np.sqrt(seen.stands_for)[:, None]
-    ours, true = root * shown(found.fit, light, seen), root * (seen.diffuse + seen.glossy)
-    squares, powers = (np.bincount(seen.view, np.sum(values**2, axis=1)) for values in (ours - true, true))
+    squares, powers = errors_and_powers(found.fit, light, views)
     some = squares[uncaptured].sum() / powers[uncaptured].sum()
     return np.sqrt([squares.sum() / powers.sum(), squares.max() / powers.mean(), some])
 

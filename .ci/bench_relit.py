@@ -23,6 +23,7 @@ from rsibr.rsibr_addon.files.map_set import read_map_set_header
 from rsibr.rsibr_addon.host.meshes import load_mesh
 from rsibr.rsibr_addon.host.pictures import save_png
 from rsibr.rsibr_addon.job import BakeJob
+from rsibr.rsibr_addon.settings.fit import FitSettings
 from rsibr.rsibr_addon.settings.light import Light
 from rsibr.rsibr_addon.settings.radiance_views import RadianceViewsSettings
 from rsibr.rsibr_addon.tasks.compare.comparison import random_directions
@@ -33,7 +34,7 @@ from rsibr.rsibr_addon.tasks.compare.pictures import difference_picture
 from rsibr.rsibr_addon.tasks.compare.references import Captured, error_beyond_noise, noise_of, rendered
 from rsibr.rsibr_addon.tasks.light.environments import load_environment
 from rsibr.rsibr_addon.tasks.methods.bake import bake
-from rsibr.rsibr_addon.tasks.methods.fit_captures import fit_to_captures
+from rsibr.rsibr_addon.tasks.reflectance.fit_lobes import fit_lobes
 
 CAPTURED_IN, RELIT_IN = "forest", ("city", "sunset", "interior")
 MAPS, CAPTURE_SAMPLES = 64, 64
@@ -89,7 +90,7 @@ def main() -> None:
     settings = RadianceViewsSettings(material=spec, size=MAPS, samples=CAPTURE_SAMPLES, denoise=False)
     drain(bake(BakeJob(settings, str(capture), Light(environment=CAPTURED_IN), if_missing=True)))
     if not fit.exists():
-        drain(fit_to_captures(capture, fit))
+        drain(fit_lobes(FitSettings(captures=str(capture)), fit))
     stated = read_fit(fit).left_out
     ensure_context()
     mesh = load_mesh("sphere")

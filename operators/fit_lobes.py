@@ -14,7 +14,7 @@ from ..rsibr_addon.tasks.reflectance.fit_lobes import fit_lobes
 from .file_properties import file_path
 from .stepwise import Stepwise
 
-OF_MODELS, OF_CAPTURES = ("brdf", *FITTING), ("captured_views",)
+OF_MODELS, OF_CAPTURES = ("brdf", *FITTING), ("captured_views", "goal")
 """Options that count for a fit to a model, and to captures; the dialog forgets what it does not show."""
 
 
@@ -57,4 +57,5 @@ class RSIBR_OT_fit_lobes(Stepwise, bpy.types.Operator):
         left_out = figures.get("left_out")
         error = f", E {figures['E']:.3g}" if "E" in figures else ""
         error += f", error of views left out {left_out:.2g}" if left_out is not None else ""
-        self.report({"INFO"}, f"Fitted {figures['lobes']} lobes{error}")
+        source = " to the material itself" if figures.get("source") == "material" else ""
+        self.report({"INFO"}, f"Fitted {figures['lobes']} lobes{source}{error}")

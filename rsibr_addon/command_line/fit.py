@@ -9,7 +9,8 @@ from . import options
 from .console import Console
 
 EXPLAINED = {
-    "left_out": "error of captured views that were predicted from the others, noise included",
+    "left_out": "error of captured views that the lobes were not fitted to, noise included",
+    "untested": "share of new views that may be worse, as no captured view left out tells of them",
     "E": "error: root mean square of fit - model over that of the model, over all elevations",
     "E_grazing": "the same over elevations near grazing, n.v below 0.1",
     "albedo_error": "greatest relative error of the reflected energy",
@@ -41,7 +42,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     Returns
     -------
     dict
-        "fit", the path of the file, and its figures: see `tasks.reflectance.fit_lobes.FitResult` and
+        "fit", the path of the file, and its figures: see `tasks.reflectance.model_fits.FitResult` and
         `tasks.methods.fit_captures.CapturedResult`.
 
     Raises
@@ -65,7 +66,9 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     return {"fit": str(arguments.output), **figures}
 
 
-def _text(value: float | list[float] | None) -> str:
+def _text(value: float | str | list[float] | None) -> str:
+    if isinstance(value, str):
+        return value
     if isinstance(value, list):
         return " and ".join(map(_text, value)) or "none"
     return "none" if value is None else f"{value:.3g}"

@@ -116,7 +116,7 @@ FITTING = tuple(each.name for each in declared_options(Fitting))
 
 @dataclass(frozen=True, kw_only=True)
 class FitSettings(Fitting):
-    """Settings of a fit: the model and how it is fitted, or captured views."""
+    """Settings of a fit: the model and how it is fitted, or captured views, or both where a goal decides."""
 
     brdf: str | None = option(
         None,
@@ -145,11 +145,26 @@ class FitSettings(Fitting):
         none_as=0,
         metavar="N",
     )
+    goal: float | None = option(
+        None,
+        label="Goal",
+        help="Where lobes fitted to captures predict views that are left out with a greater relative error, "
+        "measure the captured material itself, and take lobes fitted to that if these are closer; a model "
+        "beside the captures says where it is, if it is in a file",
+        least=0.001,
+        most=1.0,
+        none="fit to captures alone",
+        none_as=0.0,
+        metavar="ERROR",
+    )
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if (self.brdf is None) is (self.captures is None):
+        neither, both = self.brdf is self.captures is None, None not in (self.brdf, self.captures)
+        if neither or (both and self.goal is None):
             raise RangeError("Lobes are fitted to a reflectance model or to captures: give one of them.")
+        if self.captures is None and self.goal is not None:
+            raise RangeError("A goal is for fits to captures: give --captures, or leave the goal out.")
         if self.captures is None and self.captured_views is not None:
             raise RangeError("A model has no captured views: give --captures, or leave their number out.")
         given = [name for name in FITTING if getattr(self, name) != getattr(Fitting, name)]

@@ -1,6 +1,7 @@
 """`rsibr fit`: the figures, the file, and what bad input says."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -11,12 +12,20 @@ import pytest
 from rsibr.operators import fit_lobes as operator
 from rsibr.operators.fit_lobes import RSIBR_OT_fit_lobes
 from rsibr.rsibr_addon.command_line.main import run
-from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError
+from rsibr.rsibr_addon.core.brdf.lambert import Lambert
+from rsibr.rsibr_addon.core.brdf.model import Brdf
+from rsibr.rsibr_addon.core.brdf.spec import brdf_from_spec
+from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError, RsibrWarning, SceneError
+from rsibr.rsibr_addon.core.lobes.captures import CapturedFit
+from rsibr.rsibr_addon.core.progress import Progress, Steps, drain
 from rsibr.rsibr_addon.files.fits import read_fit
 from rsibr.rsibr_addon.files.map_set import read_map_set_header
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
-from rsibr.rsibr_addon.settings.fit import FitSettings
+from rsibr.rsibr_addon.settings.fit import FitSettings, Fitting
+from rsibr.rsibr_addon.tasks.methods.fit_captures import CapturedResult, Captures, read_captures
+from rsibr.rsibr_addon.tasks.reflectance import fit_views
 from rsibr.rsibr_addon.tasks.reflectance.fit_lobes import fit_lobes
+from rsibr.rsibr_addon.tasks.reflectance.model_fits import fit_model
 from rsibr.tests.mirror_capture import environment, write_mirror_capture
 
 COMMAND = ["fit", "--brdf", "phong:n=40,ks=0.5", "--slices", "3", "--lobes", "2"]
@@ -79,6 +88,7 @@ def test_captures_make_a_fit_and_that_a_stack_in_other_light(
         (["--brdf", "lambert:kd=1", "--captured-views", "3"], "A model has no captured views"),
         (["--captures", "a.rsibr.exr", "--plot", "p"], "no model to plot beside a fit to captures"),
         (["--captures", "a.rsibr.exr"], "a.rsibr.exr"),
+        (["--brdf", "lambert:kd=1", "--goal", "0.1"], "A goal is for fits to captures"),
     ],
 )
 def test_model_or_captures(
@@ -92,6 +102,80 @@ def test_model_or_captures(
     assert run(["fit", *words, "-o", "FIT.json"]) == 1
     assert sentence in capfd.readouterr().err
     assert not (tmp_path / "FIT.json").exists()
+
+
+@pytest.fixture
+def fit_to_goal(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
+    """A function of a goal and of what a fit to captures states and finds when it asks for the material."""
+    captures = tmp_path / "mirror.rsibr.exr"
+    write_mirror_capture(captures, size=16)
+
+    def fitted(goal: float, left_out: float | None, material: Any) -> dict[str, Any]:
+        def captured(captures: Captures, count: int | None = None) -> Steps[CapturedResult]:
+            fit = yield from fit_model(lambert, Fitting(lobes=1, slices=2))
+            stated = replace(fit.fit, method="captured", left_out=left_out)
+            return CapturedResult(CapturedFit(stated, (), (), None), 0.0)
+
+        lambert = brdf_from_spec("lambert:kd=0.5", lambda name, path: Lambert(kd=0.5))
+        monkeypatch.setattr(fit_views, "captured_fit", captured)
+        monkeypatch.setattr(fit_views, "load_brdf", material)
+        settings = FitSettings(captures=str(captures), goal=goal)
+        found = drain(fit_views.fit_views(settings, tmp_path / "FIT.json", force=True))
+        assert read_fit(tmp_path / "FIT.json").method == found.fit.method
+        return found.report()
+
+    return fitted
+
+
+def shiny(spec: str) -> Steps[Brdf]:
+    """A material that is much like the mirror, as if it were measured."""
+    assert spec == "blend:mirror"
+    yield Progress(0, 1, "measuring")
+    return brdf_from_spec("ggx:alpha=0.2,metal=silver", lambda name, path: Lambert(kd=0.5))
+
+
+def test_captures_that_reach_the_goal_are_enough(fit_to_goal: Any) -> None:
+    assert fit_to_goal(0.1, 0.1, None)["source"] == "captures"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("left_out", [0.9, None])
+def test_the_material_itself_is_fitted_where_captures_tell_too_little(
+    fit_to_goal: Any, left_out: float | None
+) -> None:
+    told = fit_to_goal(0.5, left_out, shiny)
+    # Radiance changes by about as much as the mirror's over the width of the lobe
+    assert told["source"] == "material"
+    assert 0.0 < told["left_out"] < 0.5
+
+
+@pytest.mark.slow
+def test_the_closer_of_both_is_kept_and_a_missed_goal_told(fit_to_goal: Any) -> None:
+    with pytest.warns(RsibrWarning, match="have an error of 0.002 in views left out, and the goal is 0.001"):
+        told = fit_to_goal(0.001, 0.002, shiny)
+    assert (told["source"], told["left_out"]) == ("captures", 0.002)
+
+
+def test_captures_serve_where_the_material_cannot_be_had(
+    fit_to_goal: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def only_mirrors(spec: str) -> Steps[Brdf]:
+        yield Progress(0, 1, "measuring")
+        raise SceneError("Material mirror only mirrors.")
+
+    with pytest.warns(RsibrWarning) as told:
+        assert fit_to_goal(0.001, 0.5, only_mirrors)["source"] == "captures"
+    first, second = (str(each.message) for each in told)
+    assert first.endswith("so they are those of the captures: Material mirror only mirrors.")
+    assert "the goal is 0.001: capture more views" in second
+    # A file that a map set names is not opened
+    monkeypatch.setattr(fit_views, "read_captures", lambda path: replace(read_captures(path), spec=OTHER))
+    with pytest.warns(RsibrWarning) as told:
+        assert fit_to_goal(0.001, 0.5, None)["source"] == "captures"
+    assert "opened only if you name it: do so with --brdf" in str(told[0].message)
+
+
+OTHER = "blend:other.blend:Paint"
 
 
 def test_plots_are_written_whole_or_not_at_all(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
@@ -204,7 +288,8 @@ def test_the_dialog_shows_what_counts_for_what_is_fitted(captures: str) -> None:
     RSIBR_OT_fit_lobes.draw(asked, bpy.context)
     assert set(shown) <= set(bpy.ops.rsibr.fit_lobes.get_rna_type().properties.keys())
     assert shown[0] == "captures"
-    assert ("captured_views" in shown, "lobes" in shown) == (bool(captures), not captures)
+    of_captures = {"captured_views", "goal"}
+    assert (of_captures <= set(shown), "lobes" in shown) == (bool(captures), not captures)
 
 
 @pytest.mark.usefixtures("registered")
@@ -215,6 +300,7 @@ def test_the_dialog_shows_what_counts_for_what_is_fitted(captures: str) -> None:
         ("views.rsibr.exr", {"lobes": 5}),
         ("views.rsibr.exr", {"brdf": "lambert:kd=1"}),
         ("", {"captured_views": 3}),
+        ("", {"goal": 0.1}),
     ],
 )
 def test_the_dialog_forgets_what_it_no_longer_shows(

@@ -9,10 +9,11 @@ from rsibr.rsibr_addon.core.errors import RangeError
 from rsibr.rsibr_addon.core.geometry.geodesic import geodesic_sphere
 from rsibr.rsibr_addon.core.geometry.lit_sphere import lit_spheres
 from rsibr.rsibr_addon.core.kinds.radiance_views.views import RadianceViews
-from rsibr.rsibr_addon.core.lobes.captured_texels import captured_texels, seen_functions
+from rsibr.rsibr_addon.core.lobes.captured_texels import captured_texels
 from rsibr.rsibr_addon.core.lobes.captures import CapturedFit, fit_captures, lambert_family
 from rsibr.rsibr_addon.core.lobes.family import KERNELS
 from rsibr.rsibr_addon.core.lobes.fit import Fit
+from rsibr.rsibr_addon.core.lobes.fit_in_views import fit_radiance
 from rsibr.rsibr_addon.core.lobes.tridiagonal import Tridiagonal
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.progress import drain
@@ -53,11 +54,7 @@ def error_of(fit: Fit, radiance: Array, views: RadianceViews) -> float:
     lit = filtered_light(radiance)
     texels = captured_texels(views, 42, 10000, lit.sun_dir)
     new, true = texels.view >= 12, texels.diffuse + texels.glossy
-    weights, tilts = np.moveaxis(fit.weights, 0, 1), fit.offsets[:, :, 0, 0].T
-    ours = np.stack(
-        [seen_functions(texels, lit, fit.mu, tilts, weights[..., [i]])[:, 0, i] for i in range(3)],
-        axis=-1,
-    )
+    ours = fit_radiance(fit, lit, texels)
     counts = texels.stands_for[new, None]
     return float(np.sqrt(np.sum(counts * (ours - true)[new] ** 2) / np.sum(counts * true[new] ** 2)))
 

@@ -1,5 +1,7 @@
 """The next view: what it is expected to tell is what it tells, and it is the best of all."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.conventions import Array
@@ -13,6 +15,7 @@ from rsibr.rsibr_addon.core.lobes.next_views import (
     Known,
     Weighed,
     candidate_dirs,
+    compare_with_new,
     equations_of_views,
     next_views,
 )
@@ -65,7 +68,7 @@ def test_a_view_tells_what_fits_with_it_gain(light: CapturedLight) -> None:
     captured, candidates = equations(light, geodesic_sphere(12).vertices[:2]), equations(light, np.eye(3))
     known = Known(PART, captured, candidates, TEXELS)
     precision, captured, candidates = whole(known.precision), rows_of(captured), rows_of(candidates)
-    before, falls, draws = known.expected, known.falls(), 4000
+    before, falls, draws = known.errors().sum(), known.falls(), 4000
     for candidate, fall in enumerate(falls):
         told = [*captured, candidates[candidate]]
         errors = PART.variance / (2.0 * TEXELS) * refitted(precision, told, candidates, draws)
@@ -73,7 +76,7 @@ def test_a_view_tells_what_fits_with_it_gain(light: CapturedLight) -> None:
         assert abs(errors.mean() - (before - fall)) < 5.0 * errors.std() / np.sqrt(draws)
     assert falls.min() > 0.2 * before
     known.see(1)
-    assert known.expected == pytest.approx(before - falls[1], rel=1e-9)
+    assert known.errors().sum() == pytest.approx(before - falls[1], rel=1e-9)
 
 
 def test_weights_vary_by_as_much_as_views_left_out_say(light: CapturedLight) -> None:
@@ -83,6 +86,56 @@ def test_weights_vary_by_as_much_as_views_left_out_say(light: CapturedLight) -> 
     left_out = np.trace(seen @ np.linalg.inv(precision) @ seen.T)
     # In units of the error of a texel; factors are ten times apart
     assert TEXELS <= left_out < 10.0 * TEXELS
+
+
+def test_the_highest_price_that_explains_views_left_out_is_taken(light: CapturedLight) -> None:
+    # So few texels that two views explain them
+    captured, texels = equations(light, geodesic_sphere(12).vertices[:2]), 2.0
+    known = Known(PART, captured, captured[:1], texels)
+    rows = rows_of(captured)
+    every = sum(each.T @ each for each in rows)
+
+    def left_out(precision: Array) -> Array:
+        return np.array([np.trace(x @ np.linalg.inv(every - x.T @ x + precision) @ x.T) for x in rows])
+
+    precision = whole(known.precision)
+    told = left_out(precision)
+    np.testing.assert_allclose(known.left_out, PART.variance / (2.0 * texels) * told, rtol=1e-6)
+    # Prices are ten times apart
+    assert left_out(10.0 * precision).sum() < 2.0 * texels <= told.sum()
+
+
+def test_rounding_does_not_pass_for_an_error(light: CapturedLight) -> None:
+    # Two kernels that are nearly one: systems of far too low a price cannot be solved
+    alike = np.array([[1.0, 1.0 - 1e-9], [1.0 - 1e-9, 1.0]])
+    part = replace(PART, precision=Tridiagonal(np.tile(alike, (3, 1, 1)), np.tile(-0.2 * alike, (2, 1, 1))))
+    captured = equations(light, geodesic_sphere(12).vertices[:1])
+    # So many texels that no price explains their error
+    known = Known(part, captured, captured, 1e16)
+    assert known.left_out.min() > 0.0
+    assert known.errors().min() > 0.0
+
+
+@pytest.mark.parametrize("numbers", [[0, 1, 2, 3], [0, 6]])
+def test_views_left_out_are_compared_with_new_ones(light: CapturedLight, numbers: list[int]) -> None:
+    view_dirs = geodesic_sphere(12).vertices[numbers]
+    found = compare_with_new(view_dirs, SIZE, light, [PART, PART])
+    candidates = candidate_dirs(len(numbers))
+    candidates = candidates[np.max(candidates @ view_dirs.T, axis=1) < np.cos(NEAREST)]
+    every, captured = equations(light, candidates), equations(light, view_dirs)
+    precision = whole(Known(PART, captured, every, TEXELS).precision)
+    rows = rows_of(captured)
+    told = sum(each.T @ each for each in rows) + precision
+    new = np.array([np.trace(x @ np.linalg.inv(told) @ x.T) for x in rows_of(every)])
+    left_out = np.array([np.trace(x @ np.linalg.inv(told - x.T @ x) @ x.T) for x in rows])
+    np.testing.assert_array_equal(found.untested, candidates[new > left_out.max()])
+    np.testing.assert_array_equal(found.like_new, (left_out <= new.max()) | (left_out == left_out.min()))
+    assert found.share == len(found.untested) / len(candidates)
+
+
+def test_where_all_views_are_captured_none_is_untested(light: CapturedLight) -> None:
+    found = compare_with_new(geodesic_sphere(162).vertices, SIZE, light, [PART])
+    assert (found.like_new.sum(), len(found.untested), found.share) == (162, 0, 0.0)
 
 
 def test_the_next_view_is_the_best_of_all(light: CapturedLight) -> None:

@@ -13,11 +13,12 @@ from rsibr.rsibr_addon.files.kinds.radiance_views import from_map_set
 from rsibr.rsibr_addon.files.map_set import read_map_set
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.job import BakeJob
+from rsibr.rsibr_addon.settings.fit import FitSettings
 from rsibr.rsibr_addon.settings.light import Light
 from rsibr.rsibr_addon.settings.radiance_views import RadianceViewsSettings
 from rsibr.rsibr_addon.tasks.methods import more_views
 from rsibr.rsibr_addon.tasks.methods.bake import bake
-from rsibr.rsibr_addon.tasks.methods.fit_captures import fit_to_captures
+from rsibr.rsibr_addon.tasks.reflectance.fit_lobes import fit_lobes
 
 FOUR = np.array([[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]]) / 3.0**0.5
 
@@ -46,7 +47,7 @@ def view_dirs(path: str) -> np.ndarray:
 @pytest.mark.slow
 def test_views_are_added_and_lobes_fitted_to_all_state_the_same_error(job: Any, tmp_path: Path) -> None:
     wanted = job(more_views=5, goal=0.001)
-    with pytest.warns(RsibrWarning, match=r"9 views have an error of .* fit --brdf lambert:kd=0.5"):
+    with pytest.warns(RsibrWarning, match=r"9 views have an error of .* by rsibr fit --captures --goal"):
         baked = drain(bake(wanted))
     views = view_dirs(wanted.output)
     np.testing.assert_allclose(views[:4], FOUR, atol=1e-12)
@@ -55,7 +56,7 @@ def test_views_are_added_and_lobes_fitted_to_all_state_the_same_error(job: Any, 
         np.linalg.norm(views[4:, None] - geodesic_sphere(42).vertices, axis=2).min(1), 1e-6
     )
     assert (baked.figures["views"], baked.figures["chosen"]) == (9, 5)
-    drain(fit_to_captures(Path(wanted.output), tmp_path / "fit.json"))
+    drain(fit_lobes(FitSettings(captures=wanted.output), tmp_path / "fit.json"))
     # Directions go through the file's decimals
     assert read_fit(tmp_path / "fit.json").left_out == pytest.approx(baked.figures["left_out"], rel=1e-6)
 

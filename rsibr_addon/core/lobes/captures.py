@@ -29,7 +29,7 @@ from .captured_texels import CapturedTexels, Equations, captured_texels, equatio
 from .family import Family
 from .fit import Fit, joined
 from .likeness import Member, factors, likeness
-from .next_views import Weighed
+from .next_views import Weighed, compare_with_new
 from .tridiagonal import Tridiagonal
 
 METHOD = "captured"
@@ -74,11 +74,14 @@ class CapturedFit:
         alpha of the glossy likeness's members; empty without glossy light.
     weighed : tuple of Weighed
         Of the diffuse and of the glossy part, of those that are not black.
+    untested : float or None
+        Share of new views that may be worse than `left_out` says: see `compare_with_new`. None where that is.
     """
 
     fit: Fit
     widths: tuple[float, ...]
     weighed: tuple[Weighed, ...]
+    untested: float | None
 
 
 def fit_captures(
@@ -131,11 +134,11 @@ def fit_captures(
         if _power(texels, radiance) <= NEGLIGIBLE * power:
             errors += radiance
             continue
-        yield Progress(2 * number, 4, f"finding what {part} light is like")
+        yield Progress(2 * number, 5, f"finding what {part} light is like")
         members = likeness(few, getattr(few, part), light, kinds, thinnest)
         if part == "glossy":
             members = yield from _closer(members, families)
-        yield Progress(2 * number + 1, 4, f"fitting lobes to {part} light")
+        yield Progress(2 * number + 1, 5, f"fitting lobes to {part} light")
         tilts = np.concatenate([each.tilts for each in members], axis=1)
         weights = _side_by_side([each.weights(bank) for each in members])
         seen = seen_functions(texels, light, mu, tilts, weights)
@@ -147,8 +150,15 @@ def fit_captures(
         weighed.append(Weighed(mu, tilts, corrector.precision(), _power(texels, left)))
         if part == "glossy":
             widths = tuple(each.alpha for each in members)
-    left_out = float(np.sqrt(_power(texels, errors) / power)) if count >= FEWEST_VIEWS else None
-    return CapturedFit(replace(joined(fits, brdf), left_out=left_out), widths, tuple(weighed))
+    fit = joined(fits, brdf)
+    if count < FEWEST_VIEWS:
+        return CapturedFit(fit, widths, tuple(weighed), None)
+    yield Progress(4, 5, "comparing views left out with new ones")
+    comparison = compare_with_new(views.sphere.vertices[:count], views.size, light, weighed)
+    counts = comparison.like_new[texels.view][:, None]
+    left_out = _power(texels, counts * errors) / _power(texels, counts * (texels.diffuse + texels.glossy))
+    stated = replace(fit, left_out=float(np.sqrt(left_out)))
+    return CapturedFit(stated, widths, tuple(weighed), comparison.share)
 
 
 def _closer(

@@ -48,8 +48,9 @@ class Fit:
     taps : ndarray, shape (L, S, T)
         Weights of the taps; the first is 1 where there is only one.
     left_out : float or None
-        Of a fit to captured views: relative root-mean-square error of views that were predicted from the
-        others, their noise included. None of other fits, and where there are too few views.
+        Relative root-mean-square error of captured views that the lobes were not fitted to, their noise
+        included: of each view by the others, or, of a fit to the material that was captured, of all. None of
+        other fits, and where there are too few views.
 
     Raises
     ------

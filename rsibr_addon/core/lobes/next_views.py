@@ -7,11 +7,12 @@ after them. Views that were left out say how large the share is. Of some directi
 is the one that lowers the expected squared error of all of them most.
 """
 
-from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..conventions import Array
 from ..geometry.geodesic import VERTEX_COUNTS, geodesic_sphere
@@ -74,7 +75,72 @@ def next_views(
         n is less than `count` where captured views leave no room for more.
     """
     candidates = candidate_dirs(len(view_dirs) + count)
-    known = [
+    known = _known(view_dirs, candidates, size, light, parts)
+    chosen = view_dirs
+    for _ in range(count):
+        near = _near(candidates, chosen)
+        if near.all():
+            break
+        best = first_greatest(np.where(near, -np.inf, sum(each.falls() for each in known)))
+        for each in known:
+            each.see(best)
+        chosen = np.concatenate([chosen, candidates[[best]]])
+    return chosen[len(view_dirs) :]
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """Captured views that are left out beside views that are new.
+
+    Attributes
+    ----------
+    like_new : ndarray of bool, shape (V,)
+        The captured views of which, left out, no more is expected to be wrong than of any new view.
+    untested : ndarray, shape (n, 3)
+        Directions of new views of which more is expected to be wrong than of any captured view left out.
+    share : float
+        Theirs of all new views.
+    """
+
+    like_new: NDArray[np.bool]
+    untested: Array
+    share: float
+
+
+def compare_with_new(
+    view_dirs: Array, size: int, light: CapturedLight, parts: Sequence[Weighed]
+) -> Comparison:
+    """What views that are left out tell of new ones, which may be easier to predict, or harder.
+
+    Parameters
+    ----------
+    view_dirs, size, light, parts
+        See `next_views`.
+    """
+    candidates = candidate_dirs(len(view_dirs))
+    new_dirs = candidates[~_near(candidates, view_dirs)]
+    if not len(new_dirs):
+        return Comparison(np.ones(len(view_dirs), bool), new_dirs, 0.0)
+    known = _known(view_dirs, new_dirs, size, light, parts)
+    left_out = np.sum([each.left_out for each in known], axis=0)
+    new = np.sum([each.errors() for each in known], axis=0)
+    # One view is like a new one at least
+    like_new = left_out <= max(new.max(), left_out.min())
+    untested = new > left_out.max()
+    return Comparison(like_new, new_dirs[untested], float(np.mean(untested)))
+
+
+def _near(candidates: Array, view_dirs: Array) -> NDArray[np.bool]:
+    """Which candidates are not new, shape (n,)."""
+    near: NDArray[np.bool] = np.max(candidates @ view_dirs.T, axis=1) > np.cos(NEAREST)
+    return near
+
+
+def _known(
+    view_dirs: Array, candidates: Array, size: int, light: CapturedLight, parts: Sequence[Weighed]
+) -> list["Known"]:
+    """What views of some directions tell of views of others, for each part."""
+    return [
         Known(
             part,
             equations_of_views(view_dirs, size, light, part),
@@ -83,16 +149,6 @@ def next_views(
         )
         for part in parts
     ]
-    chosen = view_dirs
-    for _ in range(count):
-        near = np.max(candidates @ chosen.T, axis=1) > np.cos(NEAREST)
-        if near.all():
-            break
-        best = first_greatest(np.where(near, -np.inf, sum(each.falls() for each in known)))
-        for each in known:
-            each.see(best)
-        chosen = np.concatenate([chosen, candidates[[best]]])
-    return chosen[len(view_dirs) :]
 
 
 def candidate_dirs(views: int) -> Array:
@@ -139,36 +195,53 @@ class Known:
         Equations of the captured views, and of those that may follow: see `equations_of_views`.
     texels : float
         How many texels a view has.
+
+    Attributes
+    ----------
+    precision : Tridiagonal
+        Inverse of the weights' covariance before any view.
+    left_out : ndarray
+        Expected squared error of each captured view, were it left out: the sum over its texels.
     """
 
     def __init__(
         self, part: Weighed, captured: Sequence[Array], candidates: Sequence[Array], texels: float
     ) -> None:
         self._candidates, self._variance = candidates, part.variance / (texels * len(captured))
-        self._wanted, told = _told(candidates), _told(captured)
-        unit = float(told.trace() / part.precision.trace())
+        told = _told(captured)
+        unit, tested = float(told.trace() / part.precision.trace()), -np.inf
+        for price in PRICES:
+            precision = part.precision * (price * unit)
+            system = told + precision
+            left_out = np.array(
+                [_left_out(_products(columns, system.solve(columns))) for columns in captured]
+            )
+            # The lower the price, the more the weights vary, and the more is wrong: but for rounding, where
+            # views tell all
+            if left_out.sum() < tested:
+                break
+            tested = left_out.sum()
+            self.precision, self._system, self.left_out = precision, system, self._variance * left_out
+            # Weights that vary by so much explain all of the error of views left out
+            if tested >= texels * len(captured):
+                break
+        self._covariances = [_products(columns, self._system.solve(columns)) for columns in candidates]
 
-        def left_out(price: float) -> float:
-            system = told + part.precision * (price * unit)
-            return sum(_left_out(_products(columns, system.solve(columns))) for columns in captured)
+    @cached_property
+    def _wanted(self) -> Tridiagonal:
+        return _told(self._candidates)
 
-        # Weights that vary by so much explain all of the error of views left out
-        enough = bisect_left(PRICES, texels * len(captured), hi=len(PRICES) - 1, key=left_out)
-        self.precision = part.precision * (PRICES[enough] * unit)
-        self._system = told + self.precision
-        self._covariances, self._spreads = [], []
-        for columns in candidates:
-            solved = self._system.solve(columns)
-            self._covariances.append(_products(columns, solved))
-            self._spreads.append(_products(solved, self._wanted @ solved))
+    @cached_property
+    def _spreads(self) -> list[Array]:
+        solved = [self._system.solve(columns) for columns in self._candidates]
+        return [_products(columns, self._wanted @ columns) for columns in solved]
 
-    @property
-    def expected(self) -> float:
-        """Expected squared error of all candidates together, the sum over their texels."""
-        return self._variance * float(sum(map(np.trace, self._covariances)))
+    def errors(self) -> Array:
+        """Expected squared error of each of the V candidates, the sum over its texels, shape (V,)."""
+        return self._variance * np.array([np.trace(covariance) for covariance in self._covariances])
 
     def falls(self) -> Array:
-        """By how much each of the V candidates would lower `expected`, shape (V,)."""
+        """By how much each of the V candidates would lower the sum of `errors`, shape (V,)."""
         pairs = zip(self._covariances, self._spreads, strict=True)
         falls = [np.trace(np.linalg.solve(_with_noise(covariance), spread)) for covariance, spread in pairs]
         return self._variance * np.array(falls)

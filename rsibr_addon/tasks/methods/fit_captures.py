@@ -1,4 +1,4 @@
-"""Captured views to lobes, in a file."""
+"""Captured views to lobes."""
 
 import time
 from collections.abc import Callable
@@ -9,17 +9,17 @@ from typing import Any
 
 from ...core.brdf.spec import MATERIAL, is_model
 from ...core.conventions import Array
+from ...core.kinds.radiance_views.views import RadianceViews
 from ...core.lobes.bake import filter_environment, sharpest_resolved
 from ...core.lobes.bank import KernelBank
 from ...core.lobes.captured_light import CapturedLight, captured_light
 from ...core.lobes.captures import CapturedFit, fit_captures
 from ...core.lobes.family import Family
 from ...core.lobes.family_fit import fit_closer_gaussian, fit_closer_ggx
+from ...core.lobes.fit import Fit
 from ...core.lobes.target import elevation_slices
 from ...core.progress import Progress, Steps
-from ...files.atomic import check_target
 from ...files.families import shipped_family
-from ...files.fits import write_fit
 from ...files.kinds import environment, radiance_views
 from ...files.map_set import read_map_set
 
@@ -47,15 +47,21 @@ class CapturedResult:
     captured: CapturedFit
     seconds: float
 
+    @property
+    def fit(self) -> Fit:
+        """See `CapturedFit`."""
+        return self.captured.fit
+
     def report(self) -> dict[str, Any]:
         """The figures, as JSON values."""
-        fit = self.captured.fit
         return {
-            "lobes": len(fit.weights),
-            "slices": len(fit.mu),
-            "taps": fit.taps.shape[2],
+            "source": "captures",
+            "lobes": len(self.fit.weights),
+            "slices": len(self.fit.mu),
+            "taps": self.fit.taps.shape[2],
             "alpha": list(self.captured.widths),
-            "left_out": fit.left_out,
+            "left_out": self.fit.left_out,
+            "untested": self.captured.untested,
             "seconds": self.seconds,
         }
 
@@ -76,45 +82,72 @@ def filtered_light(radiance: Array) -> CapturedLight:
     """
     resolved = sharpest_resolved(len(radiance))
     kernels = shipped_family("ggx").bank.concentrations
-    bank = KernelBank(tuple(each for each in kernels if each <= resolved))
+    return light_by(radiance, KernelBank(tuple(each for each in kernels if each <= resolved)))
+
+
+def light_by(radiance: Array, bank: KernelBank) -> CapturedLight:
+    """An environment filtered with some kernels, to look captured texels' light up in."""
     return captured_light(radiance, bank, partial(filter_environment, layout=LAYOUT, size=SIZE))
 
 
-def fit_to_captures(
-    captures: Path, output: Path, count: int | None = None, force: bool = False
-) -> Steps[CapturedResult]:
-    """Fit lobes to captured views and write the fit.
+@dataclass(frozen=True)
+class Captures:
+    """What a map set of radiance views says.
 
-    Parameters
+    Attributes
     ----------
-    captures : Path
-        A map set of radiance views, with the light that they were made in.
-    output : Path
-        NAME.json.
-    count : int, optional
-        Use so many of the views, the first, only.
-    force : bool
-        Whether an existing file is replaced.
+    views : RadianceViews
+    radiance : ndarray, shape (height, 2 * height, 3)
+        The light that they were made in.
+    spec : str
+        What was captured, as `tasks.reflectance.brdfs.load_brdf` takes it.
+    noise : float
+        Relative standard error of their texels.
+    """
+
+    views: RadianceViews
+    radiance: Array
+    spec: str
+    noise: float
+
+
+def read_captures(path: Path) -> Captures:
+    """Read radiance views.
 
     Raises
     ------
     MapSetError
         The file holds no radiance views, or not the light that they were made in.
-    RangeError
-        There are fewer views, they are black, or their light resolves no kernel.
-    OutputFileError
     """
-    check_target(output, force, (".json",))
-    yield Progress(0, 1, f"reading {captures.name}")
-    map_set = read_map_set(captures, radiance_views.KIND)
-    views = radiance_views.from_map_set(captures, map_set)
-    radiance = environment.from_map_set(captures, map_set).radiance
-    started = time.process_time()
-    yield Progress(0, 1, "filtering the environment")
-    light = filtered_light(radiance)
+    map_set = read_map_set(path, radiance_views.KIND)
+    views = radiance_views.from_map_set(path, map_set)
     captured = map_set.header["material"]["spec"]
     spec = captured if is_model(captured) else f"{MATERIAL}:{captured}"
-    found = yield from fit_captures(views, light, shipped_families(), spec, count)
-    result = CapturedResult(found, time.process_time() - started)
-    write_fit(output, found.fit, result.report(), force)
-    return result
+    noise = float((map_set.header["error_bound"] or {}).get("relative_noise", 0.0))
+    return Captures(views, environment.from_map_set(path, map_set).radiance, spec, noise)
+
+
+def captured_fit(captures: Captures, count: int | None = None) -> Steps[CapturedResult]:
+    """Fit lobes to captured views.
+
+    Parameters
+    ----------
+    captures : Captures
+    count : int, optional
+        Use so many of the views, the first, only.
+
+    Raises
+    ------
+    RangeError
+        There are fewer views, they are black, or their light resolves no kernel.
+    """
+    started = time.process_time()
+    yield Progress(0, 1, "filtering the environment")
+    light = filtered_light(captures.radiance)
+    found = yield from fit_captures(captures.views, light, shipped_families(), captures.spec, count)
+    return CapturedResult(found, time.process_time() - started)
+
+
+def is_reached(goal: float | None, left_out: float | None) -> bool:
+    """Whether there is a goal, and a stated error that is as small; see `Fit.left_out`."""
+    return goal is not None and left_out is not None and left_out <= goal

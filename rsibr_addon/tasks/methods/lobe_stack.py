@@ -27,7 +27,7 @@ from ...job import BakeJob
 from ...settings.fit import Fitting
 from ...settings.lobe_stack import LobeStackSettings
 from ..reflectance.brdfs import is_material, load_brdf, material_of
-from ..reflectance.fit_lobes import fitted
+from ..reflectance.model_fits import fitted
 from . import method
 from .method import RGB, STORED, Baked, Cost, Method, Sources, cost_in_blender
 

@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from ...core.brdf.spec import MATERIAL, is_model
 from ...core.conventions import Array
 from ...core.counted import counted
 from ...core.environment import Environment
@@ -16,7 +15,7 @@ from ...core.lobes.next_views import next_views
 from ...core.progress import Progress, Steps
 from ...core.warned import warn
 from ...settings.radiance_views import RadianceViewsSettings
-from .fit_captures import filtered_light, shipped_families
+from .fit_captures import filtered_light, is_reached, shipped_families
 from .kept_views import KeptViews
 
 AT_ONCE = 4
@@ -39,19 +38,26 @@ class CapturedViews:
     left_out : float or None
         See `Fit.left_out`, of lobes fitted to all views; None where none were, or for fewer than
         `captures.FEWEST_VIEWS` views.
+    untested : float or None
+        See `CapturedFit`.
     """
 
     view_dirs: Array
     chosen: int = 0
     left_out: float | None = None
+    untested: float | None = None
 
     def report(self) -> tuple[str, dict[str, Any]]:
         """What was captured, in words that follow the number of views, and as JSON values."""
         figures: dict[str, Any] = {"views": len(self.view_dirs)}
-        if self.left_out is None:
+        if self.left_out is None or self.untested is None:
             return "", figures
-        words = f", {self.chosen} of them chosen; error of lobes in views left out {self.left_out:.2g}"
-        return words, {**figures, "chosen": self.chosen, "left_out": self.left_out}
+        words = (
+            f", {self.chosen} of them chosen; error of lobes in views left out {self.left_out:.2g}, "
+            f"{self.untested:.0%} of new views untested"
+        )
+        told = {"chosen": self.chosen, "left_out": self.left_out, "untested": self.untested}
+        return words, {**figures, **told}
 
 
 def most_views(settings: RadianceViewsSettings, count: int) -> int:
@@ -99,7 +105,7 @@ def capture_views(
             fit_captures(kept.read(every), filtered, shipped_families(), settings.material),
         )
         left_out, room = fitted.fit.left_out, min(AT_ONCE, most - len(every))
-        if room <= 0 or _is_reached(settings.goal, left_out):
+        if room <= 0 or is_reached(settings.goal, left_out):
             break
         more = next_views(every, settings.size, filtered, fitted.weighed, room)
         if not len(more):
@@ -107,19 +113,14 @@ def capture_views(
         every = np.concatenate([every, more])
         kept.choose(every[asked:])
         yield from capture(every, kept.missing(len(every)))
-    if settings.goal is not None and not _is_reached(settings.goal, left_out):
-        model = settings.material if is_model(settings.material) else f"{MATERIAL}:{settings.material}"
+    if settings.goal is not None and not is_reached(settings.goal, left_out):
         known = "say nothing of" if left_out is None else f"have an error of {left_out:.2g} in"
         warn(
             f"Lobes fitted to {counted(len(every), 'view')} {known} views that are left out, and the goal is "
-            f"{settings.goal:g}: allow more views, or fit lobes to the material itself, by rsibr fit --brdf "
-            f"{model}."
+            f"{settings.goal:g}: allow more views, or fit with this goal, by rsibr fit --captures --goal, "
+            "which turns to the material itself."
         )
-    return CapturedViews(every, len(every) - asked, left_out)
-
-
-def _is_reached(goal: float | None, left_out: float | None) -> bool:
-    return goal is not None and left_out is not None and left_out <= goal
+    return CapturedViews(every, len(every) - asked, left_out, fitted.untested)
 
 
 def _within(place: Progress, steps: Steps[CapturedFit]) -> Steps[CapturedFit]:

@@ -85,4 +85,4 @@ def world_bake_of(scene: Any) -> WorldBake:
     """
     request, output = world_request(scene), world_file(scene)
     make_writable(output.parent)
-    return in_background(request.title, request.job(output), scene, [], output, WorldBake)
+    return in_background(f"{scene.name}: world", request.job(output), scene, [], output, WorldBake)

@@ -55,7 +55,7 @@ def _result(asked: dict[str, Any], told: Outlet) -> dict[str, Any]:
             job = read_job(json.dumps(asked["job"]), "The job")
             assert isinstance(job, BakeJob)
             _open(asked["opened"])
-            result = _baked(job, told)
+            result = _baked(job, told, known_whole=not asked["picture"])
             times = {"seconds": time.monotonic() - started, "processor": time.process_time() - processor}
             if asked["picture"] or not result["found"]:
                 result["picture"] = _picture(job)
@@ -78,10 +78,10 @@ def _open(opened: dict[str, str] | None) -> None:
         os.environ[ORIGINAL] = opened["original"]
 
 
-def _baked(job: BakeJob[Any], told: Outlet) -> dict[str, Any]:
+def _baked(job: BakeJob[Any], told: Outlet, known_whole: bool) -> dict[str, Any]:
     from ..tasks.methods.bake import bake
 
-    with closing(bake(job)) as steps:
+    with closing(bake(job, known_whole)) as steps:
         try:
             while True:
                 told.write(json.dumps({"progress": vars(next(steps))}) + "\n")

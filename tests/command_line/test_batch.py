@@ -208,6 +208,19 @@ def test_a_batch_given_again_keeps_all_and_its_page(capfd: pytest.CaptureFixture
         assert Path(each.job.output).read_bytes() == data
 
 
+def test_a_batch_reads_again_only_what_has_changed(capfd: pytest.CaptureFixture[str]) -> None:
+    write_batch(environments=["light/dawn.exr"], materials=["chrome"])
+    done(capfd)
+    [path] = Path("maps").iterdir()
+    known = path.stat()
+    path.write_bytes(path.read_bytes()[:-9] + bytes(9))
+    os.utime(path, ns=(known.st_atime_ns, known.st_mtime_ns))
+    assert done(capfd)["found"] == 1
+    path.touch()
+    assert run(["batch", "metals.json"]) == 1
+    assert f"{path} exists, but is no whole map set" in capfd.readouterr().err
+
+
 def test_an_environment_is_read_once_for_bakes_that_follow(monkeypatch: pytest.MonkeyPatch) -> None:
     dark = np.ones((4, 8, 3), np.float32)
     dark[0, 0] = -1.0
@@ -283,9 +296,9 @@ def test_a_worker_that_dies_costs_its_bake_alone(
         "import os; from pathlib import Path\n"
         "from rsibr.rsibr_addon.command_line import worker\n"
         "did = worker._baked\n"
-        "def baked(job, told):\n"
+        "def baked(job, *more, **named):\n"
         "    if 'noon-matte' in job.output: os.abort()\n"
-        "    return did(job, told)\n"
+        "    return did(job, *more, **named)\n"
         "worker._baked = baked\n"
         "worker.serve()"
     )

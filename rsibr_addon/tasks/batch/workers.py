@@ -42,7 +42,7 @@ class Worker:
     environment: str | None = None
 
     def give(self, bake: BatchBake, picture: bool) -> None:
-        """Let it do a bake, and make a picture if that is wanted even of what is there already."""
+        """Let it do a bake, and read and make a picture of what is there already, if that is wanted."""
         self.bake, self.environment = bake, bake.job.light.environment
         opened = asdict(bake.opened) if bake.opened else None
         asked = {"job": json.loads(bake.job.to_json()), "opened": opened, "picture": picture}

@@ -24,10 +24,16 @@ WAIT_SECONDS = 0.3
 """Between two looks whether another process is done."""
 
 
-def bake(job: BakeJob[Any]) -> Steps[Baked]:
+def bake(job: BakeJob[Any], known_whole: bool = False) -> Steps[Baked]:
     """Do a job, unless its output is there and may be kept.
 
     Of two processes that make the same file one works. The other waits until it is done, or has died.
+
+    Parameters
+    ----------
+    job : BakeJob
+    known_whole : bool
+        See `check_made_by`, of an output that is there before.
 
     Raises
     ------
@@ -50,7 +56,7 @@ def bake(job: BakeJob[Any]) -> Steps[Baked]:
         check_map_set_target(output, job.force)
     recipe = recipe_for(job)
     if keeps and output.is_file() and not folder.is_dir():
-        return _found(output, recipe)
+        return _found(output, recipe, known_whole)
     with ExitStack() as stack:
         yield from _hold(folder, output, stack)
         if keeps and output.is_file():
@@ -79,8 +85,8 @@ def recipe_for(job: BakeJob[Any]) -> Recipe:
     return method.recipe(job) if method.recipe else recipe_of(job, method.sources(job.settings))
 
 
-def _found(output: Path, recipe: Recipe) -> Baked:
-    check_made_by(output, recipe)
+def _found(output: Path, recipe: Recipe, known_whole: bool = False) -> Baked:
+    check_made_by(output, recipe, known_whole)
     known = ", made with these settings" if recipe["kind"] in STORED else ""
     return Baked(output, f"is there already{known}", {"found": True})
 

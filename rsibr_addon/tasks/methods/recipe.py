@@ -150,8 +150,15 @@ def with_files_named(settings: dict[str, Any], names: Mapping[str, str]) -> dict
     return {option: named(value) for option, value in settings.items()}
 
 
-def check_made_by(path: Path, wanted: Recipe) -> None:
+def check_made_by(path: Path, wanted: Recipe, known_whole: bool = False) -> None:
     """Refuse a damaged file, and one that was not made by a recipe, which baked inputs do not state.
+
+    Parameters
+    ----------
+    path : Path
+    wanted : Recipe
+    known_whole : bool
+        Whether a map set has been read since it was written, so that its description is enough.
 
     Raises
     ------
@@ -178,7 +185,7 @@ def check_made_by(path: Path, wanted: Recipe) -> None:
             f"{path} exists, made with other settings ({differences}): give another name, or --force to "
             f"replace it."
         )
-    if not is_whole_map_set(path):
+    if not known_whole and not is_whole_map_set(path):
         raise OutputFileError(f"{path} {NOT_WHOLE}")
 
 

@@ -72,13 +72,13 @@ def _parse(path: str | Path) -> tuple[Array, Array]:
     text = " ".join(line for line in lines if not line.lstrip().startswith(COMMENT))
     try:
         numbers = np.array(text.split(), dtype=np.float64)
-        count = int(numbers[0])
+        count = int(numbers[0]) if numbers.size else 0
         wavelength, samples = numbers[1 : 1 + count], numbers[1 + count :]
         if count < 2 or wavelength.size < count or not samples.size:
             raise ValueError("it has no spectra")
         if samples.size % (4 + count):
             raise ValueError(f"it ends within a row of {4 + count} numbers")
-    except (ValueError, IndexError, OverflowError) as error:
+    except (ValueError, OverflowError) as error:
         raise InputFileError(
             f"{path} is no measurement of Cornell's, or truncated or damaged ({error!s:.99}): fetch it again."
         ) from error

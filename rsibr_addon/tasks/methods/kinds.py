@@ -1,4 +1,4 @@
-"""The kinds of map sets: how each is read and shaded."""
+"""The kinds of map sets: how each is opened and shaded."""
 
 from dataclasses import dataclass
 from pathlib import Path

@@ -5,6 +5,7 @@ Markdown table, and writes it into docs/performance.md if cmgen was there. This 
 because a process starts with the peak memory of its parent.
 """
 
+import math
 import os
 import shutil
 import statistics
@@ -14,6 +15,7 @@ import tempfile
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 
 from docs_table import write_table
@@ -47,6 +49,10 @@ COMMANDS = {
     ],
     "`preview` of a sphere, 512 x 512": [
         *["preview", "copper.rsibr.exr", "--mesh", "sphere", "--size", "512", "-o", "sphere.png", "--force"]
+    ],
+    "`preview` of a million triangles, 512 x 512": [
+        *["preview", "copper.rsibr.exr", "--mesh", "million.obj", "--size", "512"],
+        *["-o", "million.png", "--force"],
     ],
     "mips of an 8192x4096 EXR": [
         *["bake", "mip-chain", "--environment", "large.exr", "--filter", "ggx", "--size", "256"],
@@ -120,6 +126,22 @@ def environment_file(name: str) -> str:
     return str(found)
 
 
+def write_sphere(path: Path) -> None:
+    """Write a sphere of a million triangles as OBJ."""
+    rings, sectors = 501, 1000
+    with open(path, "w", encoding="ascii") as file:
+        for ring, sector in product(range(rings + 1), range(sectors)):
+            theta, phi = math.pi * ring / rings, 2.0 * math.pi * sector / sectors
+            x, y, z = math.sin(theta) * math.cos(phi), math.sin(theta) * math.sin(phi), math.cos(theta)
+            file.write(f"v {x:.6f} {y:.6f} {z:.6f}\n")
+        for ring, sector in product(range(rings), range(sectors)):
+            here, beside = 1 + ring * sectors + sector, 1 + ring * sectors + (sector + 1) % sectors
+            if ring < rings - 1:  # at a pole, one of a cell's two triangles is empty
+                file.write(f"f {here} {here + sectors} {beside + sectors}\n")
+            if ring > 0:
+                file.write(f"f {here} {beside + sectors} {beside}\n")
+
+
 def main() -> None:
     """Measure in a folder that is thrown away, print the table and write it into the docs."""
     installed = shutil.which("cmgen") is not None
@@ -132,6 +154,7 @@ def main() -> None:
         for name, width in INPUTS.items():
             laid_out = ["--from", "equirect", "--to", "equirect", "--size", str(width)]
             run([RSIBR, "convert", source, name, *laid_out], folder)
+        write_sphere(Path(folder) / "million.obj")
         for number, (what, command) in enumerate(COMMANDS.items()):
             used, other = measured([RSIBR, *command], CMGEN if installed and number < 2 else None, folder)
             if other and number == 0:

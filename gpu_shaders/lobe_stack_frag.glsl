@@ -1,13 +1,14 @@
 // Twin of core/kinds/lobe_stack/shading.py `stack_radiance`.
 #include "lib/lobe_stack_lib.glsl"
-#include "lib/sides_lib.glsl"
+#include "lib/seen_samples_lib.glsl"
 
 void main()
 {
-  Seen seen = seen_surface(draw.eye, draw.model, world_position, world_normal, gl_FrontFacing);
-  vec3 mirror_dir = reflect_dir(seen.view_dir, seen.mirror_normal);
+  Seen seen, beside, above;
+  seen_samples(seen, beside, above);
+  vec3 mirror_dir = mirrored(seen);
   vec3 across, up;
-  pixel_sides(mirror_dir, stack.antialiased, across, up);
+  sample_sides(mirror_dir, mirrored(beside), mirrored(above), stack.antialiased, across, up);
   radiance.rgb = stack_radiance(maps,
                                 elevations,
                                 int(stack.layout_number),

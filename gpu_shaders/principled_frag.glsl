@@ -1,14 +1,15 @@
 // Twin of core/kinds/kernel_pyramid/shading.py `principled_radiance`, of one material.
 #include "lib/footprint_lib.glsl"
 #include "lib/principled_radiance_lib.glsl"
-#include "lib/sides_lib.glsl"
+#include "lib/seen_samples_lib.glsl"
 #include "lib/spread_lib.glsl"
 
 void main()
 {
-  Seen seen = seen_surface(draw.eye, draw.model, world_position, world_normal, gl_FrontFacing);
+  Seen seen, beside, above;
+  seen_samples(seen, beside, above);
   vec3 across, up;
-  pixel_sides(seen.normal, look.coating.z, across, up);
+  sample_sides(seen.normal, beside.normal, above.normal, look.coating.z, across, up);
   float spread = pixel_spread(across, up);
   Surface surface = Surface(look.base.rgb,
                             look.base.a,

@@ -2,27 +2,32 @@
 #include "lib/directions_lib.glsl"
 #include "lib/footprint_lib.glsl"
 #include "lib/reflection_tables_lib.glsl"
-#include "lib/sides_lib.glsl"
+#include "lib/seen_samples_lib.glsl"
+
+vec3 refracted(Seen seen)
+{
+  return refract_dir(seen.view_dir, seen.mirror_normal, seen.outside ? tables.eta : 1.0 / tables.eta);
+}
 
 // The region of directions over which a pixel's lookup is averaged.
-void footprint(vec3 direction, out vec3 corners[4])
+void footprint(vec3 direction, vec3 beside, vec3 above, out vec3 corners[4])
 {
   vec3 across, up;
-  pixel_sides(direction, tables.antialiased, across, up);
+  sample_sides(direction, beside, above, tables.antialiased, across, up);
   parallelogram(direction, across, up, corners);
 }
 
 void main()
 {
-  Seen seen = seen_surface(draw.eye, draw.model, world_position, world_normal, gl_FrontFacing);
-  vec3 mirror_dir = reflect_dir(seen.view_dir, seen.mirror_normal);
-  float eta = seen.outside ? tables.eta : 1.0 / tables.eta;
-  vec3 refracted_dir = refract_dir(seen.view_dir, seen.mirror_normal, eta);
+  Seen seen, beside, above;
+  seen_samples(seen, beside, above);
+  vec3 mirror_dir = mirrored(seen);
+  vec3 refracted_dir = refracted(seen);
   float cosine = dot(seen.mirror_normal, seen.view_dir);
-  vec3 mirrored[4], refracted[4], seen_back[4];
-  footprint(mirror_dir, mirrored);
-  footprint(refracted_dir, refracted);
-  footprint(seen.view_dir, seen_back);
+  vec3 mirrored_from[4], refracted_from[4], seen_back[4];
+  footprint(mirror_dir, mirrored(beside), mirrored(above), mirrored_from);
+  footprint(refracted_dir, refracted(beside), refracted(above), refracted_from);
+  footprint(seen.view_dir, beside.view_dir, above.view_dir, seen_back);
   radiance = vec4(0.0, 0.0, 0.0, 1.0);
   radiance.rgb += weighted_table(tables.diffuse.rgb, diffuse, weights, TABLE_DIFFUSE, cosine, seen.normal);
   radiance.rgb += tables.added.rgb * table_weight(weights, TABLE_DIFFUSE, cosine);
@@ -34,7 +39,7 @@ void main()
                                 TABLE_SPECULAR,
                                 cosine,
                                 mirror_dir,
-                                mirrored,
+                                mirrored_from,
                                 tables.averaging);
   radiance.rgb += weighted_mean(tables.coat.rgb,
                                 coat,
@@ -44,7 +49,7 @@ void main()
                                 TABLE_COAT,
                                 cosine,
                                 mirror_dir,
-                                mirrored,
+                                mirrored_from,
                                 tables.averaging);
   radiance.rgb += weighted_mean(tables.retro.rgb,
                                 retro,
@@ -64,6 +69,6 @@ void main()
                                 TABLE_REFRACTION,
                                 cosine,
                                 refracted_dir,
-                                refracted,
+                                refracted_from,
                                 tables.averaging);
 }

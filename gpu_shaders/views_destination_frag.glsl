@@ -1,16 +1,17 @@
 // Twin of core/kinds `destination_lookup`: shades from the sphere map of one view.
 #include "lib/footprint_lib.glsl"
 #include "lib/radiance_views_lib.glsl"
-#include "lib/sides_lib.glsl"
+#include "lib/seen_samples_lib.glsl"
 
 void main()
 {
-  Seen seen = seen_surface(draw.eye, draw.model, world_position, world_normal, gl_FrontFacing);
+  Seen seen, beside, above;
+  seen_samples(seen, beside, above);
   mat3 frame = camera_frame(object_view_direction(draw.eye, draw.model, draw.turn));
   vec2 normal_uv = uv_from_normal(seen.normal * frame);
-  vec3 mirror_dir = reflect_dir(seen.view_dir, seen.mirror_normal);
+  vec3 mirror_dir = mirrored(seen);
   vec3 across, up;
-  pixel_sides(mirror_dir, mode.antialiased, across, up);
+  sample_sides(mirror_dir, mirrored(beside), mirrored(above), mode.antialiased, across, up);
   float texel_angle = sphere_map_texel_angle(float(textureSize(by_mirror, 0).x));
   ivec2 counts = sample_counts(across, up, texel_angle);
   int lookups = counts.x * counts.y;

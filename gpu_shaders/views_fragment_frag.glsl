@@ -2,11 +2,12 @@
 #include "lib/footprint_lib.glsl"
 #include "lib/geodesic_lib.glsl"
 #include "lib/radiance_views_lib.glsl"
-#include "lib/sides_lib.glsl"
+#include "lib/seen_samples_lib.glsl"
 
 void main()
 {
-  Seen seen = seen_surface(draw.eye, draw.model, world_position, world_normal, gl_FrontFacing);
+  Seen seen, beside, above;
+  seen_samples(seen, beside, above);
   ivec3 sources = find_triangle(sphere, int(mode.last_level), seen.view_dir);
   mat3 corners = geodesic_corners(sphere, sources);
   vec3 weights = barycentric_weights(seen.view_dir, corners[0], corners[1], corners[2]);
@@ -14,9 +15,9 @@ void main()
   int fading = int(mode.fading);
   vec3 by_normal = warp_and_blend(
       views, albedo, warping, fading, WARP_NORMAL, seen.normal, seen.view_dir, sources, corners, weights);
-  vec3 mirror_dir = reflect_dir(seen.view_dir, seen.mirror_normal);
+  vec3 mirror_dir = mirrored(seen);
   vec3 across, up;
-  pixel_sides(mirror_dir, mode.antialiased, across, up);
+  sample_sides(mirror_dir, mirrored(beside), mirrored(above), mode.antialiased, across, up);
   float texel_angle = sphere_map_texel_angle(float(textureSize(views, 0).x));
   ivec2 counts = sample_counts(across, up, texel_angle);
   int lookups = counts.x * counts.y;

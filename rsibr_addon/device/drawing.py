@@ -63,7 +63,14 @@ class GpuMesh:
     ----------
     positions, normals : ndarray, shape (V, 3)
     triangles : ndarray of int, shape (F, 3)
+
+    Attributes
+    ----------
+    is_deferred : bool
+        Whether `draw` takes the deferred forms of programs.
     """
+
+    is_deferred = False
 
     def __init__(self, positions: Array, normals: Array, triangles: Indices) -> None:
         attributes = {"position": positions, "normal": normals}
@@ -209,7 +216,7 @@ class ProgramMapSet(ABC):
         return self._lately[id(look)][1]
 
     def _draw(self, mesh: GpuMesh, draw: Draw, inputs: Inputs) -> None:
-        shader = inputs.program()
+        shader = inputs.program(mesh.is_deferred)
         shader.bind()
         shader.uniform_block(inputs.program.block, self._block.with_rows(inputs.rows))
         for name, texture in inputs.textures.items():

@@ -10,7 +10,8 @@ from ..core.conventions import Array, Indices
 from ..core.geometry.camera import Camera
 from . import buffers
 from .context import ensure_context
-from .drawing import Draw, GpuMapSet, GpuMesh, Refractive
+from .deferred import DeferredMesh
+from .drawing import Draw, GpuMapSet, GpuMesh, Refractive, WithInputs
 from .passes import plain_state, screen_interface, screen_triangle
 from .shaders import build, kept_until_exit
 
@@ -20,9 +21,14 @@ STILL = np.eye(3)
 SAMPLES_PER_AXIS = 4
 """Samples along each axis of a pixel, whose mean is the pixel: antialiased, as by Cycles' box filter."""
 
-TILES_OF_REFRACTION = 2
-"""Tiles along each axis that a picture of refracted light is drawn in, each with as many samples as another
-picture: what is refracted at creases and outlines turns within a sample."""
+FOR_REFRACTION = 2
+"""Factor of these for refracted light: what is refracted at creases and outlines turns within a sample."""
+
+TILES = 2
+"""Tiles along each axis that a picture is drawn in, in turn: a `DeferredMesh` takes 80 bytes a sample."""
+
+BLOCK = 16
+"""Samples that Mesa's software driver shades at once, those of a block of 4 x 4."""
 
 
 class PreviewRenderer:
@@ -70,8 +76,7 @@ class PreviewRenderer:
             Radiance times coverage, and coverage; row 0 at the bottom.
         """
         refracts = isinstance(self._content, Refractive) and self._content.refracts(look)
-        tiles = TILES_OF_REFRACTION if refracts else 1
-        tile, per_axis = -(-size // tiles), SAMPLES_PER_AXIS * tiles
+        tile, per_axis = -(-size // TILES), SAMPLES_PER_AXIS * (FOR_REFRACTION if refracts else 1)
         fine = tile * per_axis
         colour = buffers.render_target(fine)
         depth = gpu.types.GPUTexture((fine, fine), format="DEPTH_COMPONENT32F")
@@ -85,9 +90,12 @@ class PreviewRenderer:
             eye=camera.eye,
             turn=light_turn.T,
         )
-        mesh = GpuMesh(positions, normals, _nearest_first(positions @ object_turn.T, triangles, camera))
-        picture = np.empty((tile * tiles, tile * tiles, 4), np.float32)
-        for bottom, left in np.ndindex(tiles, tiles):
+        surface = positions, normals, _nearest_first(positions @ object_turn.T, triangles, camera)
+        is_fine = len(triangles) * BLOCK > (TILES * fine) ** 2
+        is_deferred = is_fine and isinstance(self._content, WithInputs)
+        mesh = DeferredMesh(*surface, depth) if is_deferred else GpuMesh(*surface)
+        picture = np.empty((TILES * tile, TILES * tile, 4), np.float32)
+        for bottom, left in np.ndindex(TILES, TILES):
             place = tile * left, tile * bottom
             within = replace(placed, projection=_magnified(place, tile, size) @ placed.projection)
             self._draw_samples(target, mesh, within, look)
@@ -102,6 +110,8 @@ class PreviewRenderer:
             gpu.state.depth_test_set("LESS_EQUAL")
             gpu.state.depth_mask_set(True)
             try:
+                if isinstance(mesh, DeferredMesh):
+                    mesh.store(placed)
                 self._content.draw(mesh, placed, look)
             finally:
                 gpu.state.depth_test_set(depth_test)

@@ -12,11 +12,14 @@ from typing import Any, ParamSpec
 import gpu
 
 from ..core.errors import DeviceError
+from .passes import screen_interface
 from .shader_source import shader_source
 
 # Uniform blocks hold only vec4 and mat4, so that the layout is the same for every driver.
 DRAW_STRUCT = "struct Draw { mat4 model; mat4 view; mat4 projection; mat4 turn; vec4 eye; vec4 strength; };"
 
+G_BUFFER = tuple(f"g_buffer_{number}" for number in range(5))
+"""Textures of what deferred shading needs of a sample, RGBA32F: see gpu_shaders/g_buffer_frag.glsl."""
 
 Given = ParamSpec("Given")
 
@@ -50,14 +53,12 @@ def release_programs() -> None:
 
 
 @kept_until_exit
-def views_destination_shader() -> gpu.types.GPUShader:
-    """Draws a mesh from the destination maps of one view."""
-    info = mesh_interface(views_fragment_shader.struct)
-    info.uniform_buf(1, "Mode", "mode")
-    info.sampler(0, "FLOAT_2D", "albedo")
-    info.sampler(1, "FLOAT_2D", "by_normal")
-    info.sampler(2, "FLOAT_2D", "by_mirror")
-    return build("views_destination", info, "mesh_vert.glsl", "views_destination_frag.glsl")
+def g_buffer_shader() -> gpu.types.GPUShader:
+    """Stores what deferred shading needs of a mesh's samples."""
+    info = _surface_interface("")
+    for slot, name in enumerate(G_BUFFER):
+        info.fragment_out(slot, "VEC4", name)
+    return build("g_buffer", info, "mesh_vert.glsl", "g_buffer_frag.glsl")
 
 
 @kept_until_exit
@@ -93,6 +94,13 @@ def mesh_interface(blocks: str) -> gpu.types.GPUShaderCreateInfo:
     GPUShaderCreateInfo
         To be completed with these blocks and with samplers, and built with mesh_vert.glsl.
     """
+    info = _surface_interface(blocks)
+    info.fragment_out(0, "VEC4", "radiance")
+    return info
+
+
+def _surface_interface(blocks: str) -> gpu.types.GPUShaderCreateInfo:
+    """The same without what fragments write."""
     info = gpu.types.GPUShaderCreateInfo()
     # Once for all blocks: a second call would replace the first.
     info.typedef_source(DRAW_STRUCT + blocks)
@@ -103,12 +111,13 @@ def mesh_interface(blocks: str) -> gpu.types.GPUShaderCreateInfo:
     varyings.smooth("VEC3", "world_position")
     varyings.smooth("VEC3", "world_normal")
     info.vertex_out(varyings)
-    info.fragment_out(0, "VEC4", "radiance")
     return info
 
 
 class MeshProgram:
     """A program that draws meshes with NAME_frag.glsl, from one uniform block and textures.
+
+    A deferred one shades the samples of a G-buffer instead, by the same source.
 
     Parameters
     ----------
@@ -136,7 +145,7 @@ class MeshProgram:
         """The block's type in GLSL."""
         return f"struct {self.block_type} {{ {self.fields} }};"
 
-    def __call__(self) -> gpu.types.GPUShader:
+    def __call__(self, deferred: bool = False) -> gpu.types.GPUShader:
         """The program, built on first use.
 
         Raises
@@ -144,16 +153,28 @@ class MeshProgram:
         DeviceError
             The driver refuses it.
         """
-        return self._built()
+        return self._built(deferred)
 
-    def _build(self) -> gpu.types.GPUShader:
-        info = mesh_interface(self.struct)
+    def _build(self, deferred: bool) -> gpu.types.GPUShader:
+        info = _deferred_interface(self.struct) if deferred else mesh_interface(self.struct)
         for name in self.defines:
             info.define(name)
         info.uniform_buf(1, self.block_type, self.block)
-        for slot, (sampler, sampler_type) in enumerate(self.samplers.items()):
+        stored = dict.fromkeys(G_BUFFER, "FLOAT_2D") if deferred else {}
+        for slot, (sampler, sampler_type) in enumerate({**self.samplers, **stored}.items()):
             info.sampler(slot, sampler_type, sampler)
-        return build(self.name, info, "mesh_vert.glsl", f"{self.name}_frag.glsl")
+        vertex = "screen_vert.glsl" if deferred else "mesh_vert.glsl"
+        return build(self.name, info, vertex, f"{self.name}_frag.glsl")
+
+
+def _deferred_interface(blocks: str) -> gpu.types.GPUShaderCreateInfo:
+    """The same as `mesh_interface` for what shades a G-buffer."""
+    info = screen_interface()
+    info.define("DEFERRED")
+    info.typedef_source(DRAW_STRUCT + blocks)
+    info.uniform_buf(0, "Draw", "draw")
+    info.fragment_out(0, "VEC4", "radiance")
+    return info
 
 
 views_fragment_shader = MeshProgram(
@@ -163,6 +184,14 @@ views_fragment_shader = MeshProgram(
     {"albedo": "FLOAT_2D", "views": "FLOAT_2D_ARRAY", "sphere": "FLOAT_2D"},
 )
 """Draws a mesh from radiance views, `fragment` mode."""
+
+views_destination_shader = MeshProgram(
+    "views_destination",
+    "Mode mode",
+    views_fragment_shader.fields,
+    dict.fromkeys(("albedo", "by_normal", "by_mirror"), "FLOAT_2D"),
+)
+"""Draws a mesh from the destination maps of one view."""
 
 
 def _destination_interface(varyings: gpu.types.GPUStageInterfaceInfo) -> gpu.types.GPUShaderCreateInfo:

@@ -96,6 +96,16 @@ def triangle_corners(mesh: bpy.types.Mesh) -> Indices:
     return read_property(mesh.loop_triangles, "loops", np.int32, 3)
 
 
+def has_sound_triangles(mesh: bpy.types.Mesh) -> bool:
+    """Whether a mesh is triangles of three vertices, no two of the same; False for too many to tell."""
+    if not _is_triangulated(mesh) or len(mesh.vertices) >> 21:
+        return False
+    # Three numbers of 21 bits in one
+    low, middle, high = np.sort(corner_vertices(mesh).reshape(-1, 3), axis=1).T.astype(np.int64)
+    triangles = np.sort(low << 42 | middle << 21 | high)
+    return bool(np.all(low < middle) and np.all(middle < high) and np.all(triangles[:-1] < triangles[1:]))
+
+
 def vertex_positions(mesh: bpy.types.Mesh) -> Array:
     """Shape (V, 3)."""
     return read_property(mesh.vertices, "co", np.float32, 3)

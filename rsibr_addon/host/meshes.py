@@ -22,6 +22,7 @@ from .mesh_arrays import (
     bits,
     corner_vertices,
     drawn_normals,
+    has_sound_triangles,
     read_property,
     split_vertices,
     triangle_corners,
@@ -267,7 +268,8 @@ def _repair(data: bpy.types.Mesh, path: Path) -> None:
         raise InputFileError(
             f"{path} holds {unusable} coordinates that are NaN or infinite: repair the mesh."
         )
-    data.validate(clean_customdata=False)
+    if not has_sound_triangles(data):  # told in a quarter of the time
+        data.validate(clean_customdata=False)
     if data.normals_domain == "FACE" and not data.has_custom_normals:
         data.shade_smooth()
 

@@ -109,6 +109,14 @@ def test_a_file_without_normals_is_shaded_smooth(tmp_path: Path) -> None:
     assert not np.allclose(mesh.normals[mesh.triangles[0]], face_normals(mesh)[0])
 
 
+@pytest.mark.parametrize("again", ["f 1 2 3", "f 3 1 2", "f 3 2 1", "f 2 2 3", "f 1 2 3 1"])
+def test_a_face_that_is_there_twice_or_is_none_is_left_out(tmp_path: Path, again: str) -> None:
+    text = "v -1 0 0\nv 1 0 0\nv 0 1 1\nv 0 1 -1\nf 1 2 3\nf 2 1 4\n"
+    mesh, expected = (load_mesh(str(write(tmp_path, each))) for each in (text + again, text))
+    np.testing.assert_array_equal(mesh.triangles, expected.triangles)
+    np.testing.assert_array_equal(mesh.normals, expected.normals)
+
+
 @pytest.mark.parametrize(
     ("text", "complaint"),
     [

@@ -51,7 +51,7 @@ def constant(*vectors: tuple[float, ...]) -> list[np.ndarray]:
 @pytest.mark.parametrize("turn", [1.0, -1.0], ids=["right-handed", "left-handed"])
 def test_facet_normal(turn: float) -> None:
     across, up, view_dir = (0.3, turn * 0.1, 0.0), (0.0, turn * 0.2, 0.1), (0.6, 0.0, 0.8)
-    code = f"{PLACE} result_0.xyz = facet_normal(place, in_2.xyz);"
+    code = "result_0.xyz = facet_normal(in_0.xyz, in_1.xyz, in_2.xyz);"
     found = evaluate("sides_lib.glsl", code, constant(across, up, view_dir))[:, 0, :3]
     normal = normalize(np.cross(across, up))
     # Places of up to 200 are good to 1e-5, and differ by 0.1

@@ -54,7 +54,7 @@ class GpuRadianceViews(ProgramMapSet):
             return
         mode = self._block.with_rows(self._inputs(look).rows)
         self._make_destination(mesh, draw, mode, look.mode)
-        shader = shaders.views_destination_shader()
+        shader = shaders.views_destination_shader(mesh.is_deferred)
         shader.bind()
         shader.uniform_sampler("by_normal", self._destination.targets[0])
         shader.uniform_sampler("by_mirror", self._destination.targets[1])

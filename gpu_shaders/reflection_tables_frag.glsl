@@ -1,4 +1,5 @@
-// Twin of core/kinds/reflection_tables/shading.py `reflect_tables`.
+// Twin of core/kinds/reflection_tables/shading.py `reflect_tables`. A program for map sets without a table may
+// define that, as NO_COAT: drivers compute both ways of a branch.
 #include "lib/directions_lib.glsl"
 #include "lib/footprint_lib.glsl"
 #include "lib/reflection_tables_lib.glsl"
@@ -31,6 +32,7 @@ void main()
   radiance = vec4(0.0, 0.0, 0.0, 1.0);
   radiance.rgb += weighted_table(tables.diffuse.rgb, diffuse, weights, TABLE_DIFFUSE, cosine, seen.normal);
   radiance.rgb += tables.added.rgb * table_weight(weights, TABLE_DIFFUSE, cosine);
+#ifndef NO_SPECULAR
   radiance.rgb += weighted_mean(tables.specular.rgb,
                                 specular,
                                 specular_sums,
@@ -41,6 +43,8 @@ void main()
                                 mirror_dir,
                                 mirrored_from,
                                 tables.averaging);
+#endif
+#ifndef NO_COAT
   radiance.rgb += weighted_mean(tables.coat.rgb,
                                 coat,
                                 coat_sums,
@@ -51,6 +55,8 @@ void main()
                                 mirror_dir,
                                 mirrored_from,
                                 tables.averaging);
+#endif
+#ifndef NO_RETRO
   radiance.rgb += weighted_mean(tables.retro.rgb,
                                 retro,
                                 retro_sums,
@@ -61,6 +67,8 @@ void main()
                                 seen.view_dir,
                                 seen_back,
                                 tables.averaging);
+#endif
+#ifndef NO_REFRACTION
   radiance.rgb += weighted_mean(tables.refraction.rgb,
                                 refraction,
                                 refraction_sums,
@@ -71,4 +79,5 @@ void main()
                                 refracted_dir,
                                 refracted_from,
                                 tables.averaging);
+#endif
 }

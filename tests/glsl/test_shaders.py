@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from rsibr.rsibr_addon.core.errors import DeviceError
+from rsibr.rsibr_addon.core.kinds.reflection_tables.shading import AVERAGED
 from rsibr.rsibr_addon.device import floor_shadow, preview, shaders, stage_shaders, textures
 from rsibr.rsibr_addon.device import shader_source as sources
 from rsibr.rsibr_addon.device.context import ensure_context
@@ -38,7 +39,8 @@ PROGRAMS = [
     shaders.views_texel_shader,
     shaders.views_disk_shader,
     mip_chain_shaders.mip_chain_shader,
-    reflection_tables.reflection_tables_shader,
+    reflection_tables.tables_program(),
+    reflection_tables.tables_program(AVERAGED),
     environment.environment_shader,
     lobe_stack.lobe_stack_shader,
     kernel_pyramid.principled_shader,

@@ -1,6 +1,7 @@
 """Reflection tables on the GPU [Miller1984]: a texture for each, looked up for each fragment."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 
@@ -20,13 +21,18 @@ _FACTORS = " ".join(f"vec4 {role};" for role in Role)
 _UNITS = " ".join(f"vec4 {role}_unit;" for role in AVERAGED)
 _MAPS = dict.fromkeys([*(role.value for role in Role), "weights"], "FLOAT_2D")
 
-reflection_tables_shader = MeshProgram(
-    "reflection_tables",
-    "Tables tables",
-    f"{_FACTORS} vec4 added; {_UNITS} float eta; float antialiased; float averaging; float unused_0;",
-    _MAPS | {f"{role}_sums": "FLOAT_2D_ARRAY" for role in AVERAGED},
-)
-"""Draws a mesh from reflection tables."""
+
+@cache
+def tables_program(missing: tuple[Role, ...] = ()) -> MeshProgram:
+    """What draws a mesh from reflection tables; missing: those of `AVERAGED` that are not there."""
+    return MeshProgram(
+        "reflection_tables",
+        "Tables tables",
+        f"{_FACTORS} vec4 added; {_UNITS} float eta; float antialiased; float averaging; float unused_0;",
+        _MAPS | {f"{role}_sums": "FLOAT_2D_ARRAY" for role in AVERAGED},
+        [f"NO_{role.upper()}" for role in missing],
+    )
+
 
 LOOKS = 8
 """Looks that weights are kept of: every frame asks for those of all objects."""
@@ -51,6 +57,7 @@ class GpuReflectionTables(ProgramMapSet):
         self._tables = tables
         self._looks: dict[TablesLook, tuple[ReflectionTables, GpuTexture]] = {}
         self._no_sums = no_sums()
+        self._program = tables_program(tuple(role for role in AVERAGED if role not in tables.maps))
 
     def inputs(self, look: TablesLook) -> Inputs:
         """See `ProgramMapSet.inputs`.
@@ -75,7 +82,7 @@ class GpuReflectionTables(ProgramMapSet):
         textures = {role.value: texture for role, texture in self._textures.items()}
         textures |= {f"{role}_sums": each.texture for role, each in sums.items()}
         summed = {f"{role}_sums": (role.value, each.unit) for role, each in sums.items() if look.antialiased}
-        return Inputs(reflection_tables_shader, fields, {**textures, "weights": weights}, summed)
+        return Inputs(self._program, fields, {**textures, "weights": weights}, summed)
 
     def refracts(self, look: TablesLook) -> bool:
         """See `Refractive`."""

@@ -117,7 +117,8 @@ def _surface_interface(blocks: str) -> gpu.types.GPUShaderCreateInfo:
 class MeshProgram:
     """A program that draws meshes with NAME_frag.glsl, from one uniform block and textures.
 
-    A deferred one shades the samples of a G-buffer instead, by the same source.
+    A deferred one shades the samples of a G-buffer instead, by the same source; that of what has inputs
+    (`drawing.WithInputs`) takes them from gpu_shaders/lib/seen_samples_lib.glsl.
 
     Parameters
     ----------

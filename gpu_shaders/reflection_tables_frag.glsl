@@ -1,5 +1,5 @@
-// Twin of core/kinds/reflection_tables/shading.py `reflect_tables`. A program for map sets without a table may
-// define that, as NO_COAT: drivers compute both ways of a branch.
+// Twin of core/kinds/reflection_tables/shading.py `reflect_tables`. A program for map sets without a table
+// may define that, as NO_COAT: drivers compute both ways of a branch.
 #include "lib/directions_lib.glsl"
 #include "lib/footprint_lib.glsl"
 #include "lib/reflection_tables_lib.glsl"

@@ -1,5 +1,6 @@
 """What was baked before a .blend was saved moves beside it, so that both can be handed on together."""
 
+import filecmp
 import shutil
 from contextlib import suppress
 from pathlib import Path
@@ -33,10 +34,11 @@ def bring_baked_files(saved_as: str, *_: object) -> None:
 
 
 def _copied(path: Path, folder: Path) -> Path:
-    """The copy of a file, whose name tells what it holds: one that is there is the same."""
+    """The copy of a file; the file itself where another one of its name is there."""
     copy = folder / path.name
-    if not copy.exists():
-        make_writable(folder)
-        with written_aside(copy) as aside:
-            shutil.copyfile(path, aside)
+    if copy.exists():
+        return copy if filecmp.cmp(path, copy, shallow=False) else path
+    make_writable(folder)
+    with written_aside(copy) as aside:
+        shutil.copyfile(path, aside)
     return copy

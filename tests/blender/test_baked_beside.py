@@ -71,6 +71,17 @@ def test_what_cannot_be_copied_is_used_where_it_is(
     assert Path(bpy.path.abspath(bpy.context.object.rsibr.map_set)) == baked
 
 
+@pytest.mark.parametrize(("there", "used"), [(b"maps", "rsibr"), (b"others", "user")])
+def test_a_file_of_that_name_is_used_if_it_is_the_same(
+    baked: Path, tmp_path: Path, there: bytes, used: str
+) -> None:
+    (tmp_path / "rsibr").mkdir()
+    (tmp_path / "rsibr" / baked.name).write_bytes(there)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "artist.blend"))
+    assert Path(bpy.path.abspath(bpy.context.object.rsibr.map_set)).parent.name == used
+    assert (tmp_path / "rsibr" / baked.name).read_bytes() == there
+
+
 def test_a_look_whether_something_was_baked_makes_no_folder(tmp_path: Path) -> None:
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "artist.blend"))
     chosen = bpy.context.scene.rsibr_bake

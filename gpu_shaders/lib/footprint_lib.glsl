@@ -14,6 +14,21 @@ void pixel_sides(vec2 place, out vec2 across, out vec2 up)
   up = dFdy(place);
 }
 
+// Which way the neighbours lie: drivers take differences within blocks of 2 x 2.
+vec2 to_neighbours()
+{
+  return 1.0 - 2.0 * mod(floor(gl_FragCoord.xy), 2.0);
+}
+
+// The sides of a sample's region of directions, of those of the sample and its neighbours; 0 if antialiased
+// is 0.
+void sample_sides(vec3 here, vec3 beside, vec3 above, float antialiased, out vec3 across, out vec3 up)
+{
+  vec2 to = antialiased * to_neighbours();
+  across = to.x * (beside - here);
+  up = to.y * (above - here);
+}
+
 // Corners counterclockwise from the left one at the bottom; across and up are the pixel's whole sides.
 void parallelogram(vec3 middle, vec3 across, vec3 up, out vec3 corners[4])
 {

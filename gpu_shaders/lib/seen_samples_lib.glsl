@@ -3,12 +3,6 @@
 // for each sample of a G-buffer.
 #include "lib/sides_lib.glsl"
 
-// Which way the neighbours lie: drivers take differences within blocks of 2 x 2.
-vec2 to_neighbours()
-{
-  return 1.0 - 2.0 * mod(floor(gl_FragCoord.xy), 2.0);
-}
-
 void seen_samples(out Seen here, out Seen beside, out Seen above)
 {
 #ifdef DEFERRED
@@ -46,13 +40,4 @@ void seen_samples(out Seen here, out Seen beside, out Seen above)
                      across,
                      up,
                      outside);
-}
-
-// The sides of a sample's region of directions, of those of the sample and its neighbours; 0 if antialiased
-// is 0.
-void sample_sides(vec3 here, vec3 beside, vec3 above, float antialiased, out vec3 across, out vec3 up)
-{
-  vec2 to = antialiased * to_neighbours();
-  across = to.x * (beside - here);
-  up = to.y * (above - here);
 }

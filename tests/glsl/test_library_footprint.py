@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.antialiased.footprint import parallelogram
 from rsibr.rsibr_addon.core.antialiased.sampling import MOST, sample_counts, sample_direction
-from rsibr.tests.glsl.evaluation import evaluate
+from rsibr.tests.glsl.evaluation import WIDTH, evaluate
 from rsibr.tests.glsl.twins import COUNT, ULP, Twin, check, single, unit_vectors
 
 
@@ -89,3 +89,23 @@ def test_pixel_sides_of_a_place() -> None:
     """
     found = evaluate("footprint_lib.glsl", code, [np.zeros((1024, 1))], results=2)
     np.testing.assert_array_equal(found[..., :2], np.broadcast_to(np.diag([1.0, 4.0]), (1024, 2, 2)))
+
+
+def test_to_neighbours() -> None:
+    found = evaluate("footprint_lib.glsl", "result_0.xy = to_neighbours();", [np.zeros((1024, 1))])
+    row, column = np.divmod(np.arange(1024), WIDTH)
+    np.testing.assert_array_equal(found[:, 0, 0], np.where(column % 2 == 0, 1.0, -1.0))
+    np.testing.assert_array_equal(found[:, 0, 1], np.where(row % 2 == 0, 1.0, -1.0))
+
+
+def test_sample_sides() -> None:
+    code = """
+        vec2 to = to_neighbours();
+        vec3 here = vec3(gl_FragCoord.x, 4.0 * gl_FragCoord.y, 1.0);
+        vec3 beside = here + vec3(to.x, 0.0, 0.0);
+        vec3 above = here + vec3(0.0, 4.0 * to.y, 0.0);
+        sample_sides(here, beside, above, in_0.x, result_0.xyz, result_1.xyz);
+    """
+    found = evaluate("footprint_lib.glsl", code, [np.repeat([[0.0], [1.0]], 1024, axis=0)], results=2)
+    np.testing.assert_array_equal(found[:1024], np.zeros((1024, 2, 4)))
+    np.testing.assert_array_equal(found[1024:, :, :2], np.broadcast_to(np.diag([1.0, 4.0]), (1024, 2, 2)))

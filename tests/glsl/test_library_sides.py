@@ -2,13 +2,16 @@
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.geometry.directions import dot, normalize
+from rsibr.rsibr_addon.core.geometry.directions import dot, normalize, reflect
 from rsibr.rsibr_addon.core.geometry.sides import seen_surface, tilted_normal
 from rsibr.tests.glsl.evaluation import evaluate
 from rsibr.tests.glsl.twins import AXES, Twin, check, unit_vectors
 
 PLACE = "vec3 place = in_0.xyz * gl_FragCoord.x + in_1.xyz * gl_FragCoord.y;"
 """Points of a plane, a pixel apart; the arguments are the same for all."""
+
+MIRRORED = "mat4(vec4(-1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(0, 0, 1, 0), vec4(0, 0, 0, 1))"
+"""A model that mirrors."""
 
 
 def facing() -> list[np.ndarray]:
@@ -64,9 +67,8 @@ def test_facet_normal(turn: float) -> None:
 @pytest.mark.parametrize("front", [False, True])
 def test_seen_surface(front: bool, mirrored: bool) -> None:
     across, up, view_dir, normal = (0.3, 0.1, 0.0), (0.0, 0.2, 0.1), (0.6, -0.8, 0.0), (0.8, -0.2, 0.2)
-    model = "mat4(vec4(-1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(0, 0, 1, 0), vec4(0, 0, 0, 1))"
     code = f"""{PLACE}
-        Seen seen = seen_surface(vec4(in_2.xyz, 0.0), {model if mirrored else "mat4(1.0)"}, place,
+        Seen seen = seen_surface(vec4(in_2.xyz, 0.0), {MIRRORED if mirrored else "mat4(1.0)"}, place,
                                  in_3.xyz, {str(front).lower()});
         result_0.xyz = seen.view_dir;
         result_1.xyz = seen.normal;
@@ -84,3 +86,36 @@ def test_seen_surface(front: bool, mirrored: bool) -> None:
     # As in the test above
     np.testing.assert_allclose(found[:, 2, :3], np.tile(expected.mirror_normal, (1024, 1)), atol=3e-3)
     np.testing.assert_array_equal(found[:, 3, 0], float(outside))
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+@pytest.mark.parametrize("front", [False, True])
+def test_sees_outside(front: bool, mirrored: bool) -> None:
+    code = f"result_0.x = float(sees_outside({MIRRORED if mirrored else 'mat4(1.0)'}, {str(front).lower()}));"
+    found = evaluate("sides_lib.glsl", code, constant((0.0,)))[:, 0, 0]
+    np.testing.assert_array_equal(found, float(front != mirrored))
+
+
+@pytest.mark.parametrize("outside", [False, True])
+def test_seen_point(outside: bool) -> None:
+    across, up, eye, normal = (0.3, 0.1, 0.0), (0.0, 0.2, 0.1), (0.6, -0.8, 0.0), (0.8, -0.2, 0.2)
+    code = f"""
+        Seen seen = seen_point(vec4(in_2.xyz, 0.0), in_0.xyz, in_3.xyz, in_0.xyz, in_1.xyz,
+                               {str(outside).lower()});
+        result_0.xyz = seen.position;
+        result_1.xyz = seen.normal;
+        result_2.xyz = seen.mirror_normal;
+    """
+    found = evaluate("sides_lib.glsl", code, constant(across, up, eye, normal), results=3)
+    facet = normalize(np.cross(across, up))
+    to_eye = np.sign(facet @ eye) * facet
+    expected = seen_surface(normalize(normal), eye, to_eye if outside else -to_eye)
+    for result, vector in enumerate([across, expected.normal, expected.mirror_normal]):
+        np.testing.assert_allclose(found[:, result, :3], np.tile(vector, (1024, 1)), atol=1e-5)
+
+
+def test_mirrored() -> None:
+    view_dir, normal = (0.6, -0.8, 0.0), (0.0, -0.6, 0.8)
+    code = "result_0.xyz = mirrored(Seen(vec3(0.0), in_0.xyz, vec3(0.0), in_1.xyz, true));"
+    found = evaluate("sides_lib.glsl", code, constant(view_dir, normal))[:, 0, :3]
+    np.testing.assert_allclose(found, np.tile(reflect(view_dir, normal), (1024, 1)), atol=1e-6)

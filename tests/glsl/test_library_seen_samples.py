@@ -47,7 +47,7 @@ def open_shell() -> Mesh:
 
 @pytest.mark.filterwarnings("ignore:Maps of 4 texels blur")
 @pytest.mark.parametrize("kind", KINDS)
-def test_a_deferred_picture_is_the_same(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_seen_samples(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
     content, look = drawable(kind)
     renderer = PreviewRenderer(content)
     drawn = renderer.draw(*open_shell(), CAMERA, SIZE, look)

@@ -113,6 +113,15 @@ DRAW = {
         lambda eye, position: normalize(eye[:, :3] - eye[:, 3:] * position),
         1e-6,
     ),
+    "object_view_direction": Twin(
+        "draw_lib.glsl",
+        "mat4 model = mat4(1.0); model[3] = vec4(in_1.xyz, 1.0);"
+        "mat4 turn = mat4(vec4(0, 1, 0, 0), vec4(-1, 0, 0, 0), vec4(0, 0, 1, 0), vec4(0, 0, 0, 1));"
+        "result_0.xyz = object_view_direction(in_0, model, turn);",
+        lambda: [eyes(), inner_points()],
+        lambda eye, place: normalize(eye[:, :3] - eye[:, 3:] * (place[:, [1, 0, 2]] * (-1.0, 1.0, 1.0))),
+        1e-6,
+    ),
     "emitted": Twin(
         "draw_lib.glsl",
         "result_0.xyz = emitted(in_0.xyz, in_1);",

@@ -5,6 +5,7 @@ from functools import cache
 
 import numpy as np
 from rsibr.rsibr_addon.core.brdf import fresnel_powers
+from rsibr.rsibr_addon.core.brdf.ggx import ggx_ndf, smith_visibility
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.geometry.directions import normalize, reflect
 from rsibr.rsibr_addon.core.geometry.sides import seen_surface
@@ -50,26 +51,79 @@ def views() -> tuple[np.ndarray, np.ndarray]:
     return single(normal), single(view_dir)
 
 
-def test_sunlit_gloss_and_leaning() -> None:
-    suns, (normal, view_dir) = pyramid().suns, views()
+def found_of(code: str, arguments: list[np.ndarray], results: int = 1) -> np.ndarray:
+    """What a statement finds of these suns, shape (n, results, 4)."""
+    textures = {"lookups": samplers_of(pyramid())["lookups"]}
+    said = f"Suns suns = suns_of(lookups); {code}"
+    return evaluate("suns_lib.glsl", said, arguments, results, textures, (SUNS,))
+
+
+def test_suns_of() -> None:
+    suns = pyramid().suns
+    code = "result_0 = vec4(suns.ceiling, suns.narrowest); result_1.xy = vec2(suns.count, suns.resolved);"
+    below, counts = found_of(code, [np.zeros((1, 1))], 2)[0]
+    np.testing.assert_array_equal(below, single([*suns.ceiling, suns.narrowest]))
+    np.testing.assert_array_equal(counts[:2], [len(suns), len(pyramid().bank)])
+
+
+def test_sun_texel() -> None:
+    (found,) = found_of("result_0 = sun_texel(lookups, 1);", [np.zeros((1, 1))])[0]
+    np.testing.assert_array_equal(found, [len(pyramid().suns), len(pyramid().bank), 0.0, 0.0])
+
+
+def test_sun_direction() -> None:
+    numbers_of_suns = np.arange(len(pyramid().suns))[:, None]
+    found = found_of("result_0.xyz = sun_direction(lookups, int(in_0.x));", [numbers_of_suns])
+    np.testing.assert_array_equal(found[:, 0, :3], single(pyramid().suns.direction))
+
+
+def test_sun_irradiance() -> None:
+    numbers_of_suns = np.arange(len(pyramid().suns))[:, None]
+    found = found_of("result_0.xyz = sun_irradiance(lookups, int(in_0.x));", [numbers_of_suns])
+    np.testing.assert_array_equal(found[:, 0, :3], single(pyramid().suns.irradiance))
+
+
+def test_sun_mirror_share() -> None:
+    alpha = 2.0 ** numbers(75, -9.0, 0.0)[:POINTS]
+    found = found_of("result_0.x = sun_mirror_share(suns, in_0.x);", [alpha])
+    np.testing.assert_allclose(found[:, 0, 0], pyramid().suns.mirror_share(alpha[:, 0]), atol=1e-6)
+
+
+def test_facets_reflect() -> None:
+    normal, view_dir = views()
+    light_dir = np.where(np.sum(normal * normal[::-1], axis=1, keepdims=True) < 0.0, -1.0, 1.0) * normal[::-1]
+    alpha, both = 2.0 ** numbers(76, -4.0, 0.0)[:POINTS, 0], view_dir + light_dir
+    n_dot_v, n_dot_l = (np.sum(normal * each, axis=1) for each in (view_dir, light_dir))
+    code = "result_0.x = facets_reflect(in_0.x, in_1.xyz, in_0.y, in_0.z, in_2.xyz);"
+    found = found_of(code, [np.column_stack([alpha, n_dot_v, n_dot_l]), normal, both])[:, 0, 0]
+    sine2 = np.sum(np.cross(normal, both) ** 2, axis=1) / np.sum(both**2, axis=1)
+    expected = ggx_ndf(sine2, alpha) * smith_visibility(n_dot_l, n_dot_v, alpha) * n_dot_l
+    # Roundings of a sine beside alpha, of 1/16 at least
+    np.testing.assert_allclose(found, expected, rtol=1e-4, atol=1e-6)
+
+
+def test_sunlit_gloss() -> None:
+    normal, view_dir = views()
     color, alpha = numbers(74, columns=3)[:POINTS], 2.0 ** numbers(75, -9.0, 0.0)[:POINTS]
     mu = np.maximum(np.sum(normal * view_dir, axis=1, keepdims=True), 1e-4)
     code = (
-        "Suns suns = suns_of(lookups); Powers metal = schlick(in_0.rgb, vec3(0.0));"
+        "Powers metal = schlick(in_0.rgb, vec3(0.0));"
         "result_0.rgb = sunlit_gloss(lookups, suns, in_1.x, in_2.x, metal, in_3.xyz, in_4.xyz);"
-        "result_1.rgb = sunlit_leaning(lookups, suns, in_2.x, in_3.xyz, in_4.xyz);"
-        "result_0.a = sun_mirror_share(suns, in_1.x);"
     )
-    textures = {"lookups": samplers_of(pyramid())["lookups"]}
-    arguments = [color, alpha, mu, normal, view_dir]
-    found = evaluate("suns_lib.glsl", code, arguments, 2, textures, (SUNS,))
+    found = found_of(code, [color, alpha, mu, normal, view_dir])
     metal = np.moveaxis(fresnel_powers.schlick(color), -1, -2)
-    glossy = suns.glossy(alpha[:, 0], metal, normal, view_dir)
+    glossy = pyramid().suns.glossy(alpha[:, 0], metal, normal, view_dir)
     # Squares of alpha of 1/256 beside those of sines, in single precision
     np.testing.assert_allclose(found[:, 0, :3], glossy, rtol=1e-3, atol=1e-5 * glossy.max())
-    leaning = suns.leaning(normal, view_dir)
-    np.testing.assert_allclose(found[:, 1, :3], leaning, rtol=1e-4, atol=1e-5 * np.abs(leaning).max())
-    np.testing.assert_allclose(found[:, 0, 3], suns.mirror_share(alpha[:, 0]), atol=1e-6)
+
+
+def test_sunlit_leaning() -> None:
+    normal, view_dir = views()
+    mu = np.maximum(np.sum(normal * view_dir, axis=1, keepdims=True), 1e-4)
+    code = "result_0.rgb = sunlit_leaning(lookups, suns, in_0.x, in_1.xyz, in_2.xyz);"
+    found = found_of(code, [mu, normal, view_dir])
+    leaning = pyramid().suns.leaning(normal, view_dir)
+    np.testing.assert_allclose(found[:, 0, :3], leaning, rtol=1e-4, atol=1e-5 * np.abs(leaning).max())
 
 
 def test_principled_radiance() -> None:

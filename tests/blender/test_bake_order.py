@@ -38,7 +38,7 @@ def test_the_panel_names_a_map_set_without_its_hash() -> None:
     assert plain_name(Path("/art/paint.rsibr.exr")) == "paint.rsibr.exr"
 
 
-def test_what_a_map_set_will_lack_is_told_before_it_is_whole_map_set() -> None:
+def test_what_a_map_set_will_lack_is_told_before_it_is_baked() -> None:
     bpy.context.scene.rsibr_bake.kind = "radiance_views"
     assert order().remarks == ()
     tree = bpy.context.object.active_material.node_tree

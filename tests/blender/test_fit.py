@@ -169,13 +169,11 @@ def test_captures_serve_where_the_material_cannot_be_had(
     assert first.endswith("so they are those of the captures: Material mirror only mirrors.")
     assert "the goal is 0.001: capture more views" in second
     # A file that a map set names is not opened
-    monkeypatch.setattr(fit_views, "read_captures", lambda path: replace(read_captures(path), spec=OTHER))
+    other = "blend:other.blend:Paint"
+    monkeypatch.setattr(fit_views, "read_captures", lambda path: replace(read_captures(path), spec=other))
     with pytest.warns(RsibrWarning) as told:
         assert fit_to_goal(0.001, 0.5, None)["source"] == "captures"
     assert "opened only if you name it: do so with --brdf" in str(told[0].message)
-
-
-OTHER = "blend:other.blend:Paint"
 
 
 def test_plots_are_written_whole_or_not_at_all(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:

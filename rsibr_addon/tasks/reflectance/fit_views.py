@@ -7,6 +7,7 @@ import numpy as np
 
 from ...core.errors import InputFileError, RangeError, SceneError
 from ...core.lobes.bake import sharpest_resolved
+from ...core.lobes.family_fit import CLOSER_LOBES
 from ...core.lobes.fit_in_views import error_in_views
 from ...core.progress import Progress, Steps
 from ...core.warned import warn
@@ -23,9 +24,6 @@ from ..methods.fit_captures import (
 )
 from .brdfs import check_told_brdf, load_brdf
 from .model_fits import FitResult, fit_model
-
-LOBES = 6
-"""Lobes for each layer of a material that is measured: as many as a fit to captures has for each width."""
 
 
 def fit_views(settings: FitSettings, output: Path, force: bool = False) -> Steps[CapturedResult | FitResult]:
@@ -46,6 +44,8 @@ def fit_views(settings: FitSettings, output: Path, force: bool = False) -> Steps
         See `read_captures`.
     RangeError
         See `captured_fit`.
+    RenderError
+        Cycles did not deliver what measuring the material takes.
     OutputFileError
 
     Warns
@@ -87,7 +87,9 @@ def _stated(found: CapturedResult | FitResult) -> float:
 
 def _fit_to_material(captures: Captures, spec: str) -> Steps[FitResult]:
     brdf = yield from load_brdf(spec)
-    found = yield from fit_model(brdf, Fitting(lobes=LOBES), sharpest_resolved(len(captures.radiance)))
+    # As many lobes for each layer as a fit to captures has for each width
+    fitting = Fitting(lobes=CLOSER_LOBES)
+    found = yield from fit_model(brdf, fitting, sharpest_resolved(len(captures.radiance)))
     yield Progress(0, 1, "comparing with the captures")
     light = light_by(captures.radiance, found.fit.bank)
     return replace(found, fit=replace(found.fit, left_out=error_in_views(found.fit, light, captures.views)))

@@ -86,7 +86,14 @@ def filtered_light(radiance: Array) -> CapturedLight:
 
 
 def light_by(radiance: Array, bank: KernelBank) -> CapturedLight:
-    """An environment filtered with some kernels, to look captured texels' light up in."""
+    """An environment filtered with some kernels, to look captured texels' light up in.
+
+    Parameters
+    ----------
+    radiance : ndarray, shape (height, 2 * height, 3)
+    bank : KernelBank
+        None sharper than `sharpest_resolved` of the environment's height.
+    """
     return captured_light(radiance, bank, partial(filter_environment, layout=LAYOUT, size=SIZE))
 
 

@@ -33,7 +33,7 @@ CHANGED = {
 }
 """Field of a recipe whose values are hashes -> what to say of it."""
 
-NOT_WHOLE = "exists, but is no whole map set: give another name, or --force to replace it."
+_NOT_WHOLE = "exists, but is no whole map set: give another name, or --force to replace it."
 
 _PLACES = (
     (
@@ -174,7 +174,7 @@ def check_made_by(path: Path, wanted: Recipe, known_whole: bool = False) -> None
     try:
         header = read_map_set_header(path)
     except MapSetError as error:
-        raise OutputFileError(f"{path} {NOT_WHOLE}") from error
+        raise OutputFileError(f"{path} {_NOT_WHOLE}") from error
     if "recipe" not in header:
         raise OutputFileError(
             f"{path} exists, and does not tell the settings it was made with, as files of older versions do "
@@ -186,7 +186,7 @@ def check_made_by(path: Path, wanted: Recipe, known_whole: bool = False) -> None
             f"replace it."
         )
     if not known_whole and not is_whole_map_set(path):
-        raise OutputFileError(f"{path} {NOT_WHOLE}")
+        raise OutputFileError(f"{path} {_NOT_WHOLE}")
 
 
 def _differences(there: Recipe, wanted: Recipe) -> Iterator[str]:

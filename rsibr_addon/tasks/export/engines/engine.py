@@ -188,9 +188,9 @@ def within(mips: tuple[Array, ...], name: str, encoding: Encoding) -> tuple[Arra
 
     Parameters
     ----------
-    mips : tuple of ndarray
+    mips : tuple of ndarray, shape (6, n, n, 3)
     name : str
-        The light's.
+        The light in words.
     encoding : Encoding
 
     Warns

@@ -2,9 +2,9 @@
 // material whose inputs are affine in the texels of textures. The uniform block `material` and the textures
 // `image_0` to `image_7` are those of device/textured_materials.py.
 //
-// A program for materials without bumps may define UNBUMPED: see principled_lib.glsl. Others may be TEXTURES,
-// how many it samples at most, and FIRST_COVERED, the first of them that is multiplied by alpha before it is
-// interpolated.
+// A program for materials without bumps may define UNBUMPED: see principled_lib.glsl. Any may define
+// TEXTURES, how many it samples at most, and FIRST_COVERED, the first of them that is multiplied by alpha
+// before it is interpolated.
 #include "lib/footprint_lib.glsl"
 #include "lib/principled_radiance_lib.glsl"
 #include "lib/shading_normal_lib.glsl"

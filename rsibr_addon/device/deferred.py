@@ -40,7 +40,7 @@ class DeferredMesh(GpuMesh):
             super().draw(shader, draw)
 
     def draw(self, shader: gpu.types.GPUShader, draw: Draw) -> None:
-        """Shade what is stored, with a program that is deferred; it sets the depth test."""
+        """Shade what is stored, with a program that is deferred; it sets the depth test and mask."""
         self.place(shader, draw)
         for name, texture in self._g_buffer.items():
             shader.uniform_sampler(name, texture)

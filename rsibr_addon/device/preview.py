@@ -22,7 +22,8 @@ SAMPLES_PER_AXIS = 4
 """Samples along each axis of a pixel, whose mean is the pixel: antialiased, as by Cycles' box filter."""
 
 FOR_REFRACTION = 2
-"""Factor of these for refracted light: what is refracted at creases and outlines turns within a sample."""
+"""Factor of `SAMPLES_PER_AXIS` for refracted light: what is refracted at creases and outlines turns within a
+sample."""
 
 TILES = 2
 """Tiles along each axis that a picture is drawn in, in turn: a `DeferredMesh` takes 80 bytes a sample."""

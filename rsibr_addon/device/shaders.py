@@ -149,6 +149,11 @@ class MeshProgram:
     def __call__(self, deferred: bool = False) -> gpu.types.GPUShader:
         """The program, built on first use.
 
+        Parameters
+        ----------
+        deferred : bool
+            Whether it shades a G-buffer, by screen_vert.glsl, in place of a mesh.
+
         Raises
         ------
         DeviceError

@@ -74,6 +74,10 @@ def test_light_that_no_few_places_hold_has_no_suns(light: np.ndarray) -> None:
     assert find_suns(light) is NO_SUNS
 
 
+def test_without_suns_no_lobe_has_a_share_of_a_mirror() -> None:
+    np.testing.assert_array_equal(NO_SUNS.mirror_share(np.array([1e-6, 0.01, 1.0])), 0.0)
+
+
 def test_more_lamps_than_suns_are_left_to_lobes() -> None:
     light = sky()
     light[40, :: WIDTH // (4 * MOST_SUNS)] = 4000.0
@@ -135,7 +139,6 @@ def test_narrow_lobes_keep_a_suns_light_and_their_foot(share: float) -> None:
 
 
 def test_a_mirror_shows_the_environment() -> None:
-    view_dir = np.broadcast_to([0.0, 0.0, 1.0], (4000, 3))
     normal = normalize(np.random.default_rng(3).normal(size=(4000, 3)) * [1.0, 1.0, 0.3] + [0.0, 0.0, 1.0])
     normal = np.vstack([normal, normalize(pyramid().suns.direction + [0.0, 0.0, 1.0])])
     view_dir = np.broadcast_to([0.0, 0.0, 1.0], normal.shape)

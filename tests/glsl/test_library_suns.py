@@ -122,7 +122,7 @@ def test_sunlit_leaning() -> None:
     mu = np.maximum(np.sum(normal * view_dir, axis=1, keepdims=True), 1e-4)
     code = "result_0.rgb = sunlit_leaning(lookups, suns, in_0.x, in_1.xyz, in_2.xyz);"
     found = found_of(code, [mu, normal, view_dir])
-    leaning = pyramid().suns.leaning(normal, view_dir)
+    leaning = pyramid().suns.leaning(mu[:, 0], normal, view_dir)
     np.testing.assert_allclose(found[:, 0, :3], leaning, rtol=1e-4, atol=1e-5 * np.abs(leaning).max())
 
 

@@ -200,7 +200,7 @@ class Known:
     ----------
     precision : Tridiagonal
         Inverse of the weights' covariance before any view.
-    left_out : ndarray
+    left_out : ndarray, shape (captured,)
         Expected squared error of each captured view, were it left out: the sum over its texels.
     """
 

@@ -199,7 +199,8 @@ def _diffuse(
     radiance[is_rough] += b[is_rough] * _lobes(
         pyramid, leaning, np.ones(len(ones)), mu[is_rough], ones, *axes
     )
-    radiance[is_rough] += b[is_rough] * pyramid.suns.leaning(normal[is_rough], view_dir[is_rough])
+    of_suns = pyramid.suns.leaning(mu[is_rough], normal[is_rough], view_dir[is_rough])
+    radiance[is_rough] += b[is_rough] * of_suns
     return layers.diffuse * color * share[:, None] * np.maximum(radiance, 0.0)
 
 

@@ -65,6 +65,11 @@ class Suns:
         Parameters
         ----------
         alpha : ndarray, shape (...,)
+
+        Returns
+        -------
+        ndarray, shape (...,)
+            In [0, 1].
         """
         share: Array = 1.0 - np.minimum(alpha / self.narrowest, 1.0) ** 2
         return share
@@ -99,13 +104,24 @@ class Suns:
             radiance += rough * facets[:, None] * colour * irradiance
         return radiance
 
-    def leaning(self, normal: Array, view_dir: Array) -> Array:
-        """Their light as `oren_nayar.tilt` reflects it, shape (N, 3); arguments as those of `glossy`."""
-        n_dot_v = dot(normal, view_dir)
+    def leaning(self, mu: Array, normal: Array, view_dir: Array) -> Array:
+        """Their light as `oren_nayar.tilt` reflects it, shape (N, 3).
+
+        Parameters
+        ----------
+        mu : ndarray, shape (N,)
+            Cosines between normal and view; above 0, though that of an interpolated normal may not be.
+        normal, view_dir : ndarray, shape (N, 3)
+            Unit vectors.
+
+        Notes
+        -----
+        GLSL twin: gpu_shaders/lib/suns_lib.glsl `sunlit_leaning`.
+        """
         radiance = np.zeros(normal.shape)
         for direction, irradiance in zip(self.direction, self.irradiance, strict=True):
             n_dot_l = np.maximum(normal @ direction, 0.0)
-            radiance += (n_dot_l * tilt(n_dot_l, n_dot_v, view_dir @ direction))[:, None] * irradiance
+            radiance += (n_dot_l * tilt(n_dot_l, mu, view_dir @ direction))[:, None] * irradiance
         return radiance
 
     def left_of(self, sheet: Array, texel_dir: Array, concentration: float) -> Array:
@@ -119,6 +135,11 @@ class Suns:
             Direction of each of its texels.
         concentration : float
             The kernel's.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Of the type of `sheet`.
         """
         bank = KernelBank((concentration,))
         least = 1.0 + np.log(_NEGLIGIBLE) / concentration
@@ -130,7 +151,8 @@ class Suns:
         return rest.astype(sheet.dtype)
 
 
-NO_SUNS = Suns(np.zeros((0, 3)), np.zeros((0, 3)), np.full(3, np.inf), 1.0)
+NO_SUNS = Suns(np.zeros((0, 3)), np.zeros((0, 3)), np.full(3, np.inf), 1e-30)
+"""So narrow that no lobe but a mirror is narrower: without suns, none has its `mirror_share` looked up."""
 
 
 def find_suns(radiance: Array) -> Suns:
@@ -140,6 +162,11 @@ def find_suns(radiance: Array) -> Suns:
     ----------
     radiance : ndarray, shape (height, 2 * height, 3)
         Latitude-longitude map.
+
+    Returns
+    -------
+    Suns
+        `MOST_SUNS` at most; `NO_SUNS` where these do not hold `LEAST_SHARE`.
     """
     height, width = radiance.shape[:2]
     step = -(-width // CELLS)

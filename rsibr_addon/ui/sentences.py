@@ -33,11 +33,12 @@ def tell(layout: bpy.types.UILayout, message: str, width: int, icon: str = "ERRO
     width : int
         Width of the region in pixels.
     icon : str
-        Before the first line.
+        Before the first line; "NONE" begins all lines at the left.
     """
+    below = "NONE" if icon == "NONE" else "BLANK1"
     column = layout.column(align=True)
     for number, text in enumerate(wrap(message, letters_in(width), break_on_hyphens=False)):
-        column.label(text=text, icon=icon if number == 0 else "BLANK1")
+        column.label(text=text, icon=icon if number == 0 else below)
 
 
 def duration(seconds: float) -> str:

@@ -76,3 +76,12 @@ def test_a_long_name_is_broken_rather_than_cut_off() -> None:
     tell(SimpleNamespace(column=lambda align: column), f"{name} is 256x256: convert it.", NARROW)
     assert max(map(len, told)) <= letters_in(NARROW) < len(name)
     assert "".join(told).replace(" ", "") == f"{name}is256x256:convertit."
+
+
+@pytest.mark.parametrize("icon", ["INFO", "NONE"])
+def test_broken_lines_begin_below_each_other(icon: str) -> None:
+    icons: list[str] = []
+    column = SimpleNamespace(label=lambda text, icon: icons.append(icon))
+    tell(SimpleNamespace(column=lambda align: column), "one two " * 20, NARROW, icon=icon)
+    assert len(icons) > 1
+    assert set(icons[1:]) == {"NONE" if icon == "NONE" else "BLANK1"}

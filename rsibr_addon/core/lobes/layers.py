@@ -108,7 +108,7 @@ def layered_fit(
     if taps is None and together > CLOSE:
         for layer in layers:
             if layer.fit is not None and layer.error >= NEGLIGIBLE * together:
-                yield Progress(0, 1, f"looking lobes of {type(layer.brdf).__name__} up in {TAPS} directions")
+                yield Progress(0, 1, f"looking up lobes in {TAPS} directions")
                 layer.look_up_more(layer.fit)
     for layer in layers:
         if layer.fit is not None and layer.brdf.is_noisy and not non_negative:

@@ -13,6 +13,7 @@ from ..core.conventions import Array
 from ..core.errors import (
     InputFileError,
     MapSetError,
+    MemoryShortageError,
     RangeError,
     SchemaError,
     ShapeError,
@@ -189,12 +190,15 @@ def read_map_set_header(path: str | Path) -> dict[str, Any]:
 
 
 def is_whole_map_set(path: str | Path) -> bool:
-    """Whether a file is there, and a map set that is whole and of maps that its kind takes."""
+    """Whether a file is there, and a map set that is whole and of maps that its kind takes.
+
+    What there is too little memory to read counts as whole: a bake takes less than to read all of it at once.
+    """
     try:
         held = read_map_set(path)
         STORED[held.kind].from_map_set(Path(path), held)
-    except MapSetError:
-        return False
+    except MapSetError as error:
+        return isinstance(error.__cause__, MemoryShortageError)
     return True
 
 

@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.command_line.main import run
-from rsibr.rsibr_addon.core.errors import OutputFileError
+from rsibr.rsibr_addon.core.errors import MapSetError, OutputFileError
 from rsibr.rsibr_addon.core.lobes.bank import KernelBank
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.files import outputs
+from rsibr.rsibr_addon.files import memory, outputs
 from rsibr.rsibr_addon.files.fits import write_fit
 from rsibr.rsibr_addon.files.map_set import read_map_set, read_map_set_header, write_map_set
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
@@ -138,6 +138,14 @@ def test_a_file_that_nobody_could_use_is_not_kept_for_its_recipe(damage: str) ->
     with pytest.raises(OutputFileError, match="exists, but is no whole map set: give another name"):
         drain(bake(job_of()))
     drain(bake(replace(job_of(), force=True, if_missing=False)))
+    assert drain(bake(job_of())).figures == {"found": True}
+
+
+def test_a_file_is_kept_that_there_is_too_little_memory_to_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    drain(bake(job_of()))
+    monkeypatch.setattr(memory, "memory_left", lambda: 1e3)
+    with pytest.raises(MapSetError, match="of memory"):
+        read_map_set(OUTPUT)
     assert drain(bake(job_of())).figures == {"found": True}
 
 

@@ -131,8 +131,6 @@ class Studio:
         try:
             with temporary_scene() as scene:
                 light_with(scene, self._light.environment)
-                # Interpolation spreads suns into texels beside them: a map no finer than texels makes noise.
-                scene.world.cycles.sample_map_resolution *= 2
                 add_camera(scene, CAMERA)
                 scene.collection.objects.link(item)
                 seen: RenderedView = render_view(scene, RenderSettings(self._size, samples, seed=seed))

@@ -59,9 +59,10 @@ def light_with(scene: bpy.types.Scene, environment: Environment) -> None:
     tree.links.new(texture.outputs["Color"], background.inputs["Color"])
     output = tree.nodes.new("ShaderNodeOutputWorld")
     tree.links.new(background.outputs["Background"], output.inputs["Surface"])
+    # Interpolation spreads a sun into the texels beside it, which a map as fine as texels samples too rarely.
     # "Automatic" resolves the map far beyond the texels, and takes ten times as long.
     world.cycles.sampling_method = "MANUAL"
-    world.cycles.sample_map_resolution = min(environment.radiance.shape[1], LARGEST_IMPORTANCE_MAP)
+    world.cycles.sample_map_resolution = min(2 * environment.radiance.shape[1], LARGEST_IMPORTANCE_MAP)
     scene.world = world
 
 

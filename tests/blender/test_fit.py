@@ -15,7 +15,14 @@ from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.brdf.lambert import Lambert
 from rsibr.rsibr_addon.core.brdf.model import Brdf
 from rsibr.rsibr_addon.core.brdf.spec import brdf_from_spec
-from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError, RsibrWarning, SceneError
+from rsibr.rsibr_addon.core.errors import (
+    OutputFileError,
+    RangeError,
+    RenderError,
+    RsibrError,
+    RsibrWarning,
+    SceneError,
+)
 from rsibr.rsibr_addon.core.lobes.captures import CapturedFit
 from rsibr.rsibr_addon.core.progress import Progress, Steps, drain
 from rsibr.rsibr_addon.files.fits import read_fit
@@ -156,15 +163,16 @@ def test_the_closer_of_both_is_kept_and_a_missed_goal_told(fit_to_goal: Any) -> 
     assert (told["source"], told["left_out"]) == ("captures", 0.002)
 
 
+@pytest.mark.parametrize("error", [SceneError, RenderError])
 def test_captures_serve_where_the_material_cannot_be_had(
-    fit_to_goal: Any, monkeypatch: pytest.MonkeyPatch
+    fit_to_goal: Any, monkeypatch: pytest.MonkeyPatch, error: type[RsibrError]
 ) -> None:
-    def only_mirrors(spec: str) -> Steps[Brdf]:
+    def not_measured(spec: str) -> Steps[Brdf]:
         yield Progress(0, 1, "measuring")
-        raise SceneError("Material mirror only mirrors.")
+        raise error("Material mirror only mirrors.")
 
     with pytest.warns(RsibrWarning) as told:
-        assert fit_to_goal(0.001, 0.5, only_mirrors)["source"] == "captures"
+        assert fit_to_goal(0.001, 0.5, not_measured)["source"] == "captures"
     first, second = (str(each.message) for each in told)
     assert first.endswith("so they are those of the captures: Material mirror only mirrors.")
     assert "the goal is 0.001: capture more views" in second

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...core.errors import InputFileError, RangeError, SceneError
+from ...core.errors import InputFileError, RangeError, RenderError, SceneError
 from ...core.lobes.bake import sharpest_resolved
 from ...core.lobes.family_fit import CLOSER_LOBES
 from ...core.lobes.fit_in_views import error_in_views
@@ -44,8 +44,6 @@ def fit_views(settings: FitSettings, output: Path, force: bool = False) -> Steps
         See `read_captures`.
     RangeError
         See `captured_fit`.
-    RenderError
-        Cycles did not deliver what measuring the material takes.
     OutputFileError
 
     Warns
@@ -75,7 +73,7 @@ def _closer(
         if named is None:
             check_told_brdf(captures.spec)
         of_material = yield from _fit_to_material(captures, named or captures.spec)
-    except (InputFileError, RangeError, SceneError) as error:
+    except (InputFileError, RangeError, RenderError, SceneError) as error:
         warn(f"Lobes cannot be fitted to the material itself, so they are those of the captures: {error}")
         return found
     return of_material if _stated(of_material) < _stated(found) else found

@@ -23,6 +23,7 @@ class _BakeKind(Stepwise):
 
     bl_options = {"REGISTER"}  # noqa: RUF012  (Blender reads the class)
     interrupted = "Bake interrupted; started again, a capture goes on"
+    proposed = "untitled.rsibr.exr"
     SETTINGS: ClassVar[type[MethodSettings]]
 
     filepath = file_path("Map Set")

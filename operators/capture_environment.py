@@ -20,6 +20,7 @@ class RSIBR_OT_capture_environment(MakesLight, bpy.types.Operator):
     bl_idname = "rsibr.capture_environment"
     bl_label = "Capture Environment"
     SETTINGS = Capture
+    proposed = "environment.exr"
 
     filepath = file_path("Picture", "File to write, OpenEXR or Radiance HDR by its name")
     source = bpy.props.EnumProperty(

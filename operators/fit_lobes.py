@@ -26,6 +26,7 @@ class RSIBR_OT_fit_lobes(Stepwise, bpy.types.Operator):
     bl_options = {"REGISTER"}  # noqa: RUF012  (Blender reads the class)
     SETTINGS = FitSettings
     interrupted = "Fit interrupted; nothing was written"
+    proposed = "lobes.json"
 
     filepath = file_path("Fit")
 

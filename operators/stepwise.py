@@ -21,11 +21,14 @@ class Stepwise:
     ----------
     interrupted : str
         What to say after Escape.
+    proposed : str
+        Name that the file browser begins with; none where a file is to be chosen.
     SETTINGS : type
         Dataclass of options that the operator has as properties; none where it is not said.
     """
 
     interrupted: str
+    proposed = ""
     SETTINGS: ClassVar[type[Options]]
     filepath: str
     force = bpy.props.BoolProperty(name="Replace", description="Replace the file if it exists")
@@ -62,6 +65,7 @@ class Stepwise:
         if self.filepath:
             return self._start(context)
         self._asks = True
+        self.filepath = self.proposed
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 

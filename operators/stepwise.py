@@ -65,7 +65,9 @@ class Stepwise:
         if self.filepath:
             return self._start(context)
         self._asks = True
-        self.filepath = self.proposed
+        if self.proposed:
+            # Where a file is to be chosen, the browser must find no name that is set, not even an empty one
+            self.filepath = self.proposed
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 

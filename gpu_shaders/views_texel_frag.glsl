@@ -1,11 +1,9 @@
 // Twin of core/kinds `destination_by_texel`: the destination map, warped per texel.
-#include "lib/draw_lib.glsl"
 #include "lib/geodesic_lib.glsl"
 #include "lib/radiance_views_lib.glsl"
 
 void main()
 {
-  vec3 view_dir = object_view_direction(draw.eye, draw.model, draw.turn);
   vec3 unit_normal = camera_frame(view_dir) * normal_from_uv(map_uv);
   mat3 corners = geodesic_corners(sphere, sources);
   int warping = int(mode.warping);

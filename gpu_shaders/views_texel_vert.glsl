@@ -1,11 +1,11 @@
 // Twin of core/kinds `destination_by_texel`, what it does once: one triangle that holds the whole map,
-// and the three sources around the view.
+// the view, and the three sources around it.
 #include "lib/draw_lib.glsl"
 #include "lib/geodesic_lib.glsl"
 
 void main()
 {
-  vec3 view_dir = object_view_direction(draw.eye, draw.model, draw.turn);
+  view_dir = object_view_direction(draw.eye, draw.model, draw.turn);
   sources = find_triangle(sphere, int(mode.last_level), view_dir);
   mat3 corners = geodesic_corners(sphere, sources);
   weights = barycentric_weights(view_dir, corners[0], corners[1], corners[2]);

@@ -66,6 +66,7 @@ def views_texel_shader() -> gpu.types.GPUShader:
     """Makes the destination maps of one view, `texel` mode."""
     varyings = gpu.types.GPUStageInterfaceInfo("rsibr_screen")
     varyings.smooth("VEC2", "map_uv")
+    varyings.flat("VEC3", "view_dir")
     info = _destination_interface(varyings)
     return build("views_texel", info, "views_texel_vert.glsl", "views_texel_frag.glsl")
 

@@ -22,7 +22,6 @@ from rsibr.rsibr_addon.core.kinds.radiance_views.warping import LEAST_ALBEDO, Wa
 from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.resample import bilinear
 from rsibr.rsibr_addon.device import buffers
-from rsibr.rsibr_addon.device.drawing import LEAST_STRENGTH
 from rsibr.rsibr_addon.device.kinds.radiance_views import _albedo_texels, _layers
 from rsibr.rsibr_addon.device.textures import GpuTexture
 from rsibr.tests.glsl.evaluation import Samplers, evaluate
@@ -84,51 +83,6 @@ DIRECTIONS = {
         lambda view_dir: frames_as_rows(camera_frame(view_dir)),
         1e-6,
         results=3,
-    ),
-}
-
-
-def eyes() -> np.ndarray:
-    """Homogeneous eyes: directions, and positions at least half a radius above the unit sphere."""
-    rng = np.random.default_rng(5)
-    at_infinity = rng.random(COUNT) < 0.5
-    distance = np.where(at_infinity, 1.0, 10.0 ** rng.uniform(np.log10(1.5), 2.0, COUNT))
-    return single(np.c_[unit_vectors(1) * distance[:, None], np.where(at_infinity, 0.0, 1.0)])
-
-
-def inner_points() -> np.ndarray:
-    """Points of the unit ball."""
-    return single(unit_vectors(2) * np.random.default_rng(6).random((COUNT, 1)))
-
-
-def emitted(emission: np.ndarray, strength: np.ndarray) -> np.ndarray:
-    return emission / np.maximum(strength[:, :1], LEAST_STRENGTH)
-
-
-DRAW = {
-    "view_direction": Twin(
-        "draw_lib.glsl",
-        "result_0.xyz = view_direction(in_0, in_1.xyz);",
-        lambda: [eyes(), inner_points()],
-        lambda eye, position: normalize(eye[:, :3] - eye[:, 3:] * position),
-        1e-6,
-    ),
-    "object_view_direction": Twin(
-        "draw_lib.glsl",
-        "mat4 model = mat4(1.0); model[3] = vec4(in_1.xyz, 1.0);"
-        "mat4 turn = mat4(vec4(0, 1, 0, 0), vec4(-1, 0, 0, 0), vec4(0, 0, 1, 0), vec4(0, 0, 0, 1));"
-        "result_0.xyz = object_view_direction(in_0, model, turn);",
-        lambda: [eyes(), inner_points()],
-        lambda eye, place: normalize(eye[:, :3] - eye[:, 3:] * (place[:, [1, 0, 2]] * (-1.0, 1.0, 1.0))),
-        1e-6,
-    ),
-    "emitted": Twin(
-        "draw_lib.glsl",
-        "result_0.xyz = emitted(in_0.xyz, in_1);",
-        lambda: [inner_points(), eyes()],
-        # What no light would scale back is kept finite
-        emitted,
-        lambda emission, strength: 4.0 * ULP * np.abs(emitted(emission, strength))[:, None],
     ),
 }
 
@@ -391,7 +345,7 @@ RADIANCE_VIEWS = {
     for name, twin in blending_twins(warping, warp).items()
 }
 
-TWINS = DIRECTIONS | DRAW | SPHERE_MAP | REFLECTION_WARP | RADIANCE_VIEWS
+TWINS = DIRECTIONS | SPHERE_MAP | REFLECTION_WARP | RADIANCE_VIEWS
 
 
 @pytest.mark.parametrize("name", TWINS)

@@ -16,15 +16,16 @@ from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError, RsibrWarn
 from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_from_harmonics
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.atlas import atlas_texels
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import bake_pyramid
-from rsibr.rsibr_addon.core.kinds.kernel_pyramid.suns import NO_SUNS
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
 from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTables, Role
 from rsibr.rsibr_addon.core.maps.representation import representation
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.kinds import mip_chain, reflection_tables
+from rsibr.rsibr_addon.files.kinds.kernel_pyramid import shipped_families
 from rsibr.rsibr_addon.files.map_set import write_map_set
 from rsibr.rsibr_addon.files.map_set_header import Origin
 from rsibr.rsibr_addon.files.radiance_pictures import read_radiance, write_radiance
+from rsibr.rsibr_addon.tasks.export.engines import lobes
 from rsibr.rsibr_addon.tasks.export.engines.engine import CubeEngine
 from rsibr.rsibr_addon.tasks.export.engines.engines import ENGINES
 from rsibr.rsibr_addon.tasks.export.engines.export import export_for_engine
@@ -309,7 +310,7 @@ def test_lobes_say_how_light_is_shaded(tmp_path: Path) -> None:
     np.testing.assert_allclose(weights.sum(axis=(0, 4)), np.moveaxis(table[37, ..., :3], -1, 0), rtol=HALF)
     (light,) = read_ktx2(files[0]).levels
     listed = re.findall(r"vec4\(([^)]*)\)", files[2].read_text().partition("PLACES")[2].partition(";")[0])
-    left, bottom, width, _ = map(float, listed[12].split(","))
+    left, bottom, width, _ = map(float, listed[13].split(","))
     size = round(width * light.shape[2])
     corner = round(bottom * light.shape[1]), round(left * light.shape[2])
     shown = light[0, corner[0] : corner[0] + size, corner[1] : corner[1] + size, :3]
@@ -318,18 +319,24 @@ def test_lobes_say_how_light_is_shaded(tmp_path: Path) -> None:
     np.testing.assert_allclose(shown, wanted, rtol=HALF, atol=SUM * wanted.max())
 
 
-def test_lobes_show_a_sun_as_they_show_all_light(tmp_path: Path) -> None:
-    """Engines' shaders have no other way for it."""
+def test_lobes_take_suns_apart(tmp_path: Path, recwarn: pytest.WarningsRecorder) -> None:
+    """So they may be brighter than half floats, which hold the rest of the light."""
     light = sky()
-    light[90, 100] = 2000.0, 1800.0, 1500.0
-    write_radiance(tmp_path / "sun.exr", light)
-    output = tmp_path / "sun.ktx2"
-    written, *_ = drain(export_for_engine(tmp_path / "sun.exr", output, "lobes", LobesSettings(widest=64)))
-    (shown,) = read_ktx2(written).levels
-    pyramid = drain(bake_pyramid(light, 64)).pyramid
-    assert len(pyramid.suns) == 1
-    wanted, _ = atlas_texels(replace(pyramid, suns=NO_SUNS))
-    np.testing.assert_allclose(shown[0, ..., :3], wanted[..., :3], rtol=HALF)
+    light[90, 100] = 2e5, 1.8e5, 1.5e5
+    pyramid, output = drain(bake_pyramid(light, 64)).pyramid, tmp_path / "sun.ktx2"
+    families = shipped_families()
+    pyramid = replace(pyramid, suns=replace(pyramid.suns, narrowest=float(families.ggx.alpha[0])))
+    texels, *_ = lobes.write(pyramid, families, "sun", output, False)
+    assert not recwarn.list
+    (sun,), (irradiance,) = pyramid.suns.direction, pyramid.suns.irradiance
+    (shown,) = read_ktx2(texels).levels
+    wanted, _ = atlas_texels(replace(pyramid, mirror=np.minimum(pyramid.mirror, pyramid.suns.ceiling)))
+    np.testing.assert_allclose(shown[0], wanted, rtol=HALF)
+    for ending, vector in ((".glsl", "vec3"), (".wgsl", "vec3f"), (".hlsl", "float3")):
+        shader = output.with_suffix(ending).read_text()
+        for name, numbers in (("DIRECTIONS", sun), ("IRRADIANCES", irradiance)):
+            listed = re.findall(rf"SUN_{name}\b.*\n    {vector}\((.*?)\)", shader)
+            assert [float(number) for number in listed[0].split(",")] == pytest.approx(numbers)
 
 
 @pytest.mark.parametrize(

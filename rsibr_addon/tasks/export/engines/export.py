@@ -1,6 +1,5 @@
 """The light of a mip chain or of a picture, filtered by an engine's own rule and written for it."""
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +10,6 @@ from ....core.errors import OutputFileError, RangeError
 from ....core.filtering.irradiance import turned_harmonics
 from ....core.kinds.kernel_pyramid.bake import bake_pyramid
 from ....core.kinds.kernel_pyramid.pyramid import Pyramid
-from ....core.kinds.kernel_pyramid.suns import NO_SUNS
 from ....core.kinds.mip_chain.ggx import ggx_mips
 from ....core.maps import cube_map
 from ....core.progress import Progress, Steps
@@ -88,8 +86,7 @@ def export_for_engine(
             with together():
                 return chosen.writers[output.suffix.lower()](filtered, output, force)
         case LobesEngine(), LobesSettings(widest=width):
-            # Engines' shaders have lobes alone
-            pyramid = replace((yield from _pyramid(source, held, light, width)), suns=NO_SUNS)
+            pyramid = yield from _pyramid(source, held, light, width)
             with together():
                 return lobes.write(pyramid, shipped_families(), light.name, output, force)
         case PanoramaEngine(), _:

@@ -4,15 +4,32 @@ Texture2D rsibr_light : register(t0);
 Texture2DArray rsibr_lobes : register(t1);
 SamplerState rsibr_sampler : register(s0);
 
-static const int KERNELS = 12, LOBES = 4, ALBEDOS = 1 + 3 * KERNELS;
-static const float WIDTHS = 33.0;
-// Where maps lie in rsibr_light: of kernels, from the broadest on, and of diffuse light
-static const float4 PLACES[KERNELS + 1] = {
+static const int KERNELS = $kernels, LOBES = 4, ALBEDOS = 1 + 3 * KERNELS;
+static const float WIDTHS = $widths.0;
+// Where maps lie in rsibr_light: of kernels, from the broadest on, of the light itself, and of diffuse light
+static const int MIRROR = KERNELS, DIFFUSE = KERNELS + 1;
+static const float4 PLACES[KERNELS + 2] = {
     $places};
+// Suns, which GGX itself reflects, with Z up. The first RESOLVED kernels' maps are without them; other kernels
+// show the light itself, where that is below CEILING. Lobes narrower than NARROWEST show suns as a mirror, in part
+static const int SUNS = $suns, RESOLVED = $resolved;
+static const float3 SUN_DIRECTIONS[] = {
+    $directions};
+static const float3 SUN_IRRADIANCES[] = {
+    $irradiances};
+static const float3 CEILING = $ceiling;
+static const float NARROWEST = $narrowest;
+// Glass between its F0 and 1: of (1 - cos)^2, and of its 5th, 6th and 7th power
+static const float4 GLASS = $glass;
 
-float3 rsibr_map(float3 direction, int map)
+// To the axes of the maps. Y is up here; with Z up: return direction
+float3 rsibr_axes(float3 direction)
 {
-  float3 d = float3(direction.x, -direction.z, direction.y);  // Y is up; with Z up: d = direction
+  return float3(direction.x, -direction.z, direction.y);
+}
+
+float3 rsibr_map(float3 d, int map)
+{
   d /= abs(d.x) + abs(d.y) + abs(d.z);
   float2 side = float2((d.x < 0.0) ? -1.0 : 1.0, (d.y < 0.0) ? -1.0 : 1.0);
   float2 folded = (1.0 - abs(d.yx)) * side;
@@ -31,9 +48,30 @@ float3 rsibr_gain(float3 mean, float4 albedo)
   return 1.0 + mean * albedo.a / (1.0 - mean * (1.0 - albedo.a)) * (1.0 - albedo.r) / albedo.r;
 }
 
+// The Fresnel term: white, what rises as a metal's, and what rises as that of glass.
+float3 rsibr_fresnel(float3 white, float3 rise, float glass, float cosine)
+{
+  float c = 1.0 - cosine, fifth = c * c * c * c * c;
+  return white + rise * fifth + glass * dot(GLASS, float4(c * c, fifth, fifth * c, fifth * c * c));
+}
+
+// GGX without its Fresnel term, times n.l; both: view and light, added.
+float rsibr_facets(float alpha, float3 normal, float n_dot_v, float n_dot_l, float3 both)
+{
+  // The sine from a product: 1 less a square near 1 would leave nothing of single precision
+  float3 aside = cross(normal, both);
+  float sine2 = dot(aside, aside) / max(dot(both, both), 1e-12), alpha2 = alpha * alpha;
+  float facets = alpha2 * (1.0 - sine2) + sine2;
+  float light_part = n_dot_l * sqrt(alpha2 + (1.0 - alpha2) * n_dot_v * n_dot_v);
+  float view_part = n_dot_v * sqrt(alpha2 + (1.0 - alpha2) * n_dot_l * n_dot_l);
+  return n_dot_l * alpha2 / (6.2831853 * facets * facets * (light_part + view_part));
+}
+
 // Radiance towards the unit vector view_dir; roughness from 1/16, what is smoother is shown so.
 float3 rsibr_shade(float3 base_color, float metallic, float roughness, float3 normal, float3 view_dir)
 {
+  normal = rsibr_axes(normal);
+  view_dir = rsibr_axes(view_dir);
   float mu = clamp(dot(normal, view_dir), 1e-4, 1.0);
   float alpha = clamp(roughness * roughness, 1.0 / 256.0, 1.0);
   float2 place = float2((WIDTHS - 0.5 + 4.0 * log2(alpha)) / WIDTHS, mu);
@@ -61,10 +99,24 @@ float3 rsibr_shade(float3 base_color, float metallic, float roughness, float3 no
       float4 of_glass = rsibr_layer(place, 3 + 3 * kernel);
       for (int lobe = 0; lobe < LOBES; lobe++) {
         float3 weight = white * of_white[lobe] + rise * of_rise[lobe] + 0.96 * glass * of_glass[lobe];
-        specular += weight * rsibr_map(axes[lobe], kernel);
+        float3 shown = rsibr_map(axes[lobe], kernel);
+        specular += weight * ((kernel < RESOLVED) ? shown : min(shown, CEILING));
       }
     }
   }
+  float width = min(alpha / NARROWEST, 1.0), rough = width * width;
+  if (rough < 1.0) {
+    float3 shown = rsibr_map(mirror_dir, MIRROR);
+    specular += (1.0 - rough) * rsibr_fresnel(white, rise, 0.96 * glass, mu) * (shown - min(shown, CEILING));
+  }
+  specular = max(specular, 0.0);
+  for (int sun = 0; sun < SUNS; sun++) {
+    float3 light_dir = SUN_DIRECTIONS[sun], both = view_dir + light_dir;
+    float n_dot_l = max(dot(normal, light_dir), 0.0);
+    float h_dot_l = dot(both, light_dir) * rsqrt(max(dot(both, both), 1e-12));
+    float facets = rough * rsibr_facets(max(alpha, NARROWEST), normal, mu, n_dot_l, both);
+    specular += facets * rsibr_fresnel(white, rise, 0.96 * glass, h_dot_l) * SUN_IRRADIANCES[sun];
+  }
   float diffuse = (1.0 - metallic) * (1.0 - reflected);
-  return max(specular, 0.0) + diffuse * base_color * rsibr_map(normal, KERNELS);
+  return specular + diffuse * base_color * rsibr_map(normal, DIFFUSE);
 }

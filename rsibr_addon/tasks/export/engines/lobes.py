@@ -4,10 +4,10 @@ A surface of glTF's metallic-roughness model is shaded as `core.kinds.kernel_pyr
 dielectric of index 1.5 over a diffuse base, mixed with a metal of Schlick's Fresnel term.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from string import Template
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -16,16 +16,17 @@ from ....core.conventions import Array
 from ....core.kinds.kernel_pyramid.atlas import atlas_texels
 from ....core.kinds.kernel_pyramid.pyramid import Pyramid
 from ....core.kinds.kernel_pyramid.shading import Families
+from ....core.kinds.kernel_pyramid.suns import Suns
 from ....core.lobes.family import KERNELS
 from ....files.atomic import written_aside
 from ....files.ktx2 import Texels, write_ktx2
 from ....files.textures import Texture
 from ....files.version import rsibr
-from .engine import Preset, as_halves
+from .engine import LARGEST_HALF, Preset, as_halves
 from .settings import LobesSettings
 
-LANGUAGES = {".glsl": "vec4({})", ".wgsl": "vec4f({})", ".hlsl": "float4({})"}
-"""Ending of a shader -> four numbers in its language."""
+LANGUAGES = {".glsl": "vec{}", ".wgsl": "vec{}f", ".hlsl": "float{}"}
+"""Ending of a shader -> the type of so many numbers in its language."""
 
 F0 = 0.04
 """Of glTF's dielectrics, whose index of refraction is 1.5."""
@@ -77,20 +78,45 @@ def write(pyramid: Pyramid, families: Families, name: str, output: Path, force: 
         Light is brighter than half floats are.
     """
     files = ENGINE.files_of(output)
+    suns = pyramid.suns
+    if not suns.mirror_share(families.ggx.alpha[0]):  # nothing shows them as a mirror does
+        below = np.minimum(pyramid.mirror, suns.ceiling).astype(np.float32)
+        pyramid = replace(pyramid, mirror=below)
     atlas, places = atlas_texels(pyramid)
     notes = {"KTXwriter": rsibr()}
     levels = as_halves((atlas[None, ..., :3],), name)
     write_ktx2(files[0], Texture(levels), notes, force, Texels.HALF)
     write_ktx2(files[1], Texture((lobe_table(families),)), notes, force, Texels.HALF)
-    diffuse = len(KERNELS) + 1  # behind the mirror
-    used = np.delete(places[0, : diffuse + 1], len(KERNELS), axis=0)
+    used = places[0, : len(KERNELS) + 2]  # the mirror and diffuse light are behind the kernels
     for path in files[2:]:
-        four = LANGUAGES[path.suffix]
-        listed = ",\n    ".join(four.format(", ".join(f"{number:.9g}" for number in each)) for each in used)
+        constants = _constants(used, suns, LANGUAGES[path.suffix])
+        constants |= {"widths": len(families.ggx.alpha), "resolved": len(pyramid.bank)}
         shader = Template(Path(__file__).with_suffix(path.suffix).read_text(encoding="utf-8"))
         with written_aside(path, force) as aside:
-            aside.write_text(shader.substitute(name=output.stem, places=listed), encoding="utf-8")
+            aside.write_text(shader.substitute(name=output.stem, **constants), encoding="utf-8")
     return files
+
+
+def _constants(places: Array, suns: Suns, vector: str) -> dict[str, Any]:
+    """What a shader says of places and suns; `vector` is one of `LANGUAGES`."""
+
+    def told(numbers: Array) -> str:
+        return f"{vector.format(len(numbers))}({', '.join(f'{number:.9g}' for number in numbers)})"
+
+    def listed(vectors: Array) -> str:
+        return ",\n    ".join(map(told, vectors))
+
+    none = np.zeros((0 if len(suns) else 1, 3))  # no language has empty arrays
+    return {
+        "kernels": len(KERNELS),
+        "places": listed(places),
+        "suns": len(suns),
+        "directions": listed(np.vstack([suns.direction, none])),
+        "irradiances": listed(np.vstack([suns.irradiance, none])),
+        "ceiling": told(np.minimum(suns.ceiling, LARGEST_HALF)),
+        "narrowest": suns.narrowest,
+        "glass": told(rise(np.sqrt(F0))[1:]),
+    }
 
 
 def lobe_table(families: Families) -> Array:

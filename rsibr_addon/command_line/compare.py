@@ -41,11 +41,11 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     from ..tasks.compare.compare import compare, truth_of
     from ..tasks.methods.kinds import kind_of
 
-    against = truth_of(arguments.map_set).telling.name
+    telling = truth_of(arguments.map_set).telling
     settings = options.given_of(arguments, _owners(), kind_of(arguments.map_set))
     comparison = console.steps(compare(arguments.map_set, settings, arguments.output, arguments.force))
     page = arguments.output / "index.html"
-    for line in (*lines(comparison, against(comparison.settings)), str(page)):
+    for line in (*lines(comparison, telling(comparison.settings).name), str(page)):
         console.say(line)
     return {"page": str(page), "comparison": comparison.to_json()}
 

@@ -46,10 +46,10 @@ def draw(
 TRUTH = Truth(
     way=DiskWay,
     draw=draw,
-    telling=Telling(
-        name=lambda settings: "a brighter disk",
-        made=lambda settings: "drawn brighter",
+    telling=lambda settings: Telling(
+        name="a brighter disk",
+        made="drawn brighter",
+        quality=f"{settings.brighter} times",
         notes=lambda comparison: "",
-        quality=lambda settings: f"{settings.brighter} times",
     ),
 )

@@ -92,7 +92,7 @@ def compare(
     )
     with folder_written_aside(output, RESULT, force) as folder:
         sheets = save_sheets(folder / "images", seen.references, seen.drawn)
-        text = comparison_report(comparison, truth.telling, sheets)
+        text = comparison_report(comparison, truth.telling(seen.settings), sheets)
         (folder / "index.html").write_text(text, encoding="utf-8", errors="replace")
         (folder / RESULT).write_text(json.dumps(comparison.to_json(), indent=1), encoding="utf-8")
     return comparison

@@ -75,10 +75,11 @@ def _notes(comparison: Comparison) -> str:
     )
 
 
-EXACT = Telling(
-    name=lambda settings: "the model itself",
-    made=lambda settings: "integrated exactly",
-    notes=_notes,
-    quality=lambda settings: f"{settings.rings} rings of surface points",
-)
-"""What is told of pictures of the model itself."""
+def telling(settings: Any) -> Telling:
+    """What is told of pictures of the model itself, whose rings settings number."""
+    return telling_with(f"{settings.rings} rings of surface points")
+
+
+def telling_with(quality: str) -> Telling:
+    """What is told of pictures of the model itself: see `Telling.quality`."""
+    return Telling("the model itself", "integrated exactly", quality, _notes)

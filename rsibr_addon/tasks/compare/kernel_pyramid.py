@@ -17,7 +17,7 @@ from ...settings.kernel_pyramid import PyramidComparison
 from ..reflectance.brdfs import load_brdf
 from . import model_or_cycles
 from .comparison import cameras_of
-from .exact import EXACT, exact_pictures, picture, rings_of
+from .exact import exact_pictures, picture, rings_of, telling
 from .truth import Drawn, Truth
 
 
@@ -87,6 +87,6 @@ def _is_look(way: PyramidWay, look: PrincipledLook) -> bool:
 TRUTH = Truth(
     way=PyramidWay,
     draw=draw,
-    telling=EXACT,
+    telling=telling,
     is_look=_is_look,
 )

@@ -14,7 +14,7 @@ from ...settings.lobe_stack import StackComparison
 from ..reflectance.brdfs import check_told_brdf, load_brdf
 from . import model_or_cycles
 from .comparison import cameras_of
-from .exact import EXACT, LEAST_RINGS, exact_pictures, picture
+from .exact import LEAST_RINGS, exact_pictures, picture, telling
 from .truth import Drawn, Truth
 
 
@@ -74,5 +74,5 @@ def draw(
 TRUTH = Truth(
     way=StackWay,
     draw=draw,
-    telling=EXACT,
+    telling=telling,
 )

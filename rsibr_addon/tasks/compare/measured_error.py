@@ -51,7 +51,7 @@ def measured_facts(map_set: Path, look: Any = None) -> dict[str, str]:
     named = len(errors) > 1
     return {
         **{f"Measured{f': {error.way.name}' if named else ''}": _words(error) for error in errors},
-        "Against": f"{truth.telling.name(comparison.settings)}, {len(comparison.view_dirs)} views",
+        "Against": f"{truth.telling(comparison.settings).name}, {len(comparison.view_dirs)} views",
     }
 
 

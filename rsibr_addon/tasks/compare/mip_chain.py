@@ -98,6 +98,6 @@ def _is_look(way: MipWay, look: MipLook) -> bool:
 TRUTH = Truth(
     way=MipWay,
     draw=draw,
-    telling=model_or_cycles.UNLESS_NAMED,
+    telling=model_or_cycles.telling,
     is_look=_is_look,
 )

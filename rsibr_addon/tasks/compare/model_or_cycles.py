@@ -1,6 +1,6 @@
 """References of kinds that state a model: the model itself, or a material that Cycles renders."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -93,34 +93,6 @@ def beside(
     )
 
 
-BY_CYCLES = Telling(
-    name=lambda settings: "Cycles" if settings.material is None else f"{settings.material} by Cycles",
-    made=lambda settings: "rendered by Cycles",
-    notes=references.notes,
-    quality=references.quality,
-)
-"""What is told of pictures by Cycles."""
-
-
-def telling(is_by_model: Callable[[Any], bool]) -> Telling:
-    """What is told of such references.
-
-    Parameters
-    ----------
-    is_by_model : callable
-        Settings to whether the truth is the model itself.
-    """
-
-    def of(settings: Any) -> Telling:
-        return exact.EXACT if is_by_model(settings) else BY_CYCLES
-
-    return Telling(
-        name=lambda settings: of(settings).name(settings),
-        made=lambda settings: of(settings).made(settings),
-        notes=lambda comparison: of(comparison.settings).notes(comparison),
-        quality=lambda settings: of(settings).quality(settings),
-    )
-
-
-UNLESS_NAMED = telling(lambda settings: settings.material is None)
-"""The truth is the map set's model, unless settings name a material, which Cycles renders."""
+def telling(settings: Any) -> Telling:
+    """What is told of the map set's model; of Cycles, where settings name a material, which it renders."""
+    return exact.telling(settings) if settings.material is None else references.telling(settings)

@@ -24,7 +24,7 @@ from ...settings.radiance_views import ViewsComparison
 from ..reflectance.brdfs import load_brdf, told_brdf
 from . import exact, model_or_cycles, references
 from .comparison import cameras_of
-from .truth import Drawn, Truth
+from .truth import Drawn, Telling, Truth
 
 
 @dataclass(frozen=True)
@@ -132,13 +132,15 @@ def _is_by_model(settings: ViewsComparison) -> bool:
     return is_model(settings.material or "")
 
 
-def _quality(settings: ViewsComparison) -> str:
-    return "sums over rings of points" if _is_by_model(settings) else references.quality(settings)
+def _telling(settings: ViewsComparison) -> Telling:
+    if _is_by_model(settings):
+        return exact.telling_with("sums over rings of points")
+    return references.telling(settings)
 
 
 TRUTH = Truth(
     way=ViewsWay,
     draw=draw,
-    telling=replace(model_or_cycles.telling(_is_by_model), quality=_quality),
+    telling=_telling,
     is_look=_is_look,
 )

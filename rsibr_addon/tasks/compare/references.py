@@ -20,6 +20,7 @@ from ...host.scenes import temporary_scene
 from ...host.spheres import add_sphere
 from ...host.worlds import light_with
 from .comparison import Comparison, Way, WayError, way_error
+from .truth import Telling
 
 
 @dataclass(frozen=True)
@@ -165,8 +166,17 @@ def noise_of(references: Sequence[Reference]) -> float:
     return relative_rmse(radiance + noise, radiance, rgba[..., 3])
 
 
-def notes(comparison: Comparison) -> str:
-    """See `truth.Telling`."""
+def telling(settings: Any) -> Telling:
+    """What is told of pictures by Cycles."""
+    return Telling(
+        name="Cycles" if settings.material is None else f"{settings.material} by Cycles",
+        made="rendered by Cycles",
+        quality=f"two renders of {settings.samples // 2} samples a pixel, not denoised",
+        notes=_notes,
+    )
+
+
+def _notes(comparison: Comparison) -> str:
     noise = f"{100.0 * comparison.reference_noise:.2g}&thinsp;%"
     told = (
         f"Cycles&rsquo; own noise, which makes <b>{noise}</b> of the reference, is not counted: two renders "
@@ -178,11 +188,6 @@ def notes(comparison: Comparison) -> str:
         f"{told} In Cycles&rsquo; pictures the mesh hides parts of its surroundings from itself; no map "
         "knows that."
     )
-
-
-def quality(settings: Any) -> str:
-    """See `truth.Telling`."""
-    return f"two renders of {settings.samples // 2} samples a pixel, not denoised"
 
 
 def _rgba(view: RenderedView) -> Array:

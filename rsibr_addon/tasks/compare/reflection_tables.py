@@ -135,6 +135,6 @@ def _is_look(way: TablesWay, look: TablesLook) -> bool:
 TRUTH = Truth(
     way=TablesWay,
     draw=draw,
-    telling=model_or_cycles.UNLESS_NAMED,
+    telling=model_or_cycles.telling,
     is_look=_is_look,
 )

@@ -36,8 +36,8 @@ def comparison_report(comparison: Comparison, telling: Telling, sheets: Sheets) 
         environment=escape(comparison.environment),
         map_set=escape(comparison.map_set),
         mesh=escape(_mesh(comparison)),
-        reference_name=telling.name(comparison.settings),
-        made=telling.made(comparison.settings),
+        reference_name=telling.name,
+        made=telling.made,
         notes=telling.notes(comparison),
         view_count=count,
         full_difference=f"{100.0 * FULL_DIFFERENCE:g}&thinsp;%",
@@ -80,7 +80,7 @@ def _figure(comparison: Comparison, telling: Telling, number: int) -> str:
     row, column = divmod(number, COLUMNS)
     # Percentages of a background's position run from its first tile to its last.
     at = f"{100.0 * column / max(columns - 1, 1):.4f}% {100.0 * row / max(rows - 1, 1):.4f}%"
-    names = {"reference": telling.name(comparison.settings), "drawing": "RSIBR", "difference": "difference"}
+    names = {"reference": telling.name, "drawing": "RSIBR", "difference": "difference"}
     tiles = "".join(
         f'<div class="tile {kind}" style="--at: {at}" role="img" aria-label="{name}, view {number + 1}">'
         "</div>"
@@ -108,7 +108,7 @@ def _settings(comparison: Comparison, telling: Telling) -> list[tuple[str, str]]
         ("mesh", escape(_mesh(comparison))),
         ("camera", "orthographic" if angle is None else f"perspective, {angle:g}&deg;"),
         ("pictures", f"{settings.size}&times;{settings.size}"),
-        (telling.name(settings), telling.quality(settings)),
+        (telling.name, telling.quality),
         ("seed", str(settings.seed)),
     ]
 

@@ -48,20 +48,20 @@ class Telling:
 
     Attributes
     ----------
-    name : callable
-        Settings to who tells the truth: "Cycles".
-    made : callable
-        Settings to how: "rendered by Cycles".
+    name : str
+        Who tells the truth: "Cycles".
+    made : str
+        How: "rendered by Cycles".
+    quality : str
+        How good they are, in words.
     notes : callable
         A comparison to what else there is to know of its references, as HTML.
-    quality : callable
-        Settings to how good the references are, in words.
     """
 
-    name: Callable[[Any], str]
-    made: Callable[[Any], str]
+    name: str
+    made: str
+    quality: str
     notes: Callable[[Comparison], str]
-    quality: Callable[[Any], str]
 
 
 @dataclass(frozen=True)
@@ -74,13 +74,13 @@ class Truth:
         A dataclass that is a `Way`.
     draw : callable
         The map set's file, for messages; its content, environment and material; and settings, to `Drawn`.
-    telling : Telling
-        Of the references.
+    telling : callable
+        Settings, with all that they left open, to what is told of the references.
     is_look : callable
         Whether a way to draw is that of a look.
     """
 
     way: type[Way]
     draw: Callable[[Any, Any, Environment, dict[str, Any], Any], Steps[Drawn]]
-    telling: Telling
+    telling: Callable[[Any], Telling]
     is_look: Callable[[Any, Any], bool] = lambda way, look: True

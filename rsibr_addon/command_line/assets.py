@@ -4,7 +4,7 @@ import argparse
 from typing import Any
 
 from .console import Console
-from .options import add_output
+from .file_arguments import add_output
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -11,7 +11,8 @@ from ..job import BakeJob
 from ..settings.light import Light
 from ..settings.method import MethodSettings
 from .console import Console
-from .options import add_options, add_output, given
+from .file_arguments import add_output
+from .options import add_options, given
 
 NO_LIGHT = (
     "Neither an environment nor a file is given, so the world that Blender starts with is baked: give "

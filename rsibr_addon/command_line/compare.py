@@ -8,6 +8,7 @@ from ..core.counted import counted
 from ..files.kinds.registry import STORED
 from . import options
 from .console import Console
+from .file_arguments import add_map_set, add_output
 
 if TYPE_CHECKING:
     from ..tasks.compare.comparison import Comparison
@@ -20,9 +21,9 @@ def _owners() -> dict[str, Any]:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what `run` reads."""
-    options.add_map_set(parser)
+    add_map_set(parser)
     options.add_options_of(parser, _owners())
-    options.add_output(parser, "FOLDER", "for the report, its pictures and comparison.json")
+    add_output(parser, "FOLDER", "for the report, its pictures and comparison.json")
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:

@@ -13,6 +13,7 @@ from ..tasks.export.engines.engines import ENGINES
 from ..tasks.export.formats import FORMATS
 from . import options
 from .console import Console
+from .file_arguments import add_map_set_or_light, add_output, map_set_or_light
 
 PAGE, PAGE_ENDING = "page", ".html"
 """Name of the options of web pages, and the ending of their files' names."""
@@ -20,7 +21,7 @@ PAGE, PAGE_ENDING = "page", ".html"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what `run` reads."""
-    options.add_map_set_or_light(parser, "which engines take, as they take mip chains")
+    add_map_set_or_light(parser, "which engines take, as they take mip chains")
     uses = "; ".join(f"{name}, {each.use}" for name, each in ENGINES.items())
     parser.add_argument(
         "--for",
@@ -32,7 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     options.add_options_of(parser, _owners())
     endings = dict.fromkeys([*_own_endings(), *_engine_endings()])
     names = "|".join(f"OUT{ending}" for ending in endings)
-    options.add_output(
+    add_output(
         parser,
         names,
         "the first file; its name tells the format, HTML is a web page that needs no other file",
@@ -55,7 +56,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     from ..tasks.export.engines.export import export_for_engine
     from ..tasks.export.export import export, format_of
 
-    source, output, engine = options.map_set_or_light(arguments), arguments.output, arguments.engine
+    source, output, engine = map_set_or_light(arguments), arguments.output, arguments.engine
     if not engine and output.suffix.lower() == PAGE_ENDING:
         textures = console.steps(_page(source, arguments))
     else:

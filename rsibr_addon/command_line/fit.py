@@ -7,6 +7,7 @@ from typing import Any
 from ..settings.fit import FitSettings
 from . import options
 from .console import Console
+from .file_arguments import add_output
 
 EXPLAINED = {
     "left_out": "error of captured views that the lobes were not fitted to, noise included",
@@ -33,7 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=[],
         help="other fits of the model, whose errors are plotted beside, in error.svg",
     )
-    options.add_output(parser, "FIT.json", "the fit to write")
+    add_output(parser, "FIT.json", "the fit to write")
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:

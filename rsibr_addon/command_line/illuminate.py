@@ -11,7 +11,8 @@ from ..files.radiance_pictures import describe_radiance
 from ..settings.environment import FacesSettings, PaintedSettings, SceneLight, WorldLight
 from ..settings.photographs import BallBrackets, BallSettings, BracketSettings
 from .console import Console
-from .options import add_options, add_output, given
+from .file_arguments import add_output
+from .options import add_options, given
 
 ENVIRONMENT = "the latitude-longitude map to write"
 BLEND = ("FILE.blend", "the file that holds the scene")

@@ -8,7 +8,8 @@ from ..job import BakeJob
 from ..settings.baked_inputs import BakedInputsSettings, ObjectInputsSettings
 from .bake import run_job
 from .console import Console
-from .options import add_options, add_output, given
+from .file_arguments import add_output
+from .options import add_options, given
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

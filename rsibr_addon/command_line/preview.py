@@ -7,14 +7,15 @@ from ..files.kinds.registry import look_types
 from ..settings.drawing import PreviewOptions
 from . import options
 from .console import Console
+from .file_arguments import add_map_set_or_light, add_output, map_set_or_light
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what `run` reads."""
-    options.add_map_set_or_light(parser, "to be mirrored")
+    add_map_set_or_light(parser, "to be mirrored")
     options.add_options(parser, PreviewOptions)
     options.add_options_of(parser, look_types())
-    options.add_output(parser, "OUT.exr|OUT.png", "EXR holds linear radiance, and coverage in alpha")
+    add_output(parser, "OUT.exr|OUT.png", "EXR holds linear radiance, and coverage in alpha")
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
@@ -33,7 +34,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     from ..tasks.methods.kinds import kind_of
     from ..tasks.preview import preview, turntable
 
-    source, settings = options.map_set_or_light(arguments), options.given(arguments, PreviewOptions)
+    source, settings = map_set_or_light(arguments), options.given(arguments, PreviewOptions)
     look = options.given_of(arguments, look_types(), kind_of(source))
     asked = source, settings, arguments.output, arguments.force, look
     if settings.turntable is None:

@@ -7,11 +7,12 @@ from typing import Any
 from ..settings.report import ReportOptions
 from . import options
 from .console import Console
+from .file_arguments import add_map_set
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what `run` reads."""
-    options.add_map_set(parser)
+    add_map_set(parser)
     parser.add_argument(
         *("-o", "--output"),
         metavar="OUT.html",

@@ -1,6 +1,6 @@
 """Maps as pictures: a file for each sheet, or the faces of a cube as a cross or a strip in one."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -252,7 +252,7 @@ def write_map(path: Path, layout: Layout, image: Array, force: bool = False) -> 
     return paths
 
 
-def check_map_target(path: Path, layout: Layout, force: bool = False) -> None:
+def check_map_target(path: Path, layout: Layout, force: bool = False, sources: Iterable[Path] = ()) -> None:
     """Refuse names that `write_map` would refuse, before long work begins.
 
     Parameters
@@ -261,14 +261,17 @@ def check_map_target(path: Path, layout: Layout, force: bool = False) -> None:
     layout : Layout
     force : bool
         Whether existing files may be replaced.
+    sources : iterable of Path
+        Files that the map is made of.
 
     Raises
     ------
     OutputFileError
         See `check_radiance_target`.
     """
+    made_of = list(sources)
     for file in layout.paths(path):
-        check_radiance_target(file, force)
+        check_radiance_target(file, force, made_of)
 
 
 def _fits(layout: Layout, size: tuple[int, ...]) -> bool:

@@ -1,5 +1,6 @@
 """Pictures of radiance in either format: OpenEXR and Radiance HDR."""
 
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -7,7 +8,7 @@ import numpy as np
 from ..core.conventions import Array
 from ..core.errors import InputFileError
 from . import exr, radiance_hdr
-from .atomic import check_target, written_aside
+from .atomic import check_apart, check_target, written_aside
 from .exr_part import Part
 from .picture_facts import PictureFacts
 from .pictures import describe_exr, picture_of, split_layer
@@ -95,15 +96,21 @@ def describe_radiance(path: str | Path) -> PictureFacts:
     )
 
 
-def check_radiance_target(path: str | Path, force: bool = False) -> None:
+def check_radiance_target(path: str | Path, force: bool = False, sources: Iterable[Path] = ()) -> None:
     """Refuse a name that `write_radiance` would refuse, unless it may be replaced, before long work begins.
+
+    Parameters
+    ----------
+    sources : iterable of Path
+        Files that the picture is made of.
 
     Raises
     ------
     OutputFileError
-        The name ends neither in .exr nor in .hdr; or see `check_target`.
+        The name ends neither in .exr nor in .hdr; or see `check_target` and `check_apart`.
     """
     check_target(path, force, (".exr", ".hdr"))
+    check_apart(path, sources)
 
 
 def write_radiance(path: str | Path, radiance: Array, force: bool = False, comments: str = "") -> None:

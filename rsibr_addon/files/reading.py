@@ -20,11 +20,14 @@ def opened(path: str | Path) -> Iterator[BufferedReader]:
     Raises
     ------
     InputFileError
-        The file is missing or a folder, or the system refuses to read it, now or in the body.
+        The file is missing, a folder, a pipe or a device, which may never end; or the system refuses to read
+        it, now or in the body.
     """
     path = Path(path)
     if path.is_dir():
         raise InputFileError(f"{path} is a folder: give the name of a file in it.")
+    if path.exists() and not path.is_file():
+        raise InputFileError(f"{path} is a pipe or a device, not a file: save it as a file first.")
     try:
         with path.open("rb") as stream:
             yield stream

@@ -5,10 +5,12 @@ corners at a vertex disagree, the vertex is split.
 """
 
 import hashlib
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import bpy
 
@@ -32,6 +34,13 @@ from .scenes import temporary_scene
 
 MESH_NAMES = ("sphere", "monkey")
 """Meshes that `load_mesh` makes itself; any other name is a file."""
+
+MESH_FILES: dict[str, Callable[..., Any]] = {
+    ".obj": partial(bpy.ops.wm.obj_import, validate_meshes=False),
+    ".ply": bpy.ops.wm.ply_import,
+    ".stl": partial(bpy.ops.wm.stl_import, use_mesh_validate=False),
+}
+"""Ending of a file that `load_mesh` reads -> Blender's operator for it, which hides no faults."""
 
 SPHERE_RINGS = 160
 """Bands of latitude of the tessellated sphere, which has twice as many meridians.
@@ -75,8 +84,9 @@ def load_mesh(spec: str) -> TriangleMesh:
     ----------
     spec : str
         ``sphere``: the unit sphere. ``monkey``: Suzanne, subdivided. Otherwise the path of a
-        Wavefront OBJ file; its Y up becomes Blender's Z up, its objects become one mesh. A file
-        that states neither normals nor smoothing groups is shaded smooth.
+        file of `MESH_FILES`: Wavefront OBJ, whose Y up becomes Blender's Z up and whose objects become one
+        mesh; PLY or STL, whose axes are Blender's. A file that states neither normals nor smoothing groups
+        is shaded smooth.
 
     Returns
     -------
@@ -87,14 +97,14 @@ def load_mesh(spec: str) -> TriangleMesh:
     Raises
     ------
     InputFileError
-        The file is missing, is not an OBJ file, has no faces or no extent, or has positions that are not
+        The file is missing or of another format, has no faces or no extent, or has positions that are not
         finite.
     """
     if spec == "sphere":
         return _sphere()
     if spec == "monkey":
         return _fitted(_monkey())
-    return _fitted(_read_obj(Path(spec)))
+    return _fitted(_read_mesh(Path(spec)))
 
 
 def mesh_row(specs: Sequence[str]) -> TriangleMesh:
@@ -241,23 +251,26 @@ def _monkey() -> TriangleMesh:
         return _joined_scene("monkey", scene)
 
 
-def _read_obj(path: Path) -> TriangleMesh:
+def _read_mesh(path: Path) -> TriangleMesh:
     """All faces of a file, in Blender's axes."""
     if not path.is_file():
         names = " or ".join(MESH_NAMES)
-        raise InputFileError(f"There is no mesh {path}: name {names}, or an existing OBJ file.")
+        raise InputFileError(f"There is no mesh {path}: name {names}, or an existing file.")
+    if path.suffix.lower() not in MESH_FILES:
+        raise InputFileError(f"{path} is no OBJ, PLY or STL file by its name: save the mesh as one of them.")
+    kind = path.suffix[1:].upper()
     with temporary_scene() as scene:
         try:
             with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[0]):
-                bpy.ops.wm.obj_import(filepath=str(path.resolve()), validate_meshes=False)
+                MESH_FILES[path.suffix.lower()](filepath=str(path.resolve()))
         except (RuntimeError, UnicodeDecodeError) as error:  # Blender's report may quote bytes of the file
-            raise InputFileError(f"{path} cannot be read as a Wavefront OBJ: check the file.") from error
+            raise InputFileError(f"{path} cannot be read as {kind}: check the file.") from error
         for item in scene.objects:
             if item.type == "MESH":
                 _repair(item.data, path)
         mesh = _joined_scene(path.name, scene)
     if not len(mesh.triangles):
-        raise InputFileError(f"{path} holds no faces: give a Wavefront OBJ file of a surface.")
+        raise InputFileError(f"{path} holds no faces that can be read as {kind}: give a file of a surface.")
     return mesh
 
 

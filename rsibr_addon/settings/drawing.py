@@ -18,7 +18,7 @@ class MeshOptions(Options):
     mesh: str = option(
         "sphere",
         label="Mesh",
-        help="sphere, monkey or FILE.obj; fitted into the unit sphere, which fills the frame",
+        help="sphere, monkey or a file, OBJ, PLY or STL; fitted into the unit sphere, which fills the frame",
         metavar="MESH",
     )
 

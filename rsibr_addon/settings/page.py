@@ -20,7 +20,8 @@ class MeshPageOptions(PageOptions):
     mesh: tuple[str, ...] = option(
         ("sphere",),
         label="Mesh",
-        help="sphere, monkey, FILE.obj or FILE.blend:OBJECT, whose name may be a pattern as in FILE.blend:*; "
-        "given several times, objects of one Blender file stand as they do there, and other meshes in a row",
+        help="sphere, monkey, a file (OBJ, PLY or STL) or FILE.blend:OBJECT, whose name may be a pattern as "
+        "in FILE.blend:*; given several times, objects of one Blender file stand as they do there, and other "
+        "meshes in a row",
         metavar="MESH",
     )

@@ -1,6 +1,6 @@
 """Pictures of a mesh shaded from a map set: one, or a turn around it."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -18,7 +18,7 @@ from ..core.warned import warn
 from ..device.drawing import GpuMapSet
 from ..device.lit_sphere import GpuLitSphere
 from ..device.preview import STILL, PreviewRenderer
-from ..files.atomic import check_target, written_aside
+from ..files.atomic import check_apart, check_target, written_aside
 from ..files.kinds.registry import look_types
 from ..files.outputs import together
 from ..files.pictures import write_exr
@@ -27,6 +27,7 @@ from ..host.meshes import TriangleMesh, load_mesh
 from ..host.movies import save_movie
 from ..host.pictures import save_png
 from ..settings.drawing import PreviewOptions, Turned
+from ..settings.matte import LIGHT
 from .compare.contact_sheet import contact_sheet
 from .compare.exact import rings_of
 from .matte import Matte
@@ -59,7 +60,7 @@ def preview(
     MapSetError, InputFileError, DeviceError
         Or see `tasks.reflectance.brdfs.load_brdf`, where a model itself is shown.
     """
-    _check_picture_target(output, force)
+    _check_picture_target(output, force, _sources(map_set, settings))
     yield Progress(0, 2, f"reading {map_set.name}")
     opened = open_map_set(map_set, clamp=settings.clamp)
     if settings.exact is not None and look not in (None, look_types()[opened.kind]()):
@@ -102,7 +103,7 @@ def turntable(
     MapSetError, InputFileError, OutputFileError, DeviceError, RenderError
     """
     movie = output.with_suffix(".mp4")
-    _check_picture_target(output, force)
+    _check_picture_target(output, force, _sources(map_set, settings))
     check_target(movie, force)
     if settings.size % 2:
         raise RangeError(f"A movie cannot be {settings.size} pixels wide: choose an even size.")
@@ -186,8 +187,14 @@ def _spaced(frame_count: int) -> set[int]:
     return {number * frame_count // shown for number in range(shown)}
 
 
-def _check_picture_target(path: Path, force: bool) -> None:
+def _check_picture_target(path: Path, force: bool, sources: Iterable[Path]) -> None:
     check_target(path, force, (".exr", ".png"))
+    check_apart(path, sources)
+
+
+def _sources(map_set: Path, settings: PreviewOptions) -> list[Path]:
+    picture = [] if settings.background in (None, LIGHT) else [Path(settings.background)]
+    return [map_set, *picture]
 
 
 def _write_picture(path: Path, rgba: Array, settings: PreviewOptions, force: bool) -> None:

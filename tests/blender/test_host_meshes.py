@@ -146,6 +146,40 @@ def test_a_missing_file_is_refused_by_name(tmp_path: Path) -> None:
         load_mesh(str(tmp_path / "absent.obj"))
 
 
+TRIANGLES = {
+    "given.ply": b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+    b"property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    b"0 0 0\n2 0 0\n0 0 1\n3 0 1 2\n",
+    "given.stl": b"solid\nfacet normal 0 -1 0\nouter loop\nvertex 0 0 0\nvertex 2 0 0\nvertex 0 0 1\n"
+    b"endloop\nendfacet\nendsolid\n",
+    "given.obj": b"v 0 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n",  # Y up
+}
+
+
+@pytest.mark.parametrize("name", TRIANGLES)
+def test_each_format_stands_as_blender_reads_it(tmp_path: Path, name: str) -> None:
+    (tmp_path / name).write_bytes(TRIANGLES[name])
+    before = names_in_file()
+    mesh = load_mesh(str(tmp_path / name))
+    expected = np.array([(-1.0, 0.0, -0.5), (1.0, 0.0, -0.5), (-1.0, 0.0, 0.5)]) / np.sqrt(1.25)
+    np.testing.assert_allclose(mesh.positions[mesh.triangles[0]], expected, atol=1e-6)
+    np.testing.assert_allclose(mesh.normals[0], (0.0, -1.0, 0.0), atol=1e-4)
+    assert names_in_file() == before
+
+
+@pytest.mark.parametrize("name", ["given.ply", "given.stl"])
+def test_other_bytes_in_a_format_are_refused_by_name(tmp_path: Path, name: str) -> None:
+    (tmp_path / name).write_bytes(bytes(range(1, 256)) * 20)
+    with pytest.raises(InputFileError, match=rf"{name} (cannot be read|holds no faces)"):
+        load_mesh(str(tmp_path / name))
+
+
+def test_a_format_that_is_not_read_is_named(tmp_path: Path) -> None:
+    (tmp_path / "given.glb").write_bytes(b"glTF")
+    with pytest.raises(InputFileError, match=r"given\.glb is no OBJ, PLY or STL file by its name"):
+        load_mesh(str(tmp_path / "given.glb"))
+
+
 def test_the_artists_file_is_left_alone(tmp_path: Path) -> None:
     cube = bpy.data.objects["Cube"]
     cube.select_set(True)

@@ -8,10 +8,9 @@ from ...core.brdf.spec import MATERIAL, MODELS, is_model
 from ...core.errors import RsibrError
 from ...core.near_names import did_you_mean
 from ...core.options import declared_options
-from ...files.pictures import split_layer
+from ...files.atomic import check_apart
 from ...files.reading import opened
-from ..light.environments import environment_file
-from ..methods.bake import METHODS
+from ..methods.bake import METHODS, source_files
 from .bakes import BatchBake
 
 _OF_BLENDER = re.compile(rf"(?:{MATERIAL})?:|.+\.blend\d*:", re.IGNORECASE)
@@ -31,12 +30,11 @@ def fault_of(bake: BatchBake) -> str:
             return _unknown(text)
     try:
         METHODS[settings.KIND].cost(settings)
-        files = [*METHODS[settings.KIND].sources(settings).named.values()]
-        if bake.job.light.environment is not None:
-            files.append(split_layer(environment_file(bake.job.light.environment))[0])
+        files = source_files(bake.job)
         for file in files:
             with opened(file):
                 pass
+        check_apart(bake.job.output, files)
     except RsibrError as error:
         return str(error)
     return ""

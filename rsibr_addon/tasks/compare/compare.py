@@ -6,6 +6,7 @@ from pathlib import Path
 from ...core.errors import MapSetError
 from ...core.progress import Progress, Steps
 from ...device.context import ensure_context
+from ...files.atomic import check_apart
 from ...files.folders import check_folder_target, folder_written_aside
 from ...files.kinds.registry import STORED
 from ...files.map_set_header import content_hash
@@ -65,6 +66,7 @@ def compare(
     how each samples a silhouette does not count.
     """
     check_folder_target(output, RESULT, force)
+    check_apart(output, [map_set])
     total = settings.views + 2
     yield Progress(0, total, f"reading {map_set.name}")
     header, truth = map_set_header(map_set), truth_of(map_set)

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -81,7 +82,7 @@ def illuminate_from_ball(
     RsibrWarning
         See `brackets.merged`, `brackets.read_photographs` and `read_light`.
     """
-    check_radiance_target(output, force)
+    check_radiance_target(output, force, chain.from_iterable(photographs))
     card = None if settings.card is None else _card(photographs[0], settings.card, settings.clamp)
     sides, circles = [], []
     second = replace(brackets, times=brackets.second_times, times_file=None)

@@ -105,7 +105,7 @@ def illuminate_from_brackets(
     RsibrWarning
         See `merged`.
     """
-    check_radiance_target(output, force)
+    check_radiance_target(output, force, photographs)
     paths, times = in_order(photographs, settings)
     pictures, encoding = yield from read_photographs(paths)
     for path, picture in zip(paths, pictures, strict=True):

@@ -43,7 +43,7 @@ def illuminate_from_faces(
         balanced.
     """
     faces, equirect = layout("cube_faces"), representation("equirect")
-    check_radiance_target(output, force)
+    check_radiance_target(output, force, faces.paths(source))
     yield Progress(0, 3, f"reading {source.name}")
     cube = read_map(source, faces, partial(read_light, clamp=settings.clamp)).astype(np.float64)
     gains: Array = np.ones((6, 3))

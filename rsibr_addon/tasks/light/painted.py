@@ -33,7 +33,7 @@ def illuminate_from_painting(
         See `lift_whites`.
     """
     before, after = layout(settings.source_layout), representation("equirect")
-    check_radiance_target(output, force)
+    check_radiance_target(output, force, before.paths(source))
     yield Progress(0, 3, f"reading {source.name}")
     picture = read_map(source, before, _read_painting)
     yield Progress(1, 3, f"making {output.name}")

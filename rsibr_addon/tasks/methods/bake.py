@@ -8,12 +8,15 @@ from typing import Any
 from ...core.errors import OutputFileError
 from ...core.lazy_table import LazyTable
 from ...core.progress import Progress, Steps
+from ...files.atomic import check_apart
 from ...files.kinds.registry import STORED
 from ...files.map_set import check_map_set_target
 from ...files.map_set_header import Recipe
+from ...files.pictures import split_layer
 from ...files.work_folder import clear_parts, held_work_folder, work_folder_beside
 from ...job import BakeJob
 from ...settings.baked_inputs import ObjectInputsSettings
+from ..light.environments import environment_file
 from .method import Baked, Method
 from .recipe import check_made_by, recipe_of
 
@@ -38,8 +41,8 @@ def bake(job: BakeJob[Any], known_whole: bool = False) -> Steps[Baked]:
     Raises
     ------
     OutputFileError
-        The output cannot be written; or it exists and is neither replaced nor kept, or was made with other
-        settings.
+        The output cannot be written; or it is what is baked from; or it exists and is neither replaced nor
+        kept, or was made with other settings.
     RsibrError
         See `bake` of the job's method.
 
@@ -54,6 +57,7 @@ def bake(job: BakeJob[Any], known_whole: bool = False) -> Steps[Baked]:
     keeps = not job.force and (job.if_missing or folder.is_dir())
     if not (keeps and output.is_file()):
         check_map_set_target(output, job.force)
+        check_apart(output, source_files(job))
     recipe = recipe_for(job)
     if keeps and output.is_file() and not folder.is_dir():
         return _found(output, recipe, known_whole)
@@ -83,6 +87,20 @@ def recipe_for(job: BakeJob[Any]) -> Recipe:
     """
     method = METHODS[job.settings.KIND]
     return method.recipe(job) if method.recipe else recipe_of(job, method.sources(job.settings))
+
+
+def source_files(job: BakeJob[Any]) -> list[Path]:
+    """The files that a job names, but for files of Blender; perhaps missing.
+
+    Raises
+    ------
+    InputFileError
+        There is no environment of a name.
+    """
+    files = [*METHODS[job.settings.KIND].sources(job.settings).named.values()]
+    if job.light.environment is not None:
+        files.append(split_layer(environment_file(job.light.environment))[0])
+    return files
 
 
 def _found(output: Path, recipe: Recipe, known_whole: bool = False) -> Baked:

@@ -17,7 +17,7 @@ from ...core.pictures.thumbnail import thumbnail
 from ...core.progress import Progress, Steps
 from ...core.warned import warn
 from ...device.preview import PreviewRenderer
-from ...files.atomic import check_target, written_aside
+from ...files.atomic import check_apart, check_target, written_aside
 from ...files.folders import check_folder_target, folder_written_aside
 from ...files.kinds.registry import STORED, look_types
 from ...files.map_set import read_map_set
@@ -82,6 +82,7 @@ def map_set_report(
     held = read_map_set(map_set)
     if maps is not None:
         check_folder_target(maps, _map_file(held.header["parts"][0]), force)
+        check_apart(maps, [map_set])
     yield Progress(1, 3, "drawing with it")
     opened = open_map_set(map_set)
     meshes = _drawn_meshes(opened)

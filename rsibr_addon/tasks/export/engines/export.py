@@ -13,7 +13,7 @@ from ....core.kinds.kernel_pyramid.pyramid import Pyramid
 from ....core.kinds.mip_chain.ggx import ggx_mips
 from ....core.maps import cube_map
 from ....core.progress import Progress, Steps
-from ....files.atomic import check_target
+from ....files.atomic import check_apart, check_target
 from ....files.kinds import environment, kernel_pyramid, mip_chain
 from ....files.kinds.kernel_pyramid import shipped_families
 from ....files.kinds.registry import STORED
@@ -76,6 +76,7 @@ def export_for_engine(
         )
     for path in engine.files_of(output):
         check_target(path, force)
+        check_apart(path, [source])
     yield Progress(0, 1, f"reading {source.name}")
     held = _read(source, engine)
     light = environment.from_map_set(source, held)

@@ -24,7 +24,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     Returns
     -------
     dict
-        For a map set: "map_set", the path, and "header", the description as docs/map-set-format.md has it.
+        For a map set: "map_set", the path, "header", the description as docs/map-set-format.md has it, and
+        "suns", what docs/export.md says of its suns, or None.
         For a picture: "picture", the path; "light", the fields of `core.light.light_range.LightRange`; and of
         one of radiance "facts", those of `files.picture_facts.PictureFacts`. Of a photograph "facts" are
         "bits", "size", "turned" (by its Exif), "colours", "exposure", the fields of
@@ -130,17 +131,30 @@ def _light(picture: Any, console: Console) -> dict[str, Any]:
 
 
 def _tell_of_map_set(path: str, console: Console) -> dict[str, Any]:
+    from ..files.kinds.registry import STORED
     from ..files.map_set import read_map_set, read_map_set_header
     from ..files.map_set_facts import told_errors, told_facts, told_making
 
-    read_map_set(path)
-    header = read_map_set_header(path)
+    held = read_map_set(path)
+    header, suns = read_map_set_header(path), STORED[held.kind].suns(held)
     console.say(f"{path}: a map set, format {header['format']}")
-    facts = told_facts(header) | told_errors(header) | told_making(header)
+    facts = told_facts(header) | told_errors(header) | told_making(header) | _suns_in_words(suns)
     width = max(map(len, facts))
     for what, which in facts.items():
         console.say(f"  {what:<{width}}  {which}")
-    return {"map_set": path, "header": header}
+    return {"map_set": path, "header": header, "suns": suns}
+
+
+def _suns_in_words(suns: dict[str, Any] | None) -> dict[str, str]:
+    told = {}
+    for number, sun in enumerate(suns["each"] if suns else (), 1):
+        direction, irradiance = (
+            " ".join(f"{value:.4g}" for value in sun[what]) for what in ("direction", "irradiance")
+        )
+        told[f"Sun {number}"] = (
+            f"direction {direction}, irradiance {irradiance}, {100.0 * sun['share']:.2g} % of the light"
+        )
+    return told
 
 
 def _size(size: Sequence[int]) -> str:

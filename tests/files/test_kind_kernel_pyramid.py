@@ -1,19 +1,26 @@
 """Kernel pyramids as files: what is written comes back, and everything else is named."""
 
+import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
+from rsibr.rsibr_addon.command_line.main import run
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import MapSetError
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import BakedPyramid, FilterErrors
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import Pyramid
 from rsibr.rsibr_addon.core.lobes.bank import KernelBank
+from rsibr.rsibr_addon.core.maps.equirect import direction_from_uv, texel_solid_angle
+from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.files.kinds.kernel_pyramid import from_map_set, to_map_set
 from rsibr.rsibr_addon.files.map_set import read_map_set, write_map_set
 from rsibr.rsibr_addon.files.map_set_data import MapSet
 from rsibr.rsibr_addon.files.map_set_header import Origin
+from rsibr.rsibr_addon.tasks.export.export import export
+from rsibr.tests.files.test_export import read as read_ktx2
 
 RNG = np.random.default_rng(4)
 LIGHT = Environment(RNG.random((8, 16, 3), dtype=np.float32), "light")
@@ -56,6 +63,30 @@ def test_suns_are_those_of_the_environment_that_the_file_holds() -> None:
     assert len(from_map_set(Path("a"), map_set).suns) == 1
     map_set.header["environment"]["part"] = None
     assert len(from_map_set(Path("a"), map_set).suns) == 0
+
+
+def test_what_is_told_of_suns(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    """By `rsibr info`, and by the note of textures."""
+    baked, _ = make_map_set()
+    dark = np.full((8, 16, 3), 0.5, np.float32)
+    dark[3, 5] = 1000.0, 600.0, 200.0
+    path, textures = tmp_path / "a.rsibr.exr", tmp_path / "a.ktx2"
+    write_map_set(path, to_map_set(baked, Origin(Environment(dark, "light"), {}, "a test")))
+    assert run(["info", str(path), "--json"]) == 0
+    told = json.loads(capfd.readouterr().out)["suns"]
+    texel = float(texel_solid_angle(16, 8)[3, 5])
+    assert told["ceiling"] == [0.5, 0.5, 0.5]
+    (sun,) = told["each"]
+    np.testing.assert_allclose(sun["irradiance"], texel * np.array([999.5, 599.5, 199.5]))
+    np.testing.assert_allclose(sun["direction"], direction_from_uv([5.5 / 16, 3.5 / 8]))
+    assert sun["share"] == pytest.approx(texel * 1798.5 / (texel * 1798.5 + 6.0 * np.pi))
+    assert run(["info", str(path)]) == 0
+    assert re.search(r"Sun 1 +direction .*, irradiance .* % of the light", capfd.readouterr().out)
+    for written in drain(export(path, textures)):
+        assert read_ktx2(written).note["suns"] == told
+    write_map_set(path, to_map_set(baked, Origin(LIGHT, {}, "a test")), force=True)
+    for written in drain(export(path, textures, force=True)):
+        assert "suns" not in read_ktx2(written).note
 
 
 @pytest.mark.parametrize(

@@ -12,9 +12,10 @@ from ...core.kinds.kernel_pyramid.bake import BakedPyramid, FilterErrors
 from ...core.kinds.kernel_pyramid.look import PrincipledLook
 from ...core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid
 from ...core.kinds.kernel_pyramid.shading import Families, principled_radiance
-from ...core.kinds.kernel_pyramid.suns import NO_SUNS, find_suns
+from ...core.kinds.kernel_pyramid.suns import NO_SUNS, Suns, find_suns
 from ...core.lobes.bank import KernelBank
 from ...core.lobes.rings import WIDTHS
+from ...core.maps import equirect
 from ...settings.kernel_pyramid import KernelPyramidSettings, PyramidComparison
 from ..families import shipped_family, shipped_sheen
 from ..map_set_data import ENVIRONMENT, MapSet
@@ -92,7 +93,6 @@ def from_map_set(path: Path, map_set: MapSet) -> Pyramid:
     )
     if tuple(part["width"] for part in rings) != WIDTHS:
         raise MapSetError(f"{path} lacks the rings that sheen is made of: make it again.")
-    embedded = map_set.header["environment"]["part"]
     of_rings = [map_set.maps[part["name"]] for part in rings]
     try:
         for name, sheets in (("diffuse", [single[LAMBERT], single[LEANING]]), ("ring", of_rings)):
@@ -104,7 +104,7 @@ def from_map_set(path: Path, map_set: MapSet) -> Pyramid:
             tuple(map_set.maps[part["name"]][None] for part in kernels),
             np.stack([single[LAMBERT], single[LEANING]]),
             np.stack(of_rings),
-            NO_SUNS if embedded is None else find_suns(map_set.maps[embedded]),
+            _suns(map_set),
         )
     except (RangeError, ShapeError) as error:
         raise MapSetError(f"{path} holds no light for own materials. {error}") from error
@@ -123,6 +123,29 @@ def shipped_families() -> Families:
 
 def _told(errors: FilterErrors) -> dict[str, Any]:
     return {"bound": errors.bound.tolist(), "interpolation": errors.interpolation}
+
+
+def _suns(map_set: MapSet) -> Suns:
+    embedded = map_set.header["environment"]["part"]
+    return NO_SUNS if embedded is None else find_suns(map_set.maps[embedded])
+
+
+def _told_suns(map_set: MapSet) -> dict[str, Any] | None:
+    suns = _suns(map_set)
+    if not len(suns):
+        return None
+    radiance = map_set.maps[map_set.header["environment"]["part"]]
+    solid_angle = equirect.texel_solid_angle(*radiance.shape[1::-1])
+    whole = float(np.einsum("hwi,hw->", radiance, solid_angle))
+    each = [
+        {
+            "direction": direction.tolist(),
+            "irradiance": irradiance.tolist(),
+            "share": float(irradiance.sum()) / whole,
+        }
+        for direction, irradiance in zip(suns.direction, suns.irradiance, strict=True)
+    ]
+    return {"each": each, "ceiling": suns.ceiling.tolist(), "narrowest": suns.narrowest}
 
 
 def _facts(header: dict[str, Any]) -> dict[str, str]:
@@ -155,6 +178,7 @@ STORED = StoredKind(
     roles={KERNEL: _Kernel, LAMBERT: _Filtered, LEANING: _Filtered, RING: _Ring},
     facts=_facts,
     part_title=_part_title,
+    suns=_told_suns,
     from_map_set=from_map_set,
     shading=_shading,
 )

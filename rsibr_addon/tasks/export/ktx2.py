@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ...core.options import Choice, Options, option
+from ...files.kinds.registry import STORED
 from ...files.ktx2 import write_ktx2
 from ...files.map_set_data import MapSet
 from ...files.textures import Up
@@ -28,6 +29,8 @@ def write(map_set: Path, held: MapSet, output: Path, settings: Ktx2Settings, for
     textures = textures_of(map_set, held, settings.up)
     kept = {field: held.header[field] for field in ("layout", "material", "error_bound", "settings")}
     common = {"kind": held.kind, "environment": held.header["environment"]["name"], **kept}
+    if suns := STORED[held.kind].suns(held):
+        common["suns"] = suns
     written = []
     for texture in textures:
         alone = len(textures) == 1

@@ -9,7 +9,6 @@ is the one that lowers the expected squared error of all of them most.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -75,14 +74,17 @@ def next_views(
         n is less than `count` where captured views leave no room for more.
     """
     candidates = candidate_dirs(len(view_dirs) + count)
-    known = _known(view_dirs, candidates, size, light, parts)
+    told = [
+        Candidates(known, equations_of_views(candidates, size, light, part))
+        for part, known in zip(parts, _known(view_dirs, size, light, parts), strict=True)
+    ]
     chosen = view_dirs
     for _ in range(count):
         near = _near(candidates, chosen)
         if near.all():
             break
-        best = first_greatest(np.where(near, -np.inf, sum(each.falls() for each in known)))
-        for each in known:
+        best = first_greatest(np.where(near, -np.inf, sum(each.falls() for each in told)))
+        for each in told:
             each.see(best)
         chosen = np.concatenate([chosen, candidates[[best]]])
     return chosen[len(view_dirs) :]
@@ -121,9 +123,15 @@ def compare_with_new(
     new_dirs = candidates[~_near(candidates, view_dirs)]
     if not len(new_dirs):
         return Comparison(np.ones(len(view_dirs), bool), new_dirs, 0.0)
-    known = _known(view_dirs, new_dirs, size, light, parts)
+    known = _known(view_dirs, size, light, parts)
     left_out = np.sum([each.left_out for each in known], axis=0)
-    new = np.sum([each.errors() for each in known], axis=0)
+    new = np.sum(
+        [
+            each.errors(equations_of_views(new_dirs, size, light, part))
+            for part, each in zip(parts, known, strict=True)
+        ],
+        axis=0,
+    )
     # One view is like a new one at least
     like_new = left_out <= max(new.max(), left_out.min())
     untested = new > left_out.max()
@@ -136,17 +144,10 @@ def _near(candidates: Array, view_dirs: Array) -> NDArray[np.bool]:
     return near
 
 
-def _known(
-    view_dirs: Array, candidates: Array, size: int, light: CapturedLight, parts: Sequence[Weighed]
-) -> list["Known"]:
-    """What views of some directions tell of views of others, for each part."""
+def _known(view_dirs: Array, size: int, light: CapturedLight, parts: Sequence[Weighed]) -> list["Known"]:
+    """What the captured views tell of each part."""
     return [
-        Known(
-            part,
-            equations_of_views(view_dirs, size, light, part),
-            equations_of_views(candidates, size, light, part),
-            0.25 * np.pi * size**2,
-        )
+        Known(part, equations_of_views(view_dirs, size, light, part), 0.25 * np.pi * size**2)
         for part in parts
     ]
 
@@ -182,66 +183,90 @@ def equations_of_views(view_dirs: Array, size: int, light: CapturedLight, part: 
 
 
 class Known:
-    """What views tell of one part's weights.
+    """What captured views tell of one part's weights.
 
     A texel's equation holds weights of two neighbouring elevations, as a step of the precision does. So
-    systems are block tridiagonal, and no covariance of all weights is needed: only that of the texels of
-    each candidate, and what it lowers.
+    systems are block tridiagonal, and no covariance of all weights is needed: only that of some texels.
 
     Parameters
     ----------
     part : Weighed
-    captured, candidates : sequence of ndarray, shapes (S, J * K, N)
-        Equations of the captured views, and of those that may follow: see `equations_of_views`.
+    captured : sequence of ndarray, shapes (S, J * K, N)
+        Equations of the captured views: see `equations_of_views`.
     texels : float
         How many texels a view has.
 
     Attributes
     ----------
+    variance : float
+        Squared error that counts as 1 in a texel's equation.
     precision : Tridiagonal
         Inverse of the weights' covariance before any view.
+    system : Tridiagonal
+        The same after the captured views.
     left_out : ndarray, shape (captured,)
         Expected squared error of each captured view, were it left out: the sum over its texels.
     """
 
-    def __init__(
-        self, part: Weighed, captured: Sequence[Array], candidates: Sequence[Array], texels: float
-    ) -> None:
-        self._candidates, self._variance = candidates, part.variance / (texels * len(captured))
-        told = _told(captured)
-        unit, tested = float(told.trace() / part.precision.trace()), -np.inf
+    def __init__(self, part: Weighed, captured: Sequence[Array], texels: float) -> None:
+        self.variance = part.variance / (texels * len(captured))
+        told = [_told(columns) for columns in captured]
+        every = _sum(told)
+        unit, tested = float(every.trace() / part.precision.trace()), -np.inf
         for price in PRICES:
             precision = part.precision * (price * unit)
-            system = told + precision
             left_out = np.array(
-                [_left_out(_products(columns, system.solve(columns))) for columns in captured]
+                [
+                    _error(every - own + precision, columns)
+                    for own, columns in zip(told, captured, strict=True)
+                ]
             )
             # The lower the price, the more the weights vary, and the more is wrong: but for rounding, where
             # views tell all
             if left_out.sum() < tested:
                 break
             tested = left_out.sum()
-            self.precision, self._system, self.left_out = precision, system, self._variance * left_out
+            self.precision, self.left_out = precision, self.variance * left_out
             # Weights that vary by so much explain all of the error of views left out
             if tested >= texels * len(captured):
                 break
-        self._covariances = [_products(columns, self._system.solve(columns)) for columns in candidates]
+        self.system = every + self.precision
 
-    @cached_property
-    def _wanted(self) -> Tridiagonal:
-        return _told(self._candidates)
+    def errors(self, views: Sequence[Array]) -> Array:
+        """Expected squared error of each of V new views, the sum over its texels, shape (V,).
 
-    @cached_property
-    def _spreads(self) -> list[Array]:
-        solved = [self._system.solve(columns) for columns in self._candidates]
-        return [_products(columns, self._wanted @ columns) for columns in solved]
+        Parameters
+        ----------
+        views : sequence of ndarray, shapes (S, J * K, N)
+            Their equations.
+        """
+        return self.variance * np.array([_error(self.system, columns) for columns in views])
 
-    def errors(self) -> Array:
-        """Expected squared error of each of the V candidates, the sum over its texels, shape (V,)."""
-        return self._variance * np.array([np.trace(covariance) for covariance in self._covariances])
+
+class Candidates:
+    """What views that may follow would tell of one part's weights, besides what is known.
+
+    The covariance of the texels of each is kept, and what it lowers.
+
+    Parameters
+    ----------
+    known : Known
+    candidates : sequence of ndarray, shapes (S, J * K, N)
+        Their equations.
+    """
+
+    def __init__(self, known: Known, candidates: Sequence[Array]) -> None:
+        self._candidates, self._variance, self._system = candidates, known.variance, known.system
+        self._wanted = _sum([_told(columns) for columns in candidates])
+        self._covariances: list[Array] = []
+        self._spreads: list[Array] = []
+        for columns in candidates:
+            solved = self._system.solve(columns)
+            self._covariances.append(_products(columns, solved))
+            self._spreads.append(_products(solved, self._wanted @ solved))
 
     def falls(self) -> Array:
-        """By how much each of the V candidates would lower the sum of `errors`, shape (V,)."""
+        """By how much each of the V candidates would lower the expected squared error of all, shape (V,)."""
         pairs = zip(self._covariances, self._spreads, strict=True)
         falls = [np.trace(np.linalg.solve(_with_noise(covariance), spread)) for covariance, spread in pairs]
         return self._variance * np.array(falls)
@@ -259,7 +284,7 @@ class Known:
             self._covariances[number] -= of_fall @ of_fall.T
             crossed = of_spread @ of_fall.T
             self._spreads[number] += of_fall @ both @ of_fall.T - crossed - crossed.T
-        self._system += _told([columns])
+        self._system += _told(columns)
 
 
 def _products(left: Array, right: Array) -> Array:
@@ -267,18 +292,18 @@ def _products(left: Array, right: Array) -> Array:
     return np.tensordot(left, right, axes=((0, 1), (0, 1)))
 
 
-def _told(views: Sequence[Array]) -> Tridiagonal:
-    """Normal matrix of the equations of some views."""
-    told = [
-        Tridiagonal(columns @ columns.swapaxes(1, 2), columns[:-1] @ columns[1:].swapaxes(1, 2))
-        for columns in views
-    ]
-    return sum(told[1:], told[0])
+def _error(system: Tridiagonal, columns: Array) -> float:
+    """Expected squared error of a view, in units of that of a texel, where others make a system."""
+    return float(np.vdot(columns, system.solve(columns)))
 
 
-def _left_out(covariance: Array) -> float:
-    """Expected squared error of a captured view, were it left out, in units of that of a texel."""
-    return float(np.trace(np.linalg.solve(np.eye(len(covariance)) - covariance, covariance)))
+def _told(columns: Array) -> Tridiagonal:
+    """Normal matrix of a view's equations."""
+    return Tridiagonal(columns @ columns.swapaxes(1, 2), columns[:-1] @ columns[1:].swapaxes(1, 2))
+
+
+def _sum(systems: Sequence[Tridiagonal]) -> Tridiagonal:
+    return sum(systems[1:], systems[0])
 
 
 def _with_noise(covariance: Array) -> Array:

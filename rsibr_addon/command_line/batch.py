@@ -3,6 +3,7 @@
 import argparse
 import sys
 from collections.abc import Mapping, Sequence
+from os.path import normpath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -58,10 +59,10 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     Returns
     -------
     dict
-        "page", the path of the page that shows all; "made" and "found", numbers of bakes that were done, and
-        that were there already. Of a dry run "bakes", the paths of the map sets; "processor_seconds" and
-        "disk", what they cost together; "parts", the names of the parts; "faults", why bakes will
-        fail, by their paths.
+        "page", the path of the page that shows all; "summary", that of the file that tells programs of each
+        bake; "made" and "found", numbers of bakes that were done, and that were there already. Of a dry run
+        "bakes", the paths of the map sets; "processor_seconds" and "disk", what they cost together; "parts",
+        the names of the parts; "faults", why bakes will fail, by their paths.
 
     Raises
     ------
@@ -72,6 +73,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     from ..tasks.batch.description import read_batch
     from ..tasks.batch.notes import batch_folder
     from ..tasks.batch.run import run_bakes, write_page
+    from ..tasks.batch.summary import SUMMARY, worst_of
 
     outputs = arguments.output or arguments.batch.parent
     bakes = read_batch(arguments.batch, outputs)
@@ -85,9 +87,13 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         result = console.steps(run_bakes(folder, bakes, _worker_command()))
     page = write_page(folder, arguments.batch.stem, bakes)
     check_failures(page.failures, len(bakes), str(page.page))
+    for method, name, outcome in worst_of(page.outcomes):
+        path, error = normpath(folder / outcome["map_set"]), outcome["errors"][name]
+        console.say(f"{method}, greatest error, {name.replace('_', ' ')}: {error:.2g}, {path}")
     made = result.made if result else 0
     console.say(f"{page.page}: {counted(len(bakes), 'bake')}, {len(bakes) - made} of them there already")
-    return {"page": str(page.page), "made": made, "found": len(bakes) - made}
+    summary = str(page.page.with_name(SUMMARY))
+    return {"page": str(page.page), "summary": summary, "made": made, "found": len(bakes) - made}
 
 
 def check_failures(failures: Mapping[str, "Failure"], total: int, page: str) -> None:

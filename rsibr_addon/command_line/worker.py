@@ -58,7 +58,7 @@ def _result(asked: dict[str, Any], told: Outlet) -> dict[str, Any]:
             result = _baked(job, told, known_whole=not asked["picture"])
             times = {"seconds": time.monotonic() - started, "processor": time.process_time() - processor}
             if asked["picture"] or not result["found"]:
-                result["picture"] = _picture(job)
+                result |= {"picture": _picture(job), "errors": _errors(job)}
         except (RsibrError, OSError, MemoryError, ModuleNotFoundError) as error:
             return {"ok": False, "error": sentence_of(error, "rsibr batch"), "try_again": may_pass(error)}
     return result | times | {"warnings": list(dict.fromkeys(warnings))}
@@ -87,6 +87,17 @@ def _baked(job: BakeJob[Any], told: Outlet, known_whole: bool) -> dict[str, Any]
                 told.write(json.dumps({"progress": vars(next(steps))}) + "\n")
         except StopIteration as end:
             return {"ok": True, "told": end.value.told, "found": "found" in end.value.figures}
+
+
+def _errors(job: BakeJob[Any]) -> dict[str, float]:
+    """The errors that a job's map set states; of several of a name, the largest."""
+    from ..files.kinds.registry import STORED
+    from ..files.map_set import read_map_set_header
+
+    if job.settings.KIND not in STORED:
+        return {}
+    stated = read_map_set_header(job.output)["error_bound"] or {}
+    return {name: max(value) if isinstance(value, list) else value for name, value in stated.items()}
 
 
 def _picture(job: BakeJob[Any]) -> str:

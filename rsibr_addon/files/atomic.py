@@ -157,6 +157,29 @@ def written_aside(path: str | Path, force: bool = False) -> Iterator[Path]:
         outputs.add(Output(path, aside, lambda: check_target(path, force)))
 
 
+def write_changed(path: Path, text: str) -> None:
+    """Write a text, unless the file holds just that: what is up to date needs no disk that can be written.
+
+    Parameters
+    ----------
+    path : Path
+        Replaced if it exists.
+    text : str
+        Written as UTF-8; of names that are none, what cannot be written becomes "?".
+
+    Raises
+    ------
+    OutputFileError
+        See `written_aside`.
+    """
+    data = text.encode("utf-8", "replace")
+    with contextlib.suppress(OSError):
+        if path.read_bytes() == data:
+            return
+    with written_aside(path, force=True) as aside:
+        aside.write_bytes(data)
+
+
 def sync(path: Path) -> None:
     """Write the file to disk before it gets its name: a crash then leaves the old file or the new one."""
     descriptor = os.open(path, os.O_RDWR)

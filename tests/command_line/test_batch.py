@@ -146,6 +146,10 @@ def test_broken_bakes_are_named_and_stop_no_other(capfd: pytest.CaptureFixture[s
     assert len(page.pictures) == 9
     assert all(picture.startswith("data:image/png;base64,iVBOR") for picture in page.pictures)
     assert text.count("There is no preset wood") == 3
+    told = json.loads(Path("metals-batch/summary.json").read_text())["bakes"]
+    assert [bake["map_set"] for bake in told] == page.links
+    assert [bake["state"] for bake in told] == 3 * ["done", "done", "done", "failed"]
+    assert all(bake["error"].startswith("There is no preset wood") for bake in told[3::4])
     assert "://" not in text  # no sign of base 64, as letters of "http" are
 
 
@@ -153,14 +157,36 @@ def test_a_page_counts_its_bakes_and_folds_their_warnings() -> None:
     write_batch(environments=["light/dawn.exr"], materials=["chrome", "matte"])
     one, other = read_batch(Path("metals.json"))
     told = ["Its maps are too coarse & dark.", "Another."]
-    note = Note(stamp="", told="tables", seconds=1.0, processor=1.0, warnings=told, picture="")
+    errors = {"interpolation": 0.125}
+    note = Note(stamp="", told="tables", seconds=1.0, processor=1.0, errors=errors, warnings=told, picture="")
     write_index(Path("page.html"), "metals", [one], [note], {})
     text = Path("page.html").read_text()
     assert "<p>1 bake, 0 failed;" in text
     assert "<details><summary>Its maps are too coarse &amp; dark.</summary></details>" in text
     assert text.count("<details>") == 2
+    assert "interpolation 0.12" in text
     write_index(Path("page.html"), "metals", [one, other], [note, None], {})
     assert "<p>2 bakes, 0 failed;" in Path("page.html").read_text()
+
+
+def test_the_greatest_errors_that_map_sets_state_are_told(capfd: pytest.CaptureFixture[str]) -> None:
+    mips = {"kind": "mip-chain", "size": 4}
+    write_batch(
+        environments=["light/dawn.exr", "light/noon.exr"],
+        materials=[],
+        methods=[mips],
+        output="{environment}.exr",
+    )
+    assert run(["batch", "metals.json"]) == 0
+    lines = capfd.readouterr().out.splitlines()
+    stated = {}
+    for light in ("dawn", "noon"):
+        bound = read_map_set(Path(f"{light}.exr")).header["error_bound"]
+        stated[light] = max(np.ravel(bound["relative_to_peak"]))
+    worst = max(stated, key=lambda light: stated[light])
+    assert lines[0] == f"Mip Chain, greatest error, relative to peak: {stated[worst]:.2g}, {worst}.exr"
+    told = json.loads(Path("metals-batch/summary.json").read_text())["bakes"]
+    assert [bake["errors"] for bake in told] == [{"relative_to_peak": stated[name]} for name in stated]
 
 
 def test_parts_and_their_page_are_the_batch(capfd: pytest.CaptureFixture[str]) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from rsibr.rsibr_addon.core.errors import InputFileError, OutputFileError
-from rsibr.rsibr_addon.files.atomic import check_target, written_aside
+from rsibr.rsibr_addon.files.atomic import check_target, write_changed, written_aside
 
 
 def test_the_file_appears_when_the_body_ends(tmp_path: Path) -> None:
@@ -56,6 +56,16 @@ def test_an_existing_file_is_replaced_only_by_force(tmp_path: Path) -> None:
     with written_aside(target, force=True) as aside:
         aside.write_bytes(b"new")
     assert target.read_bytes() == b"new"
+
+
+def test_a_text_that_is_there_already_is_not_written(tmp_path: Path) -> None:
+    path = tmp_path / "a.html"
+    write_changed(path, "old")
+    first = path.stat().st_ino
+    write_changed(path, "old")
+    assert path.stat().st_ino == first
+    write_changed(path, "n\u00e9w \udcff")
+    assert path.read_bytes() == "n\u00e9w ?".encode()
 
 
 def test_a_file_that_appeared_meanwhile_is_kept(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ from string import Template
 from urllib.parse import quote
 
 from ...core.counted import counted
-from ...files.atomic import written_aside
+from ...files.atomic import write_changed
 from ...files.map_set_facts import in_words
 from .bakes import BatchBake
 from .notes import Failure, Note
@@ -61,8 +61,7 @@ def write_index(
             for environment, group in groupby(shown, key=lambda each: each[0].environment)
         ),
     )
-    with written_aside(page, force=True) as aside:
-        aside.write_text(text, encoding="utf-8", errors="replace")  # of names that are no UTF-8
+    write_changed(page, text)
 
 
 def _figure(page: Path, bake: BatchBake, note: Note | None, failures: Mapping[str, Failure]) -> str:
@@ -72,6 +71,7 @@ def _figure(page: Path, bake: BatchBake, note: Note | None, failures: Mapping[st
     if note:
         told = [note["told"], f"{note['seconds']:.2f} s"] if note["seconds"] else ["there before this batch"]
         picture = f'<img alt="" src="data:image/png;base64,{note["picture"]}">'
+        told += [f"{name} {error:.2g}" for name, error in note["errors"].items()]
         warnings = "".join(
             f"<details><summary>{escape(warning)}</summary></details>" for warning in note["warnings"]
         )

@@ -24,6 +24,8 @@ class Note(TypedDict):
         What that is, in words.
     seconds, processor : float
         Duration and processor time; zeros where another made it.
+    errors : dict of str to float
+        What its description states: the largest of each name.
     warnings : list of str
     picture : str
         PNG in base 64.
@@ -33,6 +35,7 @@ class Note(TypedDict):
     told: str
     seconds: float
     processor: float
+    errors: dict[str, float]
     warnings: list[str]
     picture: str
 

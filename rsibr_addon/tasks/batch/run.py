@@ -10,13 +10,14 @@ from ...core.errors import RsibrError
 from ...core.progress import Progress, Steps
 from ...core.threads import thread_count
 from ...files.memory import memory_left
-from ...files.outputs import make_folder
+from ...files.outputs import make_folder, together
 from ..methods.bake import METHODS
 from ..methods.method import Cost
 from .bakes import BatchBake
 from .faults import fault_of
 from .index import write_index
 from .notes import Failure, Note, read_failure, read_note, stamp_of, write_note
+from .summary import SUMMARY, Outcome, outcomes_of, write_summary
 from .workers import Worker, started_workers
 
 UNKNOWN = Failure(error="It has not been done: do its part again.", try_again=True)
@@ -32,6 +33,8 @@ class BatchResult:
     ----------
     page : Path
         Where all is shown.
+    outcomes : list of Outcome
+        What is told of each bake, once the page is written.
     made, found : int
         Bakes that were done, and that were there already.
     failures : dict of str to Failure
@@ -39,6 +42,7 @@ class BatchResult:
     """
 
     page: Path
+    outcomes: list[Outcome] = field(default_factory=list)
     made: int = 0
     found: int = 0
     failures: dict[str, Failure] = field(default_factory=dict)
@@ -107,7 +111,7 @@ def run_bakes(folder: Path, bakes: Sequence[BatchBake], command: Sequence[str]) 
 
 
 def write_page(folder: Path, title: str, bakes: Sequence[BatchBake]) -> BatchResult:
-    """Write the page of a batch, of what its folder keeps of the bakes.
+    """Write the page of a batch, and its summary beside it, of what its folder keeps of the bakes.
 
     Parameters
     ----------
@@ -128,7 +132,11 @@ def write_page(folder: Path, title: str, bakes: Sequence[BatchBake]) -> BatchRes
     """
     make_folder(folder)
     result = kept_result(folder, bakes)
-    write_index(result.page, title, bakes, [read_note(folder, bake) for bake in bakes], result.failures)
+    notes = [read_note(folder, bake) for bake in bakes]
+    result.outcomes = outcomes_of(folder, bakes, notes, result.failures)
+    with together():
+        write_index(result.page, title, bakes, notes, result.failures)
+        write_summary(folder / SUMMARY, result.outcomes)
     return result
 
 
@@ -189,6 +197,7 @@ def _take(bake: BatchBake, said: dict[str, Any], folder: Path, result: BatchResu
         told=said["told"],
         seconds=0.0 if said["found"] else said["seconds"],
         processor=0.0 if said["found"] else said["processor"],
+        errors=said["errors"],
         warnings=said["warnings"],
         picture=said["picture"],
     )

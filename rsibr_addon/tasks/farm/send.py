@@ -18,6 +18,7 @@ from ...settings.baked_inputs import ObjectInputsSettings
 from ..batch.bakes import BatchBake, parts_of
 from ..batch.notes import Failure, batch_folder
 from ..batch.run import UNKNOWN, kept_result
+from ..batch.summary import SUMMARY
 from ..methods.recipe import check_made_by
 from .flamenco import FarmTask, Manager
 from .folder import INPUTS, MAPS, batch_name, folder_name, write_inputs
@@ -204,7 +205,7 @@ def outcome(manager: Manager, sent: Sent, status: str) -> dict[str, Failure]:
 
 
 def fetch(sent: Sent, folder: Path) -> Steps[None]:
-    """Copy what a job has made: map sets, unless whole ones are there already, and of several the page too.
+    """Copy what a job has made: map sets, unless whole ones are there, and of several page and summary.
 
     Parameters
     ----------
@@ -232,9 +233,9 @@ def fetch(sent: Sent, folder: Path) -> Steps[None]:
             _warn_unless_same(bake, target)
         else:
             _copy(path, target, damaged)
-    page = sent.folder / "index.html"
-    if len(sent.bakes) > 1 and page.is_file():
-        _copy(page, folder / page.relative_to(sent.maps), force=True)
+    if len(sent.bakes) > 1:
+        for told in filter(Path.is_file, (sent.folder / "index.html", sent.folder / SUMMARY)):
+            _copy(told, folder / told.relative_to(sent.maps), force=True)
 
 
 def _copy(path: Path, target: Path, force: bool) -> None:

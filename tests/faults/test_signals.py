@@ -28,7 +28,7 @@ COMMANDS = {
     "report": "report ../../in.rsibr.exr -o out.html",
     "tables": "tables --environment forest --diffuse lambert:kd=0.5 -o out.rsibr.exr",
 }
-MOMENTS = int(os.environ.get("RSIBR_MOMENTS", "10"))
+MOMENTS = int(os.environ.get("RSIBR_MOMENTS", len(COMMANDS)))
 
 RENDER = (
     "capture --environment forest --material copper --views 12 --size 999 --samples 4096 -o out.rsibr.exr"

@@ -1,4 +1,4 @@
-"""Fits are the same on every processor: under each of OpenBLAS's kernels, and without numpy's vector code."""
+"""Fits are the same on every processor."""
 
 import json
 import os
@@ -7,7 +7,7 @@ import sys
 
 import numpy as np
 import pytest
-from numpy._core._multiarray_umath import __cpu_dispatch__, __cpu_features__
+from rsibr.tests.files.processors import SETTINGS
 
 FIT = """
 import json, sys
@@ -37,16 +37,6 @@ COPPER, WARD = "ggx:alpha=0.3,metal=copper", "ward:alpha=0.04,ks=0.8"
 PLASTIC = "ggx:alpha=0.1,f0=0.04"
 FITS = [(COPPER, 2, 3), (WARD, 1, 5), (PLASTIC, 3, 3)]
 
-VECTOR_CODE = " ".join(name for name in __cpu_dispatch__ if __cpu_features__[name])
-SETTINGS = [
-    {},
-    *(
-        {"OPENBLAS_CORETYPE": core, "OPENBLAS_NUM_THREADS": "1"}
-        for core in ("Prescott", "Nehalem", "Sandybridge", "Haswell", "Zen")
-    ),
-    {"OPENBLAS_CORETYPE": "Prescott", "OPENBLAS_NUM_THREADS": "1", "NPY_DISABLE_CPU_FEATURES": VECTOR_CODE},
-]
-
 
 def fitted(setting: dict[str, str]) -> list[tuple[float, np.ndarray]]:
     """E of every fit and its lobes seen from one elevation, from a process of its own."""
@@ -61,7 +51,7 @@ def fitted(setting: dict[str, str]) -> list[tuple[float, np.ndarray]]:
 
 @pytest.mark.slow
 def test_fits_are_the_same_on_every_processor() -> None:
-    everywhere = [fitted(setting) for setting in SETTINGS]
+    everywhere = [fitted(setting) for setting in SETTINGS.values()]
     for spec, *same in zip(FITS, *everywhere, strict=True):
         errors = [error for error, _ in same]
         # A descent ends where a step gains less than 1e-5 of the squared error, so half of that of the error;

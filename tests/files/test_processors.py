@@ -1,7 +1,4 @@
-"""What a file holds does not hang on the processor that it is made on: docs/architecture.md says how far.
-
-OpenBLAS and numpy choose code by the processor, and can be told to take that of older ones.
-"""
+"""What a file holds does not hang on the processor that it is made on: docs/architecture.md says how far."""
 
 import json
 import os
@@ -12,19 +9,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy._core._multiarray_umath import __cpu_dispatch__, __cpu_features__
 from rsibr.rsibr_addon.files.map_set import read_map_set
 from rsibr.rsibr_addon.files.radiance_pictures import read_radiance
+from rsibr.tests.files.processors import SETTINGS
 from rsibr.tests.small_works import works, write_sources
-
-DISPATCHED = " ".join(name for name in __cpu_dispatch__ if __cpu_features__.get(name))
-OLDEST = {
-    "OPENBLAS_CORETYPE": "Prescott",
-    "NPY_DISABLE_CPU_FEATURES": DISPATCHED,
-    "OPENBLAS_NUM_THREADS": "1",
-}
-NEWER = {"OPENBLAS_CORETYPE": "Haswell", "OPENBLAS_NUM_THREADS": "2"}
-SETTINGS = {"as it is": {}, "oldest": OLDEST} | ({"newer": NEWER} if __cpu_features__.get("AVX2") else {})
 
 NEIGHBOUR, HALF_NEIGHBOUR = 2.0**-23, 2.0**-10
 """Relative difference of neighbouring floats: double precision is rounded to one or the other."""

@@ -47,12 +47,12 @@ class Sight:
 
     @classmethod
     def by(cls, view: Array, projection: Array) -> "Sight":
-        """That of matrices."""
+        """The view of matrices, each of shape (4, 4): camera from world, and clip space from camera."""
         return cls.of_pose(view, projection, np.linalg.inv(view))
 
     @classmethod
     def of_pose(cls, view: Array, projection: Array, pose: Array) -> "Sight":
-        """That of matrices, and of the inverse of the first."""
+        """The view of the same matrices where the inverse of the first, `pose`, is known."""
         # The camera's origin, or the direction from which a parallel projection's rays come
         return cls(view, projection, pose[:, 3] if projection[3, 3] == 0.0 else pose[:, 2])
 

@@ -47,7 +47,7 @@ class Encoding:
 
 
 def power_curve(exponent: float) -> Curve:
-    """The curve that raises to a power."""
+    """The curve that raises encoded values, of any shape and not negative, to a power."""
     return lambda encoded: np.asarray(encoded, dtype=np.float64) ** exponent
 
 

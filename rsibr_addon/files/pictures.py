@@ -44,7 +44,7 @@ def write_exr(path: str | Path, rgba: Array, force: bool = False) -> None:
 
 
 def put_exr(path: Path, rgba: Array) -> None:
-    """Write a picture likewise, but under its own name at once: in a folder that is written aside."""
+    """Write RGBA, shape (height, width, 4), under its own name at once: in a folder that is written aside."""
     pixels = rgba.astype(np.float32)
     write_parts(path, [Part("", {"RGBA": pixels})])
 

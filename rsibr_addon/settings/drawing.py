@@ -44,7 +44,7 @@ class CameraOptions(Options):
         self.camera((0.0, -1.0, 0.0))
 
     def camera(self, view_dir: tuple[float, float, float]) -> Camera:
-        """The camera that sees the object from a direction."""
+        """The camera that sees the object from a direction of any positive length, in world coordinates."""
         return Camera(view_dir, None if self.perspective is None else math.radians(self.perspective))
 
 

@@ -125,6 +125,10 @@ def test_minimum_profiles_leave_nothing_negative_on_their_planes() -> None:
     np.testing.assert_allclose(rest.values, rest.at(rest.nodes), atol=1e-9)
 
 
+def test_without_a_lobe_all_is_left() -> None:
+    assert Remainder(COPPER, 0.4, graded_angles(0.01)).error() == pytest.approx(1.0)
+
+
 @pytest.mark.slow
 def test_the_papers_error_rises_after_six_to_nine_lobes_unless_it_is_clamped() -> None:
     # Samples every 1.5 degrees on eight planes; elevations up to 73 degrees from the normal

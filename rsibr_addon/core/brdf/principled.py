@@ -33,11 +33,11 @@ class Albedos(Protocol):
         ...
 
     def mean(self, alpha: Array) -> Array:
-        """Twice the integral of a white metal's times mu, from 0 to 1, shape (...,), for as many alpha."""
+        """Twice the integral of a white metal's times mu, from 0 to 1, for alpha in [0, 1], shape (...,)."""
         ...
 
     def sheen(self, roughness: Array, mu: Array) -> Array:
-        """Those of white sheen, shape (...,), for as many roughnesses and mu in [0, 1]."""
+        """Those of white sheen for roughness and mu in [0, 1], all of shape (...,)."""
         ...
 
 
@@ -274,7 +274,7 @@ def diffuse_brdf(surface: Surface, geometry: Geometry) -> Array:
 
 
 def ggx_by_powers(geometry: Geometry, alpha: float) -> Array:
-    """GGX, without a Fresnel term, times each of `POWERS`, shape (N, C) [1/sr]."""
+    """GGX of alpha in (0, 1], without a Fresnel term, times each of `POWERS`, shape (N, C) [1/sr]."""
     facets = ggx_ndf(geometry.half_sine_squared, alpha)
     facets = facets * smith_visibility(geometry.n_dot_l, geometry.n_dot_v, alpha)
     return facets[:, None] * powers_of(geometry.h_dot_l)

@@ -72,7 +72,7 @@ def fit_leaning(elevations: int = ELEVATIONS, lobes: int = LEANING_LOBES) -> Ste
 
 
 def fit_ggx(widths: Array = WIDTHS, elevations: int = ELEVATIONS, lobes: int = LOBES) -> Steps[Family]:
-    """The family of GGX reflection of all widths and all Fresnel terms that are sums of `POWERS`."""
+    """The family of GGX reflection by alpha, (A,), ascending, for Fresnel terms that are sums of `POWERS`."""
     mu = elevation_slices(elevations)
     return (yield from fit_family(_ggx, GUIDES, widths, mu, lobes, FINER, THRIFT, NATURAL_LIGHT))
 
@@ -80,17 +80,17 @@ def fit_ggx(widths: Array = WIDTHS, elevations: int = ELEVATIONS, lobes: int = L
 def fit_gaussian(
     widths: Array = WIDTHS[4::2], elevations: int = ELEVATIONS, lobes: int = LOBES
 ) -> Steps[Family]:
-    """The family of lobes that end sooner than GGX's: Ward's, and Beckmann's times 1 and (1 - cos)^5."""
+    """The same of lobes that end sooner than GGX's: Ward's, and Beckmann's times 1 and (1 - cos)^5."""
     return (yield from fit_family(_gaussian, GAUSSIAN_GUIDES, widths, elevation_slices(elevations), lobes))
 
 
 def fit_closer_ggx(alpha: float) -> Steps[Family]:
-    """The family of `fit_ggx` of one width, with `CLOSER_LOBES`, which are closer at grazing above all."""
+    """The family of `fit_ggx` of one alpha, with `CLOSER_LOBES`, which are closer at grazing above all."""
     return (yield from _fit_closer(_ggx, GUIDES, alpha))
 
 
 def fit_closer_gaussian(alpha: float) -> Steps[Family]:
-    """The family of `fit_gaussian` of one width, with `CLOSER_LOBES`."""
+    """The family of `fit_gaussian` of one alpha, with `CLOSER_LOBES`."""
     return (yield from _fit_closer(_gaussian, GAUSSIAN_GUIDES, alpha))
 
 
@@ -212,7 +212,7 @@ def _above(model: Callable[[Geometry], Array]) -> BrdfFunction:
 
 
 def kernels_of(alpha: float) -> KernelBank:
-    """The kernels of `KERNELS` that a width needs."""
+    """The kernels of `KERNELS` that lobes of alpha, above 0, need."""
     return KernelBank(tuple(kappa for kappa in KERNELS.concentrations if kappa <= (_SHARPNESS / alpha) ** 2))
 
 

@@ -37,7 +37,7 @@ class ByCycles:
         return references.noise_of(self.rendered)
 
     def error(self, way: Way, drawn: Sequence[Array]) -> WayError:
-        """Error of a way to draw."""
+        """Error of a way to draw; `drawn` is as `pictures`."""
         return references.error_beyond_noise(way, drawn, self.rendered)
 
 
@@ -55,7 +55,7 @@ class ByModel:
     noise = 0.0
 
     def error(self, way: Way, drawn: Sequence[Array]) -> WayError:
-        """Error of a way to draw."""
+        """Error of a way to draw; `drawn` is as `pictures`."""
         return exact.error_of(way, drawn, self.pictures)
 
 

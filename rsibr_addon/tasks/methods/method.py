@@ -57,7 +57,7 @@ class Cost:
 
     @property
     def seconds(self) -> float:
-        """Estimated duration in a Blender of its own if all cores are free; one alone does little of it."""
+        """Estimated duration [s] with the start of Blender, if all cores share the work alone."""
         return (BLENDER_SECONDS + self.processor_seconds) / (os.cpu_count() or 1)
 
 
@@ -84,7 +84,7 @@ ENVIRONMENT_MEMORY = ENVIRONMENT_TEXELS * RGB
 
 
 def cost_in_blender(seconds: float, memory: float, disk: float) -> Cost:
-    """What a method takes, with the Blender that it runs in and the environment that its file holds."""
+    """What a method costs, in units of `Cost`, with Blender and the environment that its file holds."""
     return Cost(seconds, BLENDER_MEMORY + memory, disk + STORED * ENVIRONMENT_MEMORY)
 
 

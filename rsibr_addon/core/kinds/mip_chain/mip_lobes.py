@@ -96,7 +96,7 @@ def ggx_spread(roughness: float) -> float:
 
 
 def phong_spread(exponent: float) -> float:
-    """Spread of Phong's lobe cos^n: 1 / (n + 2)."""
+    """Spread of Phong's lobe cos^n, 1 / (n + 2), in (0, 1/2]; the exponent n is not negative."""
     return 1.0 / (exponent + 2.0)
 
 

@@ -133,11 +133,11 @@ class Curves:
                 raise RangeError(f"{name}: {error}") from error
 
     def diffuse(self, cosine: Array) -> Array:
-        """Wd, shape (N, 1), at cosines, shape (N,)."""
+        """Wd, shape (N, 1), at cosines n.v in [0, 1], shape (N,)."""
         return on_curve(self.wd, cosine)[:, None]
 
     def specular(self, cosine: Array) -> Array:
-        """Ws, as `diffuse`."""
+        """Ws, shape (N, 1), at cosines n.v in [0, 1], shape (N,)."""
         return on_curve(self.ws, cosine)[:, None]
 
 

@@ -23,9 +23,9 @@ def stop() -> None:
 
 
 def submit(bake: ObjectBake) -> None:
-    """Start a bake, or let it wait for those before it; ended bakes leave the queue."""
+    """Start a bake, or let it wait for those before it; ended bakes that it replaces leave the queue."""
     bakes = session().bakes
-    bakes.forget_ended()
+    bakes.forget_ended(lambda ended: _replaces(bake, ended))
     bakes.add(bake)
     if not bpy.app.timers.is_registered(_look):
         bpy.app.timers.register(_look, first_interval=SECONDS, persistent=True)
@@ -53,6 +53,17 @@ def look() -> None:
             if not bake.by_itself:
                 _push_undo("Assign Map Set")
     redraw_sidebars()
+
+
+def _replaces(bake: ObjectBake, ended: ObjectBake) -> bool:
+    """Whether what a bake has told is of no use once another is asked for.
+
+    A new preview replaces all; a comparison, or a bake that nobody asked for, the last one of its sort alone.
+    """
+    if bake.settings and not bake.by_itself:
+        return True
+    sort, other = ((type(each), each.output.suffix, each.by_itself) for each in (bake, ended))
+    return sort == other
 
 
 def _look() -> float | None:

@@ -8,6 +8,7 @@ from unittest.mock import MagicMock
 import bpy
 import numpy as np
 import pytest
+from rsibr.operators.background import _replaces
 from rsibr.rsibr_addon.core.errors import InputFileError, OutputFileError, RsibrError, SceneError
 from rsibr.rsibr_addon.files.exr import write_parts
 from rsibr.rsibr_addon.files.exr_part import Part
@@ -16,11 +17,14 @@ from rsibr.rsibr_addon.files.staging import is_staging_folder
 from rsibr.rsibr_addon.host.plain_settings import apply_settings, plain_settings
 from rsibr.rsibr_addon.job import read_job
 from rsibr.rsibr_addon.tasks.light.light_pictures import NO_RADIANCE, light_remarks
+from rsibr.rsibr_addon.tasks.queue.background import State
 from rsibr.rsibr_addon.tasks.queue.bake_request import (
+    ObjectBake,
     bake_of,
     plain_name,
     request_for,
 )
+from rsibr.rsibr_addon.tasks.queue.input_bakes import InputBake
 from rsibr.rsibr_addon.ui.light import draw_light
 from rsibr.tests.bake_jobs import run_job
 from rsibr.tests.blender.bake_orders import order, output
@@ -36,6 +40,20 @@ def test_the_panel_names_a_map_set_without_its_hash() -> None:
     bpy.context.scene.rsibr_bake.kind = "mip_chain"
     assert plain_name(output()) == "mip-chain-in-the-world"
     assert plain_name(Path("/art/paint.rsibr.exr")) == "paint.rsibr.exr"
+
+
+def ended(suffix: str, cls: type[ObjectBake] = ObjectBake, **given: object) -> ObjectBake:
+    return cls("", Path("a").with_suffix(suffix), (), state=State.DONE, **given)  # type: ignore[arg-type]
+
+
+def test_a_preview_clears_the_list_and_all_else_its_own_sort() -> None:
+    shows = {"settings": {"kind": "mip_chain"}}
+    preview, comparison = ended(".exr", **shows), ended(".html")
+    by_itself, inputs = ended(".exr", by_itself=True, **shows), ended(".exr", InputBake)
+    told = [preview, by_itself, comparison, inputs]
+    assert all(_replaces(preview, each) for each in told)
+    for bake in told[1:]:
+        assert [each for each in told if _replaces(bake, each)] == [bake]
 
 
 def test_what_a_map_set_will_lack_is_told_before_it_is_baked() -> None:

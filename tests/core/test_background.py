@@ -60,8 +60,8 @@ def test_one_after_another(tmp_path: Path) -> None:
     assert first.progress == Progress(1, 4, "view 2")
     assert first.warnings == ["dark"]
     assert queue.unfinished(first.output) is None
-    queue.forget_ended()
-    assert queue.bakes == []
+    queue.forget_ended(lambda ended: ended is first)
+    assert queue.bakes == [second]
 
 
 def test_failures_are_told_in_words() -> None:

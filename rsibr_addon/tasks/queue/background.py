@@ -8,7 +8,7 @@ import sys
 import threading
 import time
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
@@ -310,9 +310,9 @@ class BakeQueue(Generic[B]):
         """Whether a bake runs or waits."""
         return any(not bake.ended for bake in self.bakes)
 
-    def forget_ended(self) -> None:
-        """Remove ended bakes from the queue."""
-        self.bakes = [bake for bake in self.bakes if not bake.ended]
+    def forget_ended(self, which: Callable[[B], bool]) -> None:
+        """Remove those ended bakes from the queue that a function is true of."""
+        self.bakes = [bake for bake in self.bakes if not (bake.ended and which(bake))]
 
     def close(self) -> None:
         """Cancel all that is done here."""

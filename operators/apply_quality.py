@@ -1,15 +1,14 @@
-"""Set a method's settings to those of a quality."""
+"""Set the methods' settings to those of a quality."""
 
 import bpy
 
-from ..rsibr_addon.core.options import declared_options, quality_values
 from ..rsibr_addon.files.kinds.registry import STORED
-from ..rsibr_addon.host.option_properties import show_option
+from ..rsibr_addon.host.qualities import QUALITIES, has_quality, set_quality
 from .at_once import Undoable
 
 
 class RSIBR_OT_apply_quality(Undoable, bpy.types.Operator):
-    """Set this method's settings"""  # noqa: D400  (a tooltip)
+    """Set this method's settings, and those of other methods that were not changed by hand"""  # noqa: D400  (a tooltip)
 
     bl_idname = "rsibr.apply_quality"
     bl_label = "Quality"
@@ -24,10 +23,9 @@ class RSIBR_OT_apply_quality(Undoable, bpy.types.Operator):
     )
 
     def work(self, context: bpy.types.Context) -> None:
-        """Set them."""
-        kind = context.scene.rsibr_bake.kind
-        chosen = getattr(context.scene.rsibr_bake, kind)
-        values = quality_values(STORED[kind].settings, self.quality.lower())
-        for declared in declared_options(STORED[kind].settings):
-            if declared.name in values:
-                show_option(declared, chosen, values[declared.name])
+        """Set those of the chosen method, and of the others that nobody changed by hand."""
+        chosen = context.scene.rsibr_bake
+        for kind, stored in STORED.items():
+            settings, group = stored.settings, getattr(chosen, kind)
+            if kind == chosen.kind or any(has_quality(settings, group, each) for each in QUALITIES):
+                set_quality(settings, group, self.quality.lower())

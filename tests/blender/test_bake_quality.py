@@ -10,6 +10,7 @@ from rsibr.rsibr_addon.files.kinds.registry import STORED
 from rsibr.rsibr_addon.files.map_set import is_whole_map_set, read_map_set_header
 from rsibr.rsibr_addon.files.output_paths import HASH_LETTERS
 from rsibr.rsibr_addon.host.option_properties import property_name, shown_value
+from rsibr.rsibr_addon.host.qualities import has_quality
 from rsibr.rsibr_addon.job import read_job
 from rsibr.rsibr_addon.tasks.methods.recipe import recipe_hash
 from rsibr.tests.bake_jobs import run_job
@@ -37,6 +38,18 @@ def test_every_quality_is_what_the_command_takes(kind: str, quality: str) -> Non
     job = order().job(Path("out.rsibr.exr"))
     assert values.items() <= vars(job.settings).items()
     assert read_job(job.to_json(), "job") == job
+
+
+def test_a_quality_is_that_of_all_methods_but_those_changed_by_hand() -> None:
+    chosen = bpy.context.scene.rsibr_bake
+    chosen.kind, chosen.radiance_views.samples = "mip_chain", 33
+    bpy.ops.rsibr.apply_quality(quality="FINAL")
+    final = {kind: has_quality(STORED[kind].settings, getattr(chosen, kind), "final") for kind in STORED}
+    assert final == {kind: kind != "radiance_views" for kind in STORED}
+    assert chosen.radiance_views.samples == 33
+    chosen.kind = "radiance_views"
+    bpy.ops.rsibr.apply_quality(quality="DRAFT")
+    assert has_quality(STORED["radiance_views"].settings, chosen.radiance_views, "draft")
 
 
 @pytest.mark.parametrize("kind", KINDS)

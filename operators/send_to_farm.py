@@ -59,6 +59,6 @@ def _check(context: bpy.types.Context) -> None:
 def _farm() -> Farm:
     address = farm_address()
     if not address:
-        raise SceneError("No farm is known: give its manager's address in the add-on's preferences.")
+        raise SceneError("No farm is known: give its manager's address in the extension's preferences.")
     check_online()
     return Farm(address, farm_folder())

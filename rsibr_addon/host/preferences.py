@@ -55,11 +55,12 @@ def make_writable(folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise OutputFileError(
-            f"{folder} cannot be made ({error.strerror}): choose another folder in the add-on's preferences."
+            f"{folder} cannot be made ({error.strerror}): choose another folder in the extension's "
+            "preferences."
         ) from error
     if not os.access(folder, os.W_OK | os.X_OK):
         raise OutputFileError(
-            f"{folder} cannot be written to: choose another folder in the add-on's preferences."
+            f"{folder} cannot be written to: choose another folder in the extension's preferences."
         )
 
 

@@ -9,7 +9,7 @@ from ..core.options import Declared, declared_options
 from ..files.kinds.registry import STORED
 from ..host.option_properties import model_property, property_name
 from .model_options import draw_model
-from .sentences import tell
+from .sentences import panel_width, tell
 from .sidebar import InSidebar
 
 
@@ -21,7 +21,7 @@ class RSIBR_PT_advanced(InSidebar, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Show the method, the material that it asks for, and its settings."""
-        scene, layout, width = context.scene.rsibr_bake, self.layout, context.region.width
+        scene, layout, width = context.scene.rsibr_bake, self.layout, panel_width(context)
         layout.prop(scene, "kind", text="")
         if not scene.kind:  # one of a newer version
             return

@@ -16,7 +16,7 @@ def draw_bakes(layout: bpy.types.UILayout, bakes: Sequence[Bake], width: int) ->
     layout : bpy.types.UILayout
     bakes : sequence of Bake
     width : int
-        Width of the region in pixels.
+        See `panel_width`.
     """
     for number, bake in enumerate(bakes):
         _draw_bake(layout, bake, number, width)

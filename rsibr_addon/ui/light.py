@@ -9,7 +9,7 @@ from ..core.errors import RsibrError
 from ..host.bake_settings import chosen_environment
 from ..settings.environment import LAYOUTS
 from ..tasks.light.light_pictures import light_remarks, offered_layouts
-from .sentences import tell
+from .sentences import panel_width, tell
 from .sidebar import InSidebar
 
 THUMBNAIL_SCALE = 4.0
@@ -36,7 +36,7 @@ def draw_light(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
                 with suppress(RsibrError):
                     picture = Path(chosen_environment(chosen, context.scene) or "")
                     for remark in light_remarks(picture):
-                        tell(layout, remark, context.region.width)
+                        tell(layout, remark, panel_width(context))
                     _offer_layouts(layout, picture)
 
 

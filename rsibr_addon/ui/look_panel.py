@@ -14,7 +14,7 @@ from ..host.world_light import has_environment, holds_world, world_light
 from ..session.running import session
 from ..tasks.methods.kinds import KINDS
 from .model_options import draw_model
-from .sentences import LONG_LABEL_SHARE, LONGEST_LABEL, SOLID, tell
+from .sentences import LONG_LABEL_SHARE, LONGEST_LABEL, SOLID, panel_width, tell
 from .sidebar import InSidebar
 
 NOT_FOLLOWED = (
@@ -64,7 +64,7 @@ class RSIBR_PT_look(InSidebar, bpy.types.Panel):
         if item.rsibr.map_set and not holds_world(item):
             layout.prop(item.rsibr, "follow_world")
             if item.rsibr.follow_world and has_environment(world) and world_light(world) is None:
-                tell(layout, NOT_FOLLOWED, context.region.width)
+                tell(layout, NOT_FOLLOWED, panel_width(context))
         kind = session().previews.kind(item)
         if kind is None:
             return
@@ -81,17 +81,17 @@ class RSIBR_PT_look(InSidebar, bpy.types.Panel):
         layout.prop(view, "beyond")
         beside_blender = view.beyond == "blender" or (view.beyond, view.compared) == ("difference", "blender")
         if beside_blender and (hint := _other_light(context.space_data.shading)):
-            tell(layout, hint, context.region.width, icon="INFO")
+            tell(layout, hint, panel_width(context), icon="INFO")
         if view.beyond == "difference":
             layout.prop(view, "compared")
             layout.prop(view, "difference")
         if view.beyond == "difference" and view.compared == "blender":
             if not is_readable(context.space_data):
-                tell(layout, NOT_READABLE, context.region.width)
+                tell(layout, NOT_READABLE, panel_width(context))
         elif view.beyond != "blender":
             layout.label(text="Other look")
             if _looks_are_equal(item, kind):
-                tell(layout, EQUAL_LOOKS, context.region.width, icon="INFO")
+                tell(layout, EQUAL_LOOKS, panel_width(context), icon="INFO")
             _show_look(layout, item, kind, other=True)
 
 

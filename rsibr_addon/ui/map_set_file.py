@@ -22,7 +22,7 @@ def draw_file(layout: bpy.types.UILayout, item: bpy.types.Object, path: Path, wi
     path : Path
         A whole map set.
     width : int
-        Width of the region in pixels.
+        See `panel_width`.
     """
     packed = is_packed(item.rsibr)
     row = layout.row(align=True)
@@ -65,7 +65,7 @@ def draw_change(layout: bpy.types.UILayout, item: bpy.types.Object, path: Path, 
     path : Path
         A whole map set.
     width : int
-        Width of the region in pixels.
+        See `panel_width`.
     """
     if item.rsibr.content and not item.rsibr.painted and item.rsibr.content != map_set_content(path):
         tell(

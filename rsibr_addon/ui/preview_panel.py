@@ -1,12 +1,16 @@
 """What an artist needs: the light, what it will shade, how well, and the button."""
 
+from contextlib import suppress
+
 import bpy
 
 from ..core.errors import RsibrError
 from ..files.kinds.registry import STORED
 from ..host.map_sets import written_path
+from ..host.option_properties import options_of
 from ..host.preferences import bakes_inputs_by_itself, check_online, farm_address
 from ..session.running import session
+from ..tasks.methods.bake import METHODS
 from ..tasks.methods.kinds import KINDS
 from ..tasks.queue.bake_request import request_for
 from ..tasks.queue.freshness import Stale
@@ -16,7 +20,7 @@ from .light import draw_light
 from .map_set_file import draw_change, draw_remedies
 from .materials import draw_materials
 from .quality import draw_quality
-from .sentences import amount, capital, duration, tell
+from .sentences import amount, capital, duration, panel_width, tell
 from .sidebar import InSidebar
 
 UNKNOWN_METHOD = "The method is one of another version: choose one below Advanced."
@@ -29,7 +33,7 @@ class RSIBR_PT_preview(InSidebar, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Show light, materials, quality and buttons; below them what is told, so that they stay in place."""
-        layout, width, chosen = self.layout, context.region.width, context.scene.rsibr_bake
+        layout, width, chosen = self.layout, panel_width(context), context.scene.rsibr_bake
         draw_light(layout, context)
         if not chosen.kind:
             tell(layout, UNKNOWN_METHOD, width)
@@ -58,11 +62,13 @@ class RSIBR_PT_preview(InSidebar, bpy.types.Panel):
 
 def _shaded_as(context: bpy.types.Context) -> str:
     """What the objects will look like, for methods that do not take their materials as they are."""
-    chosen, item = context.scene.rsibr_bake, context.object
-    settings, label = getattr(chosen, chosen.kind), STORED[chosen.kind].settings.LABEL
-    if getattr(settings, "source", None) == "OWN":
-        return f"{label} of {item.active_material.name}" if item.active_material else label
-    return label
+    chosen, material = context.scene.rsibr_bake, context.object.active_material
+    method = STORED[chosen.kind].settings
+    what = ""
+    with suppress(RsibrError):  # of settings that cannot be, which is told below the buttons
+        settings = options_of(method, getattr(chosen, chosen.kind), material.name if material else "")
+        what = METHODS[chosen.kind].material(settings)
+    return f"{method.LABEL}: {what}" if what else method.LABEL
 
 
 def _draw_offline(layout: bpy.types.UILayout, width: int) -> None:
@@ -75,7 +81,7 @@ def _draw_offline(layout: bpy.types.UILayout, width: int) -> None:
 
 def _draw_request(layout: bpy.types.UILayout, context: bpy.types.Context) -> bool:
     """Show what a bake would cost and lack, or why there can be none; whether the active object has it."""
-    width = context.region.width
+    width = panel_width(context)
     try:
         request = request_for(context.scene.rsibr_bake, context.scene, context.object)
     except RsibrError as error:
@@ -136,10 +142,10 @@ def _draw_messages(layout: bpy.types.UILayout, context: bpy.types.Context, fault
     is_shown = running.previews.materials_of(item) is not None or inputs.shows_all(item)
     notes = running.material_notes.of_object(item, is_shown) if KINDS[chosen].own else []
     for note in notes:
-        tell(layout, note, context.region.width, icon="INFO")
+        tell(layout, note, panel_width(context), icon="INFO")
     for message in running.previews.messages(item):
         if message not in (*notes, fault):
-            tell(layout, message, context.region.width)
+            tell(layout, message, panel_width(context))
     if inputs.lacks(item) and (inputs.is_refused(item) or not bakes_inputs_by_itself()):
         layout.operator("rsibr.bake_inputs")
     if running.previews.is_loading(item):

@@ -11,7 +11,7 @@ from ..properties import keep_in_overrides
 from ..session.running import session
 from ..settings.render import RenderOptions
 from .render_engine import SWITCHES
-from .sentences import tell
+from .sentences import panel_width, tell
 
 RENDER_GROUP = group_of("RSIBR_PG_render", "How RSIBR renders.", properties_of(RenderOptions))
 
@@ -58,9 +58,9 @@ class RSIBR_PT_render(_OfEngine, bpy.types.Panel):
         """Show the options, and sentences."""
         self.layout.use_property_split = True
         self.layout.prop(context.scene.rsibr_render, "samples")
-        tell(self.layout, LEFT_OUT, context.region.width, icon="INFO")
+        tell(self.layout, LEFT_OUT, panel_width(context), icon="INFO")
         if message := session().previews.worlds.message:
-            tell(self.layout, message, context.region.width)
+            tell(self.layout, message, panel_width(context))
 
 
 class RSIBR_PT_film(_OfEngine, bpy.types.Panel):
@@ -82,7 +82,7 @@ class RSIBR_PT_film(_OfEngine, bpy.types.Panel):
         blur.prop(scene.rsibr_render, "background_blur")
         column.prop(scene.rsibr_render, "background_exposure")
         for message in filter(None, (previews.behind.backgrounds.message, *previews.behind.floors.messages)):
-            tell(self.layout, message, context.region.width)
+            tell(self.layout, message, panel_width(context))
 
 
 class RSIBR_PT_mask(_OfEngine, bpy.types.Panel):

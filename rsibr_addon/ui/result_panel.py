@@ -10,11 +10,11 @@ from ..files.output_paths import comparison_page
 from ..host.map_sets import written_path
 from ..host.option_properties import options_of
 from ..session.running import session
-from ..tasks.compare.measured_error import measured_facts
+from ..tasks.compare.measured_error import measured_sentence
 from ..tasks.report.facts import is_picture, map_set_facts, map_set_fit, map_set_header
 from .bakes import draw_progress
 from .map_set_file import draw_file, draw_painting
-from .sentences import letters_in, tell
+from .sentences import letters_in, panel_width, tell
 from .sidebar import InSidebar
 
 MAP_SCALE, LOBES_SCALE = 9.0, 9.0
@@ -38,29 +38,34 @@ class RSIBR_PT_result(InSidebar, bpy.types.Panel):
             return True
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Show its file, what it is, the errors promised and measured; and open its report."""
+        """Show its file, how far off it is, what can be done with it and, on demand, its facts."""
         layout, item = self.layout, context.object
         try:
             path = written_path(item.rsibr)
             facts = map_set_facts(path)
             header = map_set_header(path)
             kind = header["kind"]
-            measured = measured_facts(path, options_of(look_types()[kind], getattr(item.rsibr, kind)))
+            measured = measured_sentence(path, options_of(look_types()[kind], getattr(item.rsibr, kind)))
         except RsibrError as error:
-            tell(layout, str(error), context.region.width)
+            tell(layout, str(error), panel_width(context))
             return
-        draw_file(layout, item, path, context.region.width)
+        draw_file(layout, item, path, panel_width(context))
         draw_painting(layout, item, header)
-        _draw_facts(layout.column(align=True), {**facts, **measured}, context.region.width)
+        if measured:
+            tell(layout, measured, panel_width(context), icon="INFO")
         row = layout.row(align=True)
         row.operator("rsibr.open_report", icon="URL")
         row.operator("rsibr.compare", icon="MOD_DATA_TRANSFER")
         layout.operator("rsibr.export_page", icon="WORLD")
         page = comparison_page(path)
         if (comparing := session().bakes.unfinished(page)) is not None:
-            draw_progress(layout, comparing, context.region.width)
+            draw_progress(layout, comparing, panel_width(context))
         elif measured and page.is_file():
             layout.operator("rsibr.open_comparison", icon="URL")
+        title, opened = layout.panel("RSIBR_result_details", default_closed=True)
+        title.label(text="Details")
+        if opened:
+            _draw_facts(opened.column(align=True), facts, panel_width(context))
 
 
 def _draw_facts(column: bpy.types.UILayout, facts: dict[str, str], width: int) -> None:
@@ -96,7 +101,7 @@ class RSIBR_PT_result_maps(InSidebar, bpy.types.Panel):
         map_pictures = session().map_pictures
         map_pictures.show(written_path(context.object.rsibr))
         if map_pictures.fault:
-            tell(self.layout, map_pictures.fault, context.region.width)
+            tell(self.layout, map_pictures.fault, panel_width(context))
             return
         if not map_pictures.items:
             self.layout.label(text="Reading...", icon="TIME")

@@ -18,8 +18,17 @@ SOLID = "Solid shading has neither lamps nor world: choose Material Preview or R
 """What of Blender's own shading surprises beside a preview, or as light."""
 
 
+def panel_width(context: bpy.types.Context) -> int:
+    """Width of the region that a panel is drawn in, in pixels at Blender's own scale.
+
+    Screens of high resolution and *Resolution Scale* make both region and letters larger.
+    """
+    scale = context.preferences.system.ui_scale or 1.0  # 0 without a window
+    return int(context.region.width / scale)
+
+
 def letters_in(width: int) -> int:
-    """How many letters a line has room for beside an icon, in a region of a width in pixels."""
+    """How many letters a line has room for beside an icon, in a region of a width by `panel_width`."""
     return max(20, (width - MARGIN) // LETTER_WIDTH)
 
 

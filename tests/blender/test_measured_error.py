@@ -11,7 +11,7 @@ from rsibr.rsibr_addon.core.kinds.radiance_views.warping import Warping
 from rsibr.rsibr_addon.settings.radiance_views import ViewsComparison
 from rsibr.rsibr_addon.tasks.compare import comparison as comparisons
 from rsibr.rsibr_addon.tasks.compare.comparison import Comparison, WayError
-from rsibr.rsibr_addon.tasks.compare.measured_error import measured_facts
+from rsibr.rsibr_addon.tasks.compare.measured_error import measured_facts, measured_sentence
 from rsibr.rsibr_addon.tasks.compare.radiance_views import ViewsWay
 from rsibr.rsibr_addon.tasks.report import facts
 from rsibr.tests.flat_capture import write_flat_capture
@@ -58,13 +58,19 @@ def test_a_comparison_is_read_once(path: Path, monkeypatch: pytest.MonkeyPatch) 
 
 def test_measured_errors_are_told_while_the_content_is_the_same(path: Path) -> None:
     assert measured_facts(path) == {}
+    assert measured_sentence(path, ViewsLook("fragment", "albedo")) == ""
     write_comparison(path, facts.map_set_content(path))
-    told = {"Measured": "3.1 %, at worst 4 %", "Against": "Cycles, 2 views"}
-    assert measured_facts(path, ViewsLook("fragment", "albedo")) == told
-    assert measured_facts(path, ViewsLook("texel", "albedo")) == {}
-    assert sum(what.startswith("Measured: 12 views") for what in measured_facts(path)) == 2
+    told, look = measured_facts(path), ViewsLook("fragment", "albedo")
+    measured = [which for what, which in told.items() if what.startswith("Measured: 12 views")]
+    assert measured == ["3.1 %, at worst 4 %"] * 2
+    assert told["Against"] == "Cycles, 2 views"
+    sentence = "On the whole 3.1 % off Cycles, 4 % in the worst of 2 views."
+    assert measured_sentence(path, look) == sentence
+    assert measured_sentence(path, ViewsLook("texel", "albedo")) == ""
     write_flat_capture(path, (0.5, 0.0, 0.5))
-    assert measured_facts(path) == {"Measured": "before the file changed: compare again"}
+    again = "The file has changed since it was compared: compare again."
+    assert measured_facts(path) == {"Measured": again}
+    assert measured_sentence(path, look) == again
 
 
 @pytest.mark.parametrize(

@@ -2,12 +2,13 @@
 
 from types import SimpleNamespace
 
+import bpy
 import pytest
 from rsibr.rsibr_addon.core.errors import SceneError
 from rsibr.rsibr_addon.core.options import declared_options
 from rsibr.rsibr_addon.files.kinds.registry import STORED, look_types
 from rsibr.rsibr_addon.ui import advanced_panel, preview_panel, result_panel
-from rsibr.rsibr_addon.ui.sentences import LONG_LABEL_SHARE, LONGEST_LABEL, letters_in, tell
+from rsibr.rsibr_addon.ui.sentences import LONG_LABEL_SHARE, LONGEST_LABEL, letters_in, panel_width, tell
 
 NARROW = 292
 """Pixels of the sidebar's width that Blender begins with."""
@@ -25,6 +26,25 @@ def test_it_says_why_nothing_can_be_sent(offline: bool, monkeypatch: pytest.Monk
     preview_panel._draw_offline(SimpleNamespace(column=lambda align: column), 300)
     assert " ".join(told).startswith("Blender may not use the network: switch on" if offline else "")
     assert bool(told) == offline
+
+
+@pytest.mark.usefixtures("panel")
+@pytest.mark.parametrize(
+    ("kind", "settings", "told"),
+    [
+        ("mip_chain", {}, "Mip Chain"),
+        ("lobe_stack", {"source": "MODEL"}, "Lobe Stack: Brushed copper"),
+        ("lobe_stack", {"source": "MODEL", "brdf": "no model"}, "Lobe Stack: no model"),
+        ("lobe_stack", {"source": "OWN"}, "Lobe Stack: Material"),
+        ("radiance_views", {"source": "OWN"}, "Radiance Views: Material"),
+    ],
+)
+def test_the_material_that_is_baked_is_named(kind: str, settings: dict[str, str], told: str) -> None:
+    chosen = bpy.context.scene.rsibr_bake
+    chosen.kind = kind
+    for name, value in settings.items():
+        setattr(getattr(chosen, kind), name, value)
+    assert preview_panel._shaded_as(bpy.context) == told
 
 
 @pytest.mark.parametrize("kind", STORED)
@@ -85,3 +105,10 @@ def test_broken_lines_begin_below_each_other(icon: str) -> None:
     tell(SimpleNamespace(column=lambda align: column), "one two " * 20, NARROW, icon=icon)
     assert len(icons) > 1
     assert set(icons[1:]) == {"NONE" if icon == "NONE" else "BLANK1"}
+
+
+@pytest.mark.parametrize(("scale", "pixels"), [(1.0, NARROW), (2.0, 2 * NARROW), (0.0, NARROW)])
+def test_as_many_letters_fit_at_every_scale_of_the_screen(scale: float, pixels: int) -> None:
+    preferences = SimpleNamespace(system=SimpleNamespace(ui_scale=scale))
+    context = SimpleNamespace(preferences=preferences, region=SimpleNamespace(width=pixels))
+    assert panel_width(context) == NARROW

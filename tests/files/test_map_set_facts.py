@@ -77,3 +77,13 @@ def test_pictures_are_of_every_map_the_environment_last(path: Path) -> None:
     (glossy,) = [picture for picture in pictures if picture.title == "View 3, Glossy"]
     # 0.5 and 0.25 on the sRGB curve
     np.testing.assert_allclose(glossy.pixels[4, 4], [0.7353570, 0.0, 0.5370987], atol=1e-6)
+
+
+def test_the_first_picture_is_no_black_one(tmp_path: Path) -> None:
+    (map_set,) = (each for each in map_sets() if each.kind == "lobe_stack")
+    first, second, *_ = (part["name"] for part in map_set.header["parts"])
+    map_set.maps[first][:], map_set.maps[second][:] = 0.0, 1.0
+    write_map_set(tmp_path / "a.rsibr.exr", map_set)
+    pictures = [picture.name for picture in map_set_pictures(tmp_path / "a.rsibr.exr")]
+    assert pictures[0] == second
+    assert first in pictures[1:]

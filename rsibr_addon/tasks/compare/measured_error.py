@@ -11,17 +11,12 @@ from ...files.read_once import read_once
 from ...files.reading import opened
 from ..methods.kinds import KINDS
 from ..report.facts import map_set_content, map_set_header
-from .comparison import RESULT, Comparison, WayError
+from .comparison import RESULT, Comparison
+from .truth import Truth
 
 
-def measured_facts(map_set: Path, look: Any = None) -> dict[str, str]:
-    """The errors that `comparison_beside` a map set tells.
-
-    Parameters
-    ----------
-    map_set : Path
-    look : object, optional
-        Look of the map set's kind, if only that way to draw counts.
+def measured_facts(map_set: Path) -> dict[str, str]:
+    """The errors that `comparison_beside` a map set tells, of every way to draw.
 
     Returns
     -------
@@ -33,26 +28,80 @@ def measured_facts(map_set: Path, look: Any = None) -> dict[str, str]:
     MapSetError
         There is no such map set.
     """
-    kind = map_set_header(map_set)["kind"]
-    truth, settings = KINDS[kind].truth, STORED[kind].comparison
-    if truth is None or settings is None:
+    truth = KINDS[map_set_header(map_set)["kind"]].truth
+    if truth is None:
         return {}
     try:
-        comparison = _comparison(comparison_beside(map_set) / RESULT, settings, truth.way)
+        comparison = _comparison_of(map_set, truth)
     except InputFileError as error:
         return {"Measured": str(error)}
     if comparison is None:
         return {}
-    if comparison.content != map_set_content(map_set):
-        return {"Measured": "before the file changed: compare again"}
-    errors = [error for error in comparison.errors if look is None or truth.is_look(error.way, look)]
-    if not errors:
-        return {}
-    named = len(errors) > 1
+    named = len(comparison.errors) > 1
     return {
-        **{f"Measured{f': {error.way.name}' if named else ''}": _words(error) for error in errors},
+        **{
+            f"Measured{f': {error.way.name}' if named else ''}": (
+                f"{_percent(error.pooled)}, at worst {_percent(error.worst)}"
+            )
+            for error in comparison.errors
+        },
         "Against": f"{truth.telling(comparison.settings).name}, {len(comparison.view_dirs)} views",
     }
+
+
+def measured_sentence(map_set: Path, look: Any) -> str:
+    """How far off a preview is, in a sentence for artists.
+
+    Parameters
+    ----------
+    map_set : Path
+    look : object
+        How it is drawn: a look of the map set's kind.
+
+    Returns
+    -------
+    str
+        Empty where nothing was measured.
+
+    Raises
+    ------
+    MapSetError
+        There is no such map set.
+    """
+    truth = KINDS[map_set_header(map_set)["kind"]].truth
+    if truth is None:
+        return ""
+    try:
+        comparison = _comparison_of(map_set, truth)
+    except InputFileError as fault:
+        return str(fault)
+    if comparison is None:
+        return ""
+    name, views = truth.telling(comparison.settings).name, len(comparison.view_dirs)
+    sentences = (
+        f"On the whole {_percent(error.pooled)} off {name}, "
+        f"{_percent(error.worst)} in the worst of {views} views."
+        for error in comparison.errors
+        if truth.is_look(error.way, look)
+    )
+    return next(sentences, "")
+
+
+def _comparison_of(map_set: Path, truth: Truth) -> Comparison | None:
+    """The comparison of a map set with its truth; None if there is none.
+
+    Raises
+    ------
+    InputFileError
+        It cannot be read, or is of what the file held before.
+    """
+    settings = STORED[map_set_header(map_set)["kind"]].comparison
+    if settings is None:
+        return None
+    comparison = _comparison(comparison_beside(map_set) / RESULT, settings, truth.way)
+    if comparison is not None and comparison.content != map_set_content(map_set):
+        raise InputFileError("The file has changed since it was compared: compare again.")
+    return comparison
 
 
 @read_once
@@ -74,5 +123,5 @@ def _comparison(path: Path, settings: type, way: type) -> Comparison | None:
         raise InputFileError(f"{path} is no comparison of this version ({error}): compare again.") from error
 
 
-def _words(error: WayError) -> str:
-    return f"{100.0 * error.pooled:.2g} %, at worst {100.0 * error.worst:.2g} %"
+def _percent(error: float) -> str:
+    return f"{100.0 * error:.2g} %"

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -45,7 +46,8 @@ def map_set_pictures(path: Path) -> list[MapPicture]:
     Returns
     -------
     list of MapPicture
-        In the file's order, but tables of numbers and the environment last.
+        In the file's order, but black maps behind others, so that the first has something to show, and tables
+        of numbers and the environment last.
 
     Raises
     ------
@@ -55,7 +57,11 @@ def map_set_pictures(path: Path) -> list[MapPicture]:
     held = read_map_set(path)
     stored = STORED[held.kind]
     behind = (*stored.numbers, ENVIRONMENT)
-    parts = sorted(held.header["parts"], key=lambda part: part["role"] in behind)
+
+    def rank(part: dict[str, Any]) -> tuple[bool, bool]:
+        return part["role"] in behind, not held.maps[part["name"]].any()
+
+    parts = sorted(held.header["parts"], key=rank)
     return [
         MapPicture(part["name"], stored.part_title(part), _pixels(held.maps[part["name"]])) for part in parts
     ]

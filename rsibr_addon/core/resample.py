@@ -116,6 +116,31 @@ def texels_around(
     return columns, rows, sheets, np.where(missing, 0.0, weights + shared)
 
 
+def bordered(image: Array, representation: Representation) -> Array:
+    """A map whose sheets have a border of one texel, which continues them for bilinear lookups by hardware.
+
+    Parameters
+    ----------
+    image : ndarray, shape (sheets, height, width, channels)
+    representation : Representation
+        Of no cube: three texels meet at its corners.
+
+    Returns
+    -------
+    ndarray, shape (sheets, height + 2, width + 2, channels)
+        Of the type of `image`; (u, v) is at (u * width + 1) / (width + 2), and v likewise.
+    """
+    sheets, height, width, channels = image.shape
+    whole = np.empty((sheets, height + 2, width + 2, channels), image.dtype)
+    whole[:, 1:-1, 1:-1] = image
+    row, column = np.nonzero(np.pad(np.zeros((height, width), dtype=bool), 1, constant_values=True))
+    sheet = np.broadcast_to(np.arange(sheets)[:, None], (sheets, len(row)))
+    beyond_column, beyond_row = (np.broadcast_to(each - 1, sheet.shape) for each in (column, row))
+    columns, rows, on = representation.wrap(beyond_column, beyond_row, sheet, width, height)
+    whole[:, row, column] = image[on, rows, columns]
+    return whole
+
+
 def resample(
     image: Array, source: Representation, target: Representation, size: int, dtype: DTypeLike = np.float64
 ) -> Array:

@@ -7,10 +7,13 @@ import numpy as np
 from ..core.antialiased.averaging import Averaging
 from ..core.antialiased.summed_area import summed_area_table
 from ..core.conventions import Array
-from ..core.maps import equirect
+from ..core.maps.representation import representation
+from ..core.resample import bordered
 from . import buffers
 from .summed_area import summed_area_texture
 from .textures import GpuTexture
+
+EQUIRECT = representation("equirect")
 
 
 @dataclass(frozen=True)
@@ -75,21 +78,4 @@ def map_texture(name: str, image: Array) -> GpuTexture:
     -------
     GpuTexture, RGBA32F
     """
-    return GpuTexture(name, buffers.with_alpha(bordered(image)))
-
-
-def bordered(image: Array) -> Array:
-    """A latitude-longitude map with a border of the texels across its seam and poles.
-
-    Parameters
-    ----------
-    image : ndarray, shape (height, width, channels)
-
-    Returns
-    -------
-    ndarray, shape (height + 2, width + 2, channels)
-    """
-    height, width = image.shape[:2]
-    columns, rows = np.meshgrid(np.arange(-1, width + 1), np.arange(-1, height + 1))
-    columns, rows = equirect.wrap(columns, rows, width, height)
-    return image[rows, columns]
+    return GpuTexture(name, buffers.with_alpha(bordered(image[None], EQUIRECT)[0]))

@@ -10,8 +10,11 @@ import numpy as np
 from ..core.conventions import WORLD_AXES, Array
 from ..core.half_floats import half_holds
 from ..core.maps.representation import representation
+from ..core.resample import bordered
 from .kinds.sheets import sheets_from_strip
 from .map_set_data import ENVIRONMENT, MapSet
+
+OCTAHEDRAL = representation("octahedral")
 
 
 class Up(StrEnum):
@@ -60,13 +63,15 @@ def arrays(map_set: MapSet, numbers: Sequence[str]) -> list[Texture]:
     Returns
     -------
     list of Texture
-        With Z up; without the environment.
+        With Z up; without the environment. Octahedral layers are `bordered`: edges continue at edges, which
+        no graphics interface knows.
     """
     header = map_set.header
+    border = int(header["layout"] == OCTAHEDRAL.name)
     parts = [part for part in header["parts"] if part["role"] not in (ENVIRONMENT, *numbers)]
     sheets = {part["name"]: _sheets(map_set.maps[part["name"]], header["layout"]) for part in parts}
     tables = {
-        part["role"]: {**part, "rows": map_set.maps[part["name"]].tolist()}
+        part["role"]: {"part": part, "rows": map_set.maps[part["name"]].tolist()}
         for part in header["parts"]
         if part["role"] in numbers
     }
@@ -77,12 +82,13 @@ def arrays(map_set: MapSet, numbers: Sequence[str]) -> list[Texture]:
     textures = []
     for size, those in alike.items():
         layers = [{**part, "sheet": sheet} for part in those for sheet in range(size[0])]
+        width = size[2] - 2 * border
         is_only = [*roles.values()].count(roles[size]) == 1
         textures.append(
             Texture(
                 (np.concatenate([sheets[part["name"]] for part in those]),),
-                name=roles[size] if is_only else f"{roles[size]}-{size[2]}",
-                note={"axes": WORLD_AXES, "layers": layers, "numbers": tables},
+                name=roles[size] if is_only else f"{roles[size]}-{width}",
+                note={"axes": WORLD_AXES, "border": border, "layers": layers, "numbers": tables},
             )
         )
     return textures
@@ -91,4 +97,5 @@ def arrays(map_set: MapSet, numbers: Sequence[str]) -> list[Texture]:
 def _sheets(strip: Array, layout: str) -> Array:
     count = len(representation(layout).sheets)
     height, width = strip.shape[:2]
-    return sheets_from_strip(strip, (count, height // count, width))
+    sheets = sheets_from_strip(strip, (count, height // count, width))
+    return bordered(sheets, OCTAHEDRAL) if layout == OCTAHEDRAL.name else sheets

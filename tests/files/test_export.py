@@ -11,14 +11,15 @@ import pytest
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import OutputFileError, RangeError
 from rsibr.rsibr_addon.core.filtering.irradiance import irradiance_from_harmonics
+from rsibr.rsibr_addon.core.geometry.directions import normalize
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import BakedPyramid, FilterErrors
-from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import Pyramid
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid
 from rsibr.rsibr_addon.core.kinds.mip_chain.chain import MipChain
 from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTables, Role
 from rsibr.rsibr_addon.core.lobes.bank import KernelBank
 from rsibr.rsibr_addon.core.maps.representation import representation
 from rsibr.rsibr_addon.core.progress import drain
-from rsibr.rsibr_addon.core.resample import lookup
+from rsibr.rsibr_addon.core.resample import bilinear, clamp_to_edge, lookup
 from rsibr.rsibr_addon.files.kinds import kernel_pyramid, mip_chain, reflection_tables
 from rsibr.rsibr_addon.files.ktx2 import write_ktx2
 from rsibr.rsibr_addon.files.map_set import write_map_set
@@ -104,6 +105,7 @@ def test_a_chain_is_a_cube_with_its_mips(tmp_path: Path) -> None:
     assert texture.notes["KTXorientation"] == "rd"
     assert texture.note["kind"] == "mip_chain"
     assert texture.note["roughness"] == [0.0, 0.3, 0.6, 1.0]
+    assert texture.note["spread"] is None
     np.testing.assert_allclose(texture.note["numbers"]["harmonics"]["rows"], CHAIN.harmonics[None], rtol=1e-6)
 
 
@@ -136,7 +138,9 @@ def test_tables_of_several_sizes_are_several_textures(tmp_path: Path) -> None:
         assert texture.notes["KTXorientation"] == "ru"
         assert [layer["role"] for layer in texture.note["layers"]] == [role]
         np.testing.assert_allclose(texture.levels[0][0, ..., :3], values, rtol=2.0**-11, atol=2.0**-25)
-        assert texture.note["numbers"]["weights"]["rows"] == np.ones((len(Role), 3, 3)).tolist()
+        weights = texture.note["numbers"]["weights"]
+        assert weights["rows"] == np.ones((len(Role), 3, 3)).tolist()
+        assert weights["part"]["rows"] == [role.value for role in Role]
     with pytest.raises(RangeError, match=r"cannot be turned: export it with Z up"):
         drain(export(source, tmp_path / "turned.ktx2", Ktx2Settings(up=Up.Y)))
 
@@ -158,8 +162,15 @@ def test_maps_of_one_role_and_several_sizes_are_told_apart(tmp_path: Path) -> No
         "out-diffuse-leaning": ["diffuse", "leaning"],
         "out-ring": ["ring00", "ring01", "ring02"],
     }
-    found = textures["out-prefiltered-8"].levels[0][0, ..., :3]
-    np.testing.assert_allclose(found, maps[2][0], rtol=2.0**-11, atol=2.0**-25)
+    made = textures["out-prefiltered-8"]
+    found = made.levels[0][0, ..., :3].astype(np.float64)
+    np.testing.assert_allclose(found[1:-1, 1:-1], maps[2][0], rtol=2.0**-11, atol=2.0**-25)
+    # Lookups that clamp find what continues a map beyond its edges
+    assert made.note["border"] == 1
+    direction = normalize(RNG.standard_normal((2000, 3)))
+    uv, _ = OCTAHEDRAL.uv_from_direction(direction)
+    shown = bilinear(found, (uv * 8.0 + 1.0) / 10.0, clamp_to_edge)
+    np.testing.assert_allclose(shown, lookup(maps[2], direction, OCTAHEDRAL), rtol=2.0**-10, atol=1e-6)
 
 
 def test_light_too_bright_for_half_floats_is_kept(tmp_path: Path) -> None:

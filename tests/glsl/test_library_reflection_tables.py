@@ -12,9 +12,9 @@ from rsibr.rsibr_addon.core.geometry.directions import dot, normalize, refract
 from rsibr.rsibr_addon.core.kinds.reflection_tables.shading import TablesLook, reflect_tables
 from rsibr.rsibr_addon.core.kinds.reflection_tables.tables import ReflectionTables, Role
 from rsibr.rsibr_addon.core.maps import equirect, sphere_map
-from rsibr.rsibr_addon.core.resample import bilinear
+from rsibr.rsibr_addon.core.resample import bilinear, bordered
 from rsibr.rsibr_addon.device import buffers
-from rsibr.rsibr_addon.device.equirect import bordered
+from rsibr.rsibr_addon.device.equirect import EQUIRECT
 from rsibr.rsibr_addon.device.summed_area import summed_area_texture
 from rsibr.tests.glsl.evaluation import Samplers
 from rsibr.tests.glsl.test_library_summed_area import CORNERS, footprints
@@ -39,7 +39,7 @@ ARCTANGENT = 2e-5
 
 def samplers() -> Samplers:
     return {
-        "image": ("FLOAT_2D", buffers.texture(buffers.with_alpha(bordered(IMAGE)))),
+        "image": ("FLOAT_2D", buffers.texture(buffers.with_alpha(bordered(IMAGE[None], EQUIRECT)[0]))),
         "weights": ("FLOAT_2D", buffers.texture(buffers.with_alpha(WEIGHTS))),
     }
 

@@ -162,6 +162,7 @@ def _textures(path: Path, map_set: MapSet, up: Up) -> list[Texture]:
     note = {
         "axes": Y_UP_AXES if up is Up.Y else WORLD_AXES,
         "roughness": chain.roughness,
+        "spread": chain.spread,
         "numbers": {HARMONICS: {"rows": [turned.harmonics.tolist()]}},
     }
     return [Texture(turned.mips, is_cube=True, note=note)]

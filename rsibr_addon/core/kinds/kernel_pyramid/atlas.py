@@ -4,6 +4,7 @@ import numpy as np
 
 from ...conventions import Array
 from ...lobes.family import KERNELS
+from ...resample import bordered
 from .pyramid import OCTAHEDRAL, Pyramid
 
 
@@ -25,7 +26,7 @@ def atlas_texels(pyramid: Pyramid) -> tuple[Array, Array]:
     atlas = np.ones((height, max(map(len, sheets)) + 2, 4), dtype=np.float32)
     for sheet, (left, bottom) in zip(sheets, corners, strict=True):
         size = len(sheet) + 2
-        atlas[bottom : bottom + size, left : left + size, :3] = _bordered(sheet)
+        atlas[bottom : bottom + size, left : left + size, :3] = bordered(sheet[None], OCTAHEDRAL)[0]
     mirror, *others = (
         (left + 1, bottom + 1, len(sheet), len(sheet))
         for sheet, (left, bottom) in zip(sheets, corners, strict=True)
@@ -47,16 +48,3 @@ def _shelves(widths: list[int]) -> tuple[list[tuple[int, int]], int]:
         corners.append((left, bottom))
         left, top = left + width, max(top, bottom + width)
     return corners, top
-
-
-def _bordered(sheet: Array) -> Array:
-    """A map within what continues it on the sphere, shape (n + 2, n + 2, 3)."""
-    size = len(sheet)
-    bordered = np.empty((size + 2, size + 2, 3), sheet.dtype)
-    bordered[1:-1, 1:-1] = sheet
-    along = np.arange(-1, size + 1)
-    for edge in (np.full_like(along, -1), np.full_like(along, size)):
-        for column, row in ((edge, along), (along, edge)):
-            columns, rows, _ = OCTAHEDRAL.wrap(column, row, np.zeros_like(row), size, size)
-            bordered[row + 1, column + 1] = sheet[rows, columns]
-    return bordered

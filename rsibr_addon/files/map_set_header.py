@@ -180,6 +180,8 @@ class StoredKind:
     textures : callable or None
         A file's path, for messages, what it holds, and which axis is to be up, to textures that hold it; None
         where `textures.arrays` makes them.
+    shaded : callable
+        From a file's path, for messages, and what it holds to the same with the maps that shaders look up.
     suns : callable
         From what a file holds to what docs/export.md says of its suns; None where there are none.
     lobes : callable
@@ -202,6 +204,7 @@ class StoredKind:
     facts: Callable[[dict[str, Any]], dict[str, str]] = lambda header: {}
     part_title: Callable[[dict[str, Any]], str] = role_in_words
     textures: Callable[[Path, MapSet, Up], list[Texture]] | None = None
+    shaded: Callable[[Path, MapSet], MapSet] = lambda path, map_set: map_set
     suns: Callable[[MapSet], dict[str, Any] | None] = lambda map_set: None
     lobes: Callable[[Path, dict[str, Any]], Fit | None] = lambda path, header: None
     from_map_set: Callable[[Path, MapSet], Any] = field(kw_only=True)

@@ -66,7 +66,7 @@ def test_suns_are_those_of_the_environment_that_the_file_holds() -> None:
 
 
 def test_what_is_told_of_suns(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    """By `rsibr info`, and by the note of textures."""
+    """By `rsibr info`, and by the note of textures, whose kernels are without them."""
     baked, _ = make_map_set()
     dark = np.full((8, 16, 3), 0.5, np.float32)
     dark[3, 5] = 1000.0, 600.0, 200.0
@@ -82,8 +82,14 @@ def test_what_is_told_of_suns(tmp_path: Path, capfd: pytest.CaptureFixture[str])
     assert sun["share"] == pytest.approx(texel * 1798.5 / (texel * 1798.5 + 6.0 * np.pi))
     assert run(["info", str(path)]) == 0
     assert re.search(r"Sun 1 +direction .*, irradiance .* % of the light", capfd.readouterr().out)
+    sunless = from_map_set(path, read_map_set(path)).sunless
     for written in drain(export(path, textures)):
-        assert read_ktx2(written).note["suns"] == told
+        texture = read_ktx2(written)
+        assert texture.note["suns"] == told
+        for layer, shown in zip(texture.note["layers"], texture.levels[0], strict=True):
+            if layer["role"] == "prefiltered":
+                wanted = sunless[int(layer["name"].removeprefix("kernel"))][0]
+                np.testing.assert_allclose(shown[1:-1, 1:-1, :3], wanted, rtol=1e-3, atol=1e-6)
     write_map_set(path, to_map_set(baked, Origin(LIGHT, {}, "a test")), force=True)
     for written in drain(export(path, textures, force=True)):
         assert "suns" not in read_ktx2(written).note

@@ -130,6 +130,15 @@ def _suns(map_set: MapSet) -> Suns:
     return NO_SUNS if embedded is None else find_suns(map_set.maps[embedded])
 
 
+def _shaded(path: Path, map_set: MapSet) -> MapSet:
+    """Maps of kernels without suns: half floats with them would leave nothing of the light beside them."""
+    pyramid = from_map_set(path, map_set)
+    sunless = dict(zip(pyramid.bank.concentrations, pyramid.sunless, strict=True))
+    parts = [part for part in map_set.header["parts"] if part["role"] == KERNEL]
+    maps = {part["name"]: sunless[part["concentration"]][0] for part in parts}
+    return replace(map_set, maps=map_set.maps | maps)
+
+
 def _told_suns(map_set: MapSet) -> dict[str, Any] | None:
     suns = _suns(map_set)
     if not len(suns):
@@ -178,6 +187,7 @@ STORED = StoredKind(
     roles={KERNEL: _Kernel, LAMBERT: _Filtered, LEANING: _Filtered, RING: _Ring},
     facts=_facts,
     part_title=_part_title,
+    shaded=_shaded,
     suns=_told_suns,
     from_map_set=from_map_set,
     shading=_shading,

@@ -59,4 +59,4 @@ def textures_of(path: Path, map_set: MapSet, up: Up) -> list[Texture]:
         raise RangeError(
             f"The maps of {path} cannot be turned: export it with Z up, and look it up by (x, -z, y)."
         )
-    return arrays(map_set, stored.numbers)
+    return arrays(stored.shaded(path, map_set), stored.numbers)

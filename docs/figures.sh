@@ -161,8 +161,26 @@ kautz2000-9() { beside kautz2000-9 "$cayman" single single-2d; }
 kautz2000-12() { beside kautz2000-12 $copper single single-2d; }
 kautz2000-15() { beside kautz2000-15 $ward greedy single single-2d; }
 
+# The web page, as Chromium shows it; docs/web-page.md
+web-page() {
+    rsibr bake kernel-pyramid --environment forest -o light.rsibr.exr
+    rsibr export light.rsibr.exr --mesh monkey --view 0.1,-1,0.1 --base-color 0.955,0.638,0.538 --metallic 1 \
+        --roughness 0.55 --background light --background-blur 10 --view-transform AgX -o page.html
+    cat >> page.html <<'EOS'
+<script>
+const asked = setInterval(() => {
+    const box = document.querySelector("[name=beside]");
+    if (box) { clearInterval(asked); box.click(); }
+}, 100);
+</script>
+EOS
+    chromium --headless --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader --hide-scrollbars \
+        --blink-settings=preferredColorScheme=0 --window-size=1060,560 --virtual-time-budget=60000 \
+        --screenshot="$images/web-page.png" "file://$PWD/page.html"
+}
+
 sections=("$@")
-[ $# -gt 0 ] || sections=(kautz2004 miller1984 painted kautz2000-{7,12,15,8,9})
+[ $# -gt 0 ] || sections=(kautz2004 miller1984 painted kautz2000-{7,12,15,8,9} web-page)
 for section in "${sections[@]}"; do
     mkdir "$work/$section"
     (set -e; cd "$work/$section"; "$section")

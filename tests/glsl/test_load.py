@@ -199,5 +199,6 @@ def edit(item: bpy.types.Object, kind: str, value: float) -> None:
         if hasattr(group, name):
             setattr(group, name, value)
     if kind == "kernel_bank":
+        group.lobe_count = 1
         group.brdf = f"ggx:alpha={0.5 + 0.5 * value:.6f},metal=gold"
     item.location.x = value

@@ -1,6 +1,7 @@
 """Whether floats of 16 bits can hold light that may be very bright or very dark."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from itertools import chain
 
 import numpy as np
 
@@ -8,6 +9,9 @@ from .conventions import Array
 
 PRECISION = 1e-3
 """Allowed relative error; 11 significant bits keep half of it."""
+
+VALUES_AT_ONCE = 1 << 16
+"""Values that are looked at at a time: a whole environment's would take four times its memory."""
 
 DARKNESS = 1e-3
 """Share of the mean; darker values may have the absolute error of a value of this size."""
@@ -29,8 +33,9 @@ def half_holds(maps: Sequence[Array]) -> bool:
         are 0.
     """
     count = sum(pixels.size for pixels in maps)
-    mean = sum(float(np.sum(np.abs(pixels), dtype=np.float64)) for pixels in maps) / count
-    return all(_held(pixels, DARKNESS * mean) for pixels in maps)
+    rows = list(chain.from_iterable(map(_pieces, maps)))
+    mean = sum(float(np.sum(np.abs(some), dtype=np.float64)) for some in rows) / count
+    return all(_held(some, DARKNESS * mean) for some in rows)
 
 
 def half_states(pixels: Array) -> bool:
@@ -44,8 +49,14 @@ def half_states(pixels: Array) -> bool:
         Finite.
     """
     with np.errstate(over="ignore"):
-        # Row by row, because the first is enough where they do not
-        return all(np.array_equal(row.astype(np.float16), row) for row in pixels)
+        # Piece by piece, because the first is enough where they do not
+        return all(np.array_equal(some.astype(np.float16), some) for some in _pieces(pixels))
+
+
+def _pieces(pixels: Array) -> Iterator[Array]:
+    """Rows of a map that fit into a processor's cache together, with what is computed of them."""
+    step = max(1, VALUES_AT_ONCE * len(pixels) // max(1, pixels.size))
+    return (pixels[start : start + step] for start in range(0, len(pixels), step))
 
 
 def _held(pixels: Array, floor: float) -> bool:

@@ -8,6 +8,7 @@ from ..core.conventions import Array, Indices
 from ..core.environment import Environment
 from ..core.errors import MapSetError
 from ..core.geometry.camera import Camera
+from ..core.geometry.coarser_mesh import coarser_mesh
 from ..core.light.blur import blurred
 from ..core.light.median_cut import Lamps, lamps_above
 from ..core.maps.representation import representation
@@ -24,6 +25,9 @@ LAMPS = 256
 
 SHADOW_SIZE = 512
 """Width of the floor's map in texels: 64 to the object's radius."""
+
+TEXEL = 2.0 * EXTENT / SHADOW_SIZE
+"""Width of a texel of the floor's map in radii of the object."""
 
 BACKDROP_SAMPLES = 2
 """Lookups along each side of a pixel of the background."""
@@ -104,7 +108,9 @@ class _Floor:
 
     def __init__(self, light: Array, positions: Array, triangles: Indices) -> None:
         ensure_context()
-        self._mesh = GpuMesh(positions, np.zeros_like(positions), triangles)
+        # Which is drawn for each lamp
+        coarse, few = coarser_mesh(positions, triangles, TEXEL)
+        self._mesh = GpuMesh(coarse, np.zeros_like(coarse), few)
         self._lamps = lamps_above(light, LAMPS)
         self._height = float(positions[:, 2].min())
         self._shadow: tuple[bytes, Array] | None = None

@@ -16,7 +16,9 @@ KIND, FORMAT = "rsibr lobe fit", 1
 _ARRAYS = {"mu": 1, "weights": 4, "scale": 3, "offsets": 4, "taps": 3}
 
 
-class _File(TypedDict):
+class FitFields(TypedDict):
+    """A fit as JSON has it."""
+
     brdf: Model
     method: str
     concentrations: Annotated[list[float], length(1, MOST_KERNELS)]
@@ -26,6 +28,33 @@ class _File(TypedDict):
     offsets: list[list[list[list[float]]]]
     taps: list[list[list[float]]]
     left_out: NotRequired[float]
+
+
+def fields_of(fit: Fit) -> FitFields:
+    """A fit as JSON values."""
+    told: Any = {
+        "brdf": fit.brdf,
+        "method": fit.method,
+        "concentrations": list(fit.bank.concentrations),
+        **{name: getattr(fit, name).tolist() for name in _ARRAYS},
+        **({} if fit.left_out is None else {"left_out": fit.left_out}),
+    }
+    fields: FitFields = told
+    return fields
+
+
+def fit_from(fields: FitFields) -> Fit:
+    """The fit that `fields_of` told, to the last bit.
+
+    Raises
+    ------
+    SchemaError, RangeError, ShapeError
+        The values do not make a fit.
+    """
+    told: dict[str, Any] = {**fields}
+    arrays = {name: array(told[name], axes, name) for name, axes in _ARRAYS.items()}
+    bank = KernelBank(tuple(told["concentrations"]))
+    return Fit(told["brdf"], told["method"], bank=bank, left_out=told.get("left_out"), **arrays)
 
 
 def write_fit(path: str | Path, fit: Fit, report: dict[str, Any], force: bool = False) -> None:
@@ -49,12 +78,8 @@ def write_fit(path: str | Path, fit: Fit, report: dict[str, Any], force: bool = 
     text = {
         "kind": KIND,
         "format": FORMAT,
-        "brdf": fit.brdf,
-        "method": fit.method,
         "report": report,
-        "concentrations": list(fit.bank.concentrations),
-        **{name: getattr(fit, name).tolist() for name in _ARRAYS},
-        **({} if fit.left_out is None else {"left_out": fit.left_out}),
+        **fields_of(fit),
     }
     with written_aside(path, force) as aside:
         aside.write_text(json.dumps(text, indent=None, separators=(",", ":")) + "\n", encoding="utf-8")
@@ -86,9 +111,6 @@ def read_fit(path: str | Path) -> Fit:
             raise InputFileError(
                 f"{path} has format {plain.get('format')!r:.40}, which is newer: update the program."
             )
-        told: dict[str, Any] = {**decode(_File, plain)}
-        arrays = {name: array(told[name], axes, name) for name, axes in _ARRAYS.items()}
-        bank = KernelBank(tuple(told["concentrations"]))
-        return Fit(told["brdf"], told["method"], bank=bank, left_out=told.get("left_out"), **arrays)
+        return fit_from(decode(FitFields, plain))
     except (SchemaError, RangeError, ShapeError) as error:
         raise InputFileError(f"{path} is damaged ({error}): fit again, or restore the file.") from error

@@ -45,11 +45,11 @@ class LobeStackSettings(Fitting, MethodSettings):
     fit: str | None = option(
         None,
         label="Fit File",
-        help="Lobes that were fitted before, by rsibr fit",
+        help="Lobes that were fitted before: a file by rsibr fit, or a map set that has lobes",
         none="fit the model",
         none_as="",
         subtype="FILE_PATH",
-        metavar="FIT.json",
+        metavar="FIT.json|NAME.rsibr.exr",
     )
     size: int | None = option(
         None,

@@ -57,10 +57,18 @@ class RadianceViewsSettings(MethodSettings):
         advanced=True,
         metavar="FILE",
     )
+    fit_lobes: bool = option(
+        False,
+        label="Fit Lobes",
+        help="Fit lobes to the views, and keep them in the map set: rsibr bake lobe-stack --fit shows them "
+        "in any light",
+        final=True,
+        flag="--fit",
+    )
     more_views: int | None = option(
         None,
         label="More Views",
-        help="Capture so many more views at most, each where it tells lobes that are fitted to them most",
+        help="Capture so many more views at most, each where it tells most of lobes, which are fitted too",
         least=1,
         most=150,
         none="none",
@@ -71,10 +79,12 @@ class RadianceViewsSettings(MethodSettings):
     goal: float | None = option(
         None,
         label="Goal",
-        help="Capture no more views once the lobes predict views that are left out with this relative error",
+        help="Capture no more views once the lobes predict views that are left out with this relative error; "
+        "where they do not reach it, measure the material itself, and keep lobes fitted to that if these "
+        "are closer",
         least=0.001,
         most=1.0,
-        none="all of them",
+        none="none",
         none_as=0.0,
         advanced=True,
         metavar="ERROR",
@@ -121,10 +131,15 @@ class RadianceViewsSettings(MethodSettings):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.goal is not None and self.more_views is None:
-            raise RangeError("A goal ends the capture of more views: say how many there may be (More Views).")
-        if self.photographs is not None and self.more_views is not None:
-            raise RangeError("Photographs are what they are: leave More Views out.")
+        if self.goal is not None and not self.fits_lobes:
+            raise RangeError("A goal is for lobes fitted to the views: ask for them (Fit Lobes, More Views).")
+        if self.photographs is not None and (self.more_views or self.goal) is not None:
+            raise RangeError("Photographs are what they are: leave More Views and Goal out.")
+
+    @property
+    def fits_lobes(self) -> bool:
+        """Whether lobes are fitted to the views."""
+        return self.fit_lobes or self.more_views is not None
 
     @property
     def only_names_material(self) -> bool:

@@ -8,13 +8,15 @@ from typing import Annotated, Any, NotRequired, TypedDict
 import numpy as np
 
 from ...core.conventions import Array
-from ...core.errors import MapSetError, RangeError, ShapeError
+from ...core.errors import MapSetError, RangeError, SchemaError, ShapeError
 from ...core.geometry.geodesic import VERTEX_COUNTS
 from ...core.kinds.radiance_views.shading import ViewsLook, views_fragment
 from ...core.kinds.radiance_views.views import RadianceViews
 from ...core.kinds.radiance_views.warping import WarpChoice, Warping, chosen_warping
+from ...core.lobes.fit import Fit
 from ...core.schema import between
 from ...settings.radiance_views import RadianceViewsSettings, ViewsComparison
+from ..fits import FitFields, fit_from
 from ..map_set_data import MapSet
 from ..map_set_header import Direction, Model, Shading, StoredKind, role_in_words
 
@@ -23,11 +25,15 @@ KIND = "radiance_views"
 LEFT_OUT = "left_out_"
 """Field of the errors in a description, with a warp: see `RadianceViews.left_out`."""
 
+LOBES, LOBES_LEFT_OUT = "lobes", f"{LEFT_OUT}lobes"
+"""Fields of the material and of the errors, where lobes were fitted to the views: see `Fit.left_out`."""
+
 
 class _Material(TypedDict):
     spec: Model
     name: str
     fingerprint: NotRequired[str]
+    lobes: NotRequired[FitFields]
 
 
 class _View(TypedDict):
@@ -62,6 +68,23 @@ def left_out(header: dict[str, Any]) -> dict[Warping, float]:
     """The errors of predicted views that a description states: see `RadianceViews.left_out`."""
     stated = header["error_bound"] or {}
     return {warping: stated[LEFT_OUT + warping] for warping in Warping if LEFT_OUT + warping in stated}
+
+
+def lobes_of(path: Path, header: dict[str, Any]) -> Fit | None:
+    """The lobes that were fitted to the views; None where none were.
+
+    Raises
+    ------
+    MapSetError
+        Its values do not make a fit.
+    """
+    material = header["material"]
+    if LOBES not in material:
+        return None
+    try:
+        return fit_from(material[LOBES])
+    except (RangeError, SchemaError, ShapeError) as error:
+        raise MapSetError(f"{path} describes no lobes ({error}): capture it again.") from error
 
 
 def _stack(map_set: MapSet, role: str) -> Array:
@@ -116,6 +139,7 @@ STORED = StoredKind(
     problems=_problems,
     facts=_facts,
     part_title=_part_title,
+    lobes=lobes_of,
     from_map_set=from_map_set,
     shading=_shading,
 )

@@ -54,6 +54,11 @@ class KeptViews:
         diffuse, glossy = (np.stack(maps) for maps in zip(*read, strict=True))
         return RadianceViews(diffuse, glossy, view_dirs=view_dirs)
 
+    def noise(self, count: int) -> float:
+        """Relative standard error of the texels of `count` views, which are there."""
+        squares = [float(self.parts(view)[0].attributes[NOISE]) ** 2 for view in range(count)]
+        return float(np.sqrt(np.mean(squares)))
+
     def choose(self, view_dirs: Array) -> None:
         """Write the directions of further views, shape (n, 3): all that are chosen so far."""
         with written_aside(self._chosen, force=True) as aside:

@@ -20,9 +20,9 @@ from ...core.lobes.kept_fits import kept_fit
 from ...core.options import declared_options
 from ...core.progress import Progress, Steps
 from ...core.warned import warn
-from ...files.fits import read_fit
 from ...files.kinds.lobe_stack import in_turn
 from ...files.map_set_header import Origin, Recipe
+from ...files.stated_lobes import stated_lobes
 from ...job import BakeJob
 from ...settings.fit import Fitting
 from ...settings.lobe_stack import LobeStackSettings
@@ -47,7 +47,7 @@ LOBE_SIZE = 128
 def material(settings: LobeStackSettings) -> str:
     """See `Method`."""
     if settings.brdf is None:
-        return Path(settings.fit or "").stem
+        return Path(settings.fit or "").name.removesuffix(".json").removesuffix(".exr").removesuffix(".rsibr")
     named = gallery_name(settings.brdf)
     return named if "path=" not in named else Path(named).stem
 
@@ -107,7 +107,7 @@ def bake(job: BakeJob[LobeStackSettings], recipe: Recipe) -> Steps[Baked]:
     settings = job.settings
     light = yield from method.read_light(job)
     if settings.brdf is None:
-        fit = read_fit(Path(settings.fit or ""))
+        fit = stated_lobes(settings.fit or "")
     else:
         fit = yield from _resolved_fit(settings, light, recipe)
     afford = method.afforded_by(job, BYTES_BESIDES)

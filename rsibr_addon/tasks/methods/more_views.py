@@ -1,4 +1,4 @@
-"""Captures that go on: more views, each where it tells lobes that are fitted to them most."""
+"""Captures to which lobes are fitted, and which go on: more views, each where it tells the lobes most."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -6,16 +6,21 @@ from typing import Any
 
 import numpy as np
 
+from ...core.brdf.spec import MATERIAL, is_model
 from ...core.conventions import Array
 from ...core.counted import counted
 from ...core.environment import Environment
+from ...core.errors import RangeError
 from ...core.geometry.view_sphere import MOST_VIEWS
-from ...core.lobes.captures import CapturedFit, fit_captures
+from ...core.lobes.captured_light import CapturedLight
+from ...core.lobes.captures import METHOD, CapturedFit, fit_captures
+from ...core.lobes.fit import Fit
 from ...core.lobes.next_views import next_views
 from ...core.progress import Progress, Steps
 from ...core.warned import warn
 from ...settings.radiance_views import RadianceViewsSettings
-from .fit_captures import filtered_light, is_reached, shipped_families
+from ..reflectance.fit_views import fit_nearer_goal
+from .fit_captures import Captures, filtered_light, is_reached, shipped_families
 from .kept_views import KeptViews
 
 AT_ONCE = 4
@@ -27,7 +32,7 @@ Capture = Callable[[Array, Sequence[int]], Steps[None]]
 
 @dataclass(frozen=True)
 class CapturedViews:
-    """Which views were captured, and what they tell.
+    """Which views were captured, and the lobes that were fitted to them.
 
     Attributes
     ----------
@@ -35,28 +40,30 @@ class CapturedViews:
         The chosen ones last.
     chosen : int
         How many were chosen.
-    left_out : float or None
-        See `Fit.left_out`, of lobes fitted to all views; None where none were, or for fewer than
-        `captures.FEWEST_VIEWS` views.
+    fit : Fit or None
+        To all views, or to the material itself; None where none was asked for.
     untested : float or None
-        See `CapturedFit`.
+        See `CapturedFit`; None of a fit to the material.
     """
 
     view_dirs: Array
     chosen: int = 0
-    left_out: float | None = None
+    fit: Fit | None = None
     untested: float | None = None
 
     def report(self) -> tuple[str, dict[str, Any]]:
         """What was captured, in words that follow the number of views, and as JSON values."""
         figures: dict[str, Any] = {"views": len(self.view_dirs)}
-        if self.left_out is None or self.untested is None:
+        if self.fit is None:
             return "", figures
-        words = (
-            f", {self.chosen} of them chosen; error of lobes in views left out {self.left_out:.2g}, "
-            f"{self.untested:.0%} of new views untested"
-        )
-        told = {"chosen": self.chosen, "left_out": self.left_out, "untested": self.untested}
+        source = "captures" if self.fit.method == METHOD else "material"
+        left_out = self.fit.left_out
+        words = f", {self.chosen} of them chosen" if self.chosen else ""
+        words += "; lobes" if source == "captures" else "; lobes of the material itself"
+        words += " of unknown error" if left_out is None else f", error in views left out {left_out:.2g}"
+        if self.untested is not None:
+            words += f", {self.untested:.0%} of new views untested"
+        told = {"chosen": self.chosen, "source": source, "left_out": left_out, "untested": self.untested}
         return words, {**figures, **told}
 
 
@@ -68,7 +75,7 @@ def most_views(settings: RadianceViewsSettings, count: int) -> int:
 def capture_views(
     settings: RadianceViewsSettings, light: Environment, view_dirs: Array, kept: KeptViews, capture: Capture
 ) -> Steps[CapturedViews]:
-    """Capture the views asked for, and as many more as settings say.
+    """Capture the views asked for, and fit lobes to them and to as many more as settings say.
 
     Parameters
     ----------
@@ -84,51 +91,53 @@ def capture_views(
 
     Raises
     ------
-    RangeError
-        More views are asked for, but those there are black, or the light resolves no kernel.
-    Or see `capture`.
+    See `capture`.
 
     Warns
     -----
     RsibrWarning
-        The goal is not reached.
+        No lobes can be fitted: the views are black, or the light resolves no kernel; or see
+        `fit_nearer_goal`.
     """
-    most = most_views(settings, len(view_dirs))
-    asked, every = len(view_dirs), np.concatenate([view_dirs, kept.chosen()])
+    every = np.concatenate([view_dirs, kept.chosen()])
     yield from capture(every, kept.missing(len(every)))
-    if settings.more_views is None:
+    if not settings.fits_lobes:
         return CapturedViews(every)
-    filtered = filtered_light(light.radiance)
-    while True:
-        fitted = yield from _within(
-            Progress(len(every), most, f"fitting lobes to {counted(len(every), 'view')}"),
-            fit_captures(kept.read(every), filtered, shipped_families(), settings.material),
-        )
-        left_out, room = fitted.fit.left_out, min(AT_ONCE, most - len(every))
-        if room <= 0 or is_reached(settings.goal, left_out):
-            break
-        more = next_views(every, settings.size, filtered, fitted.weighed, room)
+    asked, most = len(view_dirs), most_views(settings, len(view_dirs))
+    try:
+        filtered = filtered_light(light.radiance)
+        found = yield from _fitted(settings, every, most, filtered, kept)
+    except RangeError as error:
+        warn(f"No lobes are fitted to the views: {error}")
+        return CapturedViews(every, len(every) - asked)
+    while len(every) < most and not is_reached(settings.goal, found.fit.left_out):
+        room = min(AT_ONCE, most - len(every))
+        more = next_views(every, settings.size, filtered, found.weighed, room)
         if not len(more):
             break
         every = np.concatenate([every, more])
         kept.choose(every[asked:])
         yield from capture(every, kept.missing(len(every)))
-    if settings.goal is not None and not is_reached(settings.goal, left_out):
-        known = "say nothing of" if left_out is None else f"have an error of {left_out:.2g} in"
-        warn(
-            f"Lobes fitted to {counted(len(every), 'view')} {known} views that are left out, and the goal is "
-            f"{settings.goal:g}: allow more views, or fit with this goal, by rsibr fit --captures --goal, "
-            "which turns to the material itself."
-        )
-    return CapturedViews(every, len(every) - asked, left_out, fitted.untested)
+        found = yield from _fitted(settings, every, most, filtered, kept)
+    if settings.goal is not None:
+        spec = settings.material if is_model(settings.material) else f"{MATERIAL}:{settings.material}"
+        captures = Captures(kept.read(every), light.radiance, spec, kept.noise(len(every)))
+        closer = yield from fit_nearer_goal(settings.goal, found.fit, captures, spec)
+        if closer is not None:
+            return CapturedViews(every, len(every) - asked, closer.fit)
+    return CapturedViews(every, len(every) - asked, found.fit, found.untested)
 
 
-def _within(place: Progress, steps: Steps[CapturedFit]) -> Steps[CapturedFit]:
-    """Steps of other work as one of this."""
+def _fitted(
+    settings: RadianceViewsSettings, view_dirs: Array, most: int, light: CapturedLight, kept: KeptViews
+) -> Steps[CapturedFit]:
+    """Lobes of the views that there are, as one step of the capture."""
+    count = len(view_dirs)
+    steps = fit_captures(kept.read(view_dirs), light, shipped_families(), settings.material)
     while True:
         try:
             next(steps)
         except StopIteration as end:
             fitted: CapturedFit = end.value
             return fitted
-        yield place
+        yield Progress(count, most, f"fitting lobes to {counted(count, 'view')}")

@@ -21,14 +21,15 @@ from ...core.options import to_plain
 from ...core.progress import Progress, Steps, drain
 from ...core.warned import warn
 from ...files.ball_list import BallPhotograph, read_ball_list
-from ...files.kinds.radiance_views import LEFT_OUT
+from ...files.fits import fields_of
+from ...files.kinds.radiance_views import LEFT_OUT, LOBES, LOBES_LEFT_OUT
 from ...files.map_set_data import ENVIRONMENT, MapsInTurn
 from ...files.map_set_header import Origin, Recipe, make_header
 from ...files.view_directions import read_view_dirs
 from ...files.work_folder import kept_parts, work_folder_beside
 from ...job import BakeJob
 from ...settings.radiance_views import RENDERING, RadianceViewsSettings
-from .kept_views import NOISE, KeptViews
+from .kept_views import KeptViews
 from .method import (
     ENVIRONMENT_MEMORY,
     ENVIRONMENT_ROWS,
@@ -44,7 +45,7 @@ from .method import (
     software_of,
     written,
 )
-from .more_views import capture_views, most_views
+from .more_views import CapturedViews, capture_views, most_views
 from .views_by_model import TOGETHER, ViewsByModel
 from .views_by_photographs import ViewsByPhotographs
 
@@ -134,12 +135,11 @@ def bake(job: BakeJob[RadianceViewsSettings], recipe: Recipe) -> Steps[Baked]:
         capture = partial(lit.capture, kept.keep)
         captured = yield from capture_views(asked, light, sphere.vertices, kept, capture)
         software = software_of(job, measured=_is_rendered(asked))
-        sphere = view_sphere(captured.view_dirs)
-        path = drain(written(job, recipe, _map_set(lit, asked, light, sphere, kept, software)))
+        path = drain(written(job, recipe, _map_set(lit, asked, light, captured, kept, software)))
     told, figures = captured.report()
     size = f"{asked.size}x{asked.size}"
     return Baked(
-        path, f"{counted(len(sphere.vertices), 'view')} of {size}{told}", {"size": asked.size, **figures}
+        path, f"{counted(len(captured.view_dirs), 'view')} of {size}{told}", {"size": asked.size, **figures}
     )
 
 
@@ -182,14 +182,14 @@ def _map_set(
     lit: "ViewsByModel | ViewsByCycles | ViewsByPhotographs",
     settings: RadianceViewsSettings,
     light: Environment,
-    sphere: GeodesicSphere,
+    captured: CapturedViews,
     kept: KeptViews,
     software: str,
 ) -> MapsInTurn:
+    sphere = view_sphere(captured.view_dirs)
     albedo, count = lit.albedo(), len(sphere.vertices)
     shapes = {ENVIRONMENT: light.radiance.shape[:2], ALBEDO: albedo.shape[:2]}
     parts: list[dict[str, Any]] = [{"name": name, "role": name} for name in shapes]
-    variance = 0.0
     left_out = LeftOut(sphere, settings.size, albedo)
     for view in range(count):
         view_dir = sphere.vertices[view].tolist()
@@ -198,9 +198,8 @@ def _map_set(
             name = f"view{view:03d}.{part.name}"
             shapes[name] = (settings.size,) * 2
             parts.append({"name": name, "role": part.name, "view": view, "view_dir": view_dir})
-        variance += float(finished[0].attributes[NOISE]) ** 2 / count
         left_out.add(view, *(part.side_by_side("RGB") for part in finished))
-    errors = {"relative_noise": variance**0.5}
+    errors = {"relative_noise": kept.noise(count)}
     errors |= {f"{LEFT_OUT}{warping}": error for warping, error in left_out.errors().items()}
 
     def maps() -> Iterator[Array]:
@@ -209,10 +208,14 @@ def _map_set(
             yield from (part.side_by_side("RGB") for part in kept.parts(view))
 
     by_file = settings.view_file is not None or settings.photographs is not None
-    untold = ("material", *(["views"] if by_file else []), *([] if _is_rendered(settings) else RENDERING))
+    untold = {"material", "fit_lobes"} | ({"views"} if by_file else set())
+    untold |= set() if _is_rendered(settings) else {*RENDERING}
     given = {name: value for name, value in to_plain(settings).items() if value is not None}
     stated = {name: value for name, value in given.items() if name not in untold}
-    origin = Origin(light, stated, software, lit.material, errors)
+    lobes = {} if captured.fit is None else {LOBES: fields_of(captured.fit)}
+    if captured.fit is not None and captured.fit.left_out is not None:
+        errors[LOBES_LEFT_OUT] = captured.fit.left_out
+    origin = Origin(light, stated, software, lit.material | lobes, errors)
     header = make_header("sphere_map", (settings.size, settings.size), parts, origin)
     return MapsInTurn("radiance_views", shapes, maps(), header)
 

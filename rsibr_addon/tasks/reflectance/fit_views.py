@@ -8,6 +8,7 @@ import numpy as np
 from ...core.errors import InputFileError, RangeError, RenderError, SceneError
 from ...core.lobes.bake import sharpest_resolved
 from ...core.lobes.family_fit import CLOSER_LOBES
+from ...core.lobes.fit import Fit
 from ...core.lobes.fit_in_views import error_in_views
 from ...core.progress import Progress, Steps
 from ...core.warned import warn
@@ -57,37 +58,62 @@ def fit_views(settings: FitSettings, output: Path, force: bool = False) -> Steps
     captures = read_captures(path)
     of_captures = yield from captured_fit(captures, settings.captured_views)
     result: CapturedResult | FitResult = of_captures
-    if settings.goal is not None and not is_reached(settings.goal, result.fit.left_out):
-        result = yield from _closer(of_captures, captures, settings.brdf)
-        if not is_reached(settings.goal, result.fit.left_out):
-            warn(_missed(settings.goal, result.fit.left_out, captures.noise))
+    if settings.goal is not None:
+        closer = yield from fit_nearer_goal(settings.goal, of_captures.fit, captures, settings.brdf)
+        result = closer or result
     write_fit(output, result.fit, result.report(), force)
     return result
 
 
-def _closer(
-    found: CapturedResult, captures: Captures, named: str | None
-) -> Steps[CapturedResult | FitResult]:
-    """A fit to the material itself, if it is closer to the captures than they are to each other."""
+def fit_nearer_goal(goal: float, fit: Fit, captures: Captures, named: str | None) -> Steps[FitResult | None]:
+    """A fit to the material itself, where that to its captures misses the goal.
+
+    Parameters
+    ----------
+    goal : float
+        Greatest `Fit.left_out`.
+    fit : Fit
+        To the captures.
+    captures : Captures
+    named : str or None
+        The material, if the user named it: what captures name is not opened.
+
+    Returns
+    -------
+    FitResult or None
+        None where the fit to the captures reaches the goal, or is closer to them.
+
+    Warns
+    -----
+    RsibrWarning
+        The goal is not reached; the material cannot be had; or see `load_brdf`.
+    """
+    if is_reached(goal, fit.left_out):
+        return None
+    of_material = yield from _fit_to_material(captures, named)
+    closer = of_material if of_material is not None and _stated(of_material.fit) < _stated(fit) else None
+    left_out = fit.left_out if closer is None else closer.fit.left_out
+    if not is_reached(goal, left_out):
+        warn(_missed(goal, left_out, captures.noise))
+    return closer
+
+
+def _stated(fit: Fit) -> float:
+    return np.inf if fit.left_out is None else fit.left_out
+
+
+def _fit_to_material(captures: Captures, named: str | None) -> Steps[FitResult | None]:
+    """A fit to the material itself, and its error in the captures; None where the material cannot be had."""
     try:
         if named is None:
             check_told_brdf(captures.spec)
-        of_material = yield from _fit_to_material(captures, named or captures.spec)
+        brdf = yield from load_brdf(named or captures.spec)
+        # As many lobes for each layer as a fit to captures has for each width
+        fitting = Fitting(lobes=CLOSER_LOBES)
+        found = yield from fit_model(brdf, fitting, sharpest_resolved(len(captures.radiance)))
     except (InputFileError, RangeError, RenderError, SceneError) as error:
         warn(f"Lobes cannot be fitted to the material itself, so they are those of the captures: {error}")
-        return found
-    return of_material if _stated(of_material) < _stated(found) else found
-
-
-def _stated(found: CapturedResult | FitResult) -> float:
-    return np.inf if found.fit.left_out is None else found.fit.left_out
-
-
-def _fit_to_material(captures: Captures, spec: str) -> Steps[FitResult]:
-    brdf = yield from load_brdf(spec)
-    # As many lobes for each layer as a fit to captures has for each width
-    fitting = Fitting(lobes=CLOSER_LOBES)
-    found = yield from fit_model(brdf, fitting, sharpest_resolved(len(captures.radiance)))
+        return None
     yield Progress(0, 1, "comparing with the captures")
     light = light_by(captures.radiance, found.fit.bank)
     return replace(found, fit=replace(found.fit, left_out=error_in_views(found.fit, light, captures.views)))

@@ -7,7 +7,7 @@ from os.path import normpath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..core.counted import counted
+from ..core.counted import counted, in_short
 from ..core.errors import InputFileError, NotNowError, RsibrError
 from ..core.near_names import did_you_mean
 from ..core.warned import warn
@@ -110,7 +110,7 @@ def check_failures(failures: Mapping[str, "Failure"], total: int, page: str) -> 
         [failure] = failures.values()
         raise _failed(failures, failure["error"])
     _warn_of(failures)
-    names = ", ".join(sorted(failures))
+    names = in_short(sorted(failures))
     raise _failed(failures, f"{len(failures)} of {total} bakes failed ({names}): see {page}.")
 
 

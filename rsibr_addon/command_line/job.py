@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..core.errors import InputFileError
-from ..files.reading import opened
+from ..files.reading import opened, text_of
 from ..job import BakeJob, job_of_object, read_job
 from ..settings.baked_inputs import ObjectInputsSettings
 from .bake import run_job
@@ -58,7 +58,7 @@ def _of_its_object(job: BakeJob[Any]) -> BakeJob[Any]:
 def _text(path: Path) -> str:
     try:
         with opened(path) as stream:
-            return stream.read().decode()
+            return text_of(stream.read())
     except UnicodeDecodeError as error:
         raise InputFileError(f"{path} is no text: give a job, which is JSON in UTF-8.") from error
 

@@ -1,13 +1,12 @@
 """Exposure times as people write them: 1/125, 0.5, 8."""
 
-import codecs
 import math
 import re
 from pathlib import Path
 
 from ..core.errors import InputFileError
 from ..core.options import number_from_text
-from .reading import opened
+from .reading import opened, text_of
 
 LARGEST = 1 << 20
 """Largest list of times in bytes."""
@@ -58,8 +57,7 @@ def read_times(path: str | Path) -> tuple[float, ...]:
     """
     with opened(path) as stream:
         data = stream.read(LARGEST)
-    encoding = "utf-16" if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) else "utf-8-sig"
-    lines = re.sub(r"(#|//).*", "", data.decode(encoding, errors="replace").replace("\r", "\n"))
+    lines = re.sub(r"(#|//).*", "", text_of(data, "replace").replace("\r", "\n"))
     words = re.split(r"[\s,;\"']+", re.sub(r"\s*/\s*", "/", re.sub(r"(?<=\d)\s*s\b", "", lines)))
     try:
         return tuple(exposure_time(word[:40]) for word in words if word)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..core.conventions import Array, ArrayLike
+from ..core.counted import in_short
 from .chromaticities import REC_709, luminance_weights, rec709_from
 from .exr import CUBE, primaries_named
 from .exr_part import window_size
@@ -146,6 +147,5 @@ def _unknown(header: dict[str, Any]) -> Iterator[str]:
     """Unknown attributes."""
     unknown = [name for name in header if not HARMLESS.fullmatch(name) and not COLOUR_SPACE.fullmatch(name)]
     if unknown:
-        more = f" and {len(unknown) - 8} more" if len(unknown) > 8 else ""
-        shown = [name if name.isprintable() else ascii(name) for name in unknown[:8]]
-        yield f"has attributes that are not used: {', '.join(shown)}{more}."
+        names = [name if name.isprintable() else ascii(name) for name in unknown]
+        yield f"has attributes that are not used: {in_short(names)}."

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ..core.counted import in_short
 from ..core.errors import InputFileError
 
 ROLES = {name: name.upper() for name in ("r", "g", "b", "a", "x", "y", "z", "ry", "by")} | {
@@ -152,5 +153,4 @@ def _are_views(layers: Iterable[Layer]) -> bool:
 
 
 def _listed(layers: Sequence[Layer]) -> str:
-    names = [layer.name or "that without a name" for layer in layers]
-    return ", ".join(names[:8]) + (f" and {len(names) - 8} more" if len(names) > 8 else "")
+    return in_short([layer.name or "that without a name" for layer in layers])

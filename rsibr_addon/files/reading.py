@@ -1,5 +1,6 @@
-"""Opening a file to read it, with a sentence for each obstacle."""
+"""Opening a file to read it, with a sentence for each obstacle, and its text."""
 
+import codecs
 import contextlib
 from collections.abc import Iterator
 from io import BufferedReader
@@ -32,6 +33,26 @@ def opened(path: str | Path) -> Iterator[BufferedReader]:
         with path.open("rb") as stream:
             yield stream
     except (FileNotFoundError, NotADirectoryError) as error:
+        there = Path(str(path).replace("\\", "/"))
+        if there != path and there.exists():
+            raise InputFileError(f"{path} does not exist, but {there} does: write / for \\.") from error
         raise InputFileError(f"{path} does not exist: check the name and the folder.") from error
     except OSError as error:
         raise InputFileError(f"{path} cannot be read ({error.strerror}): check its permissions.") from error
+
+
+def text_of(data: bytes, errors: str = "strict") -> str:
+    """The text of a file that people write: UTF-8, or UTF-16 with its mark, as Windows' programs save it.
+
+    Parameters
+    ----------
+    data : bytes
+    errors : str
+        What becomes of bytes that are no text, as `bytes.decode` has it.
+
+    Raises
+    ------
+    UnicodeDecodeError
+    """
+    is_utf16 = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+    return data.decode("utf-16" if is_utf16 else "utf-8-sig", errors)

@@ -1,6 +1,5 @@
 """Sets of view directions as people write them: as text, or as JSON."""
 
-import codecs
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +9,7 @@ from ..core.errors import InputFileError, RangeError, SchemaError, ShapeError
 from ..core.geometry.view_sphere import view_sphere
 from ..core.schema import decode, loads
 from .ball_list import Triple
-from .reading import opened
+from .reading import opened, text_of
 
 LARGEST = 1 << 20
 """Largest file in bytes."""
@@ -37,8 +36,7 @@ def read_view_dirs(path: str | Path) -> Array:
     """
     with opened(path) as stream:
         data = stream.read(LARGEST)
-    encoding = "utf-16" if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) else "utf-8-sig"
-    text = data.decode(encoding, errors="replace")
+    text = text_of(data, "replace")
     try:
         rows = decode(list[Triple], loads(text)) if text.lstrip().startswith("[") else _rows(text)
         return view_sphere(np.array(rows, dtype=np.float64)).vertices

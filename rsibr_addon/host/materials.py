@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 
 from ..core.brdf.cycles_presets import PRESETS
+from ..core.counted import in_short
 from ..core.errors import InputFileError, SceneError
 from ..core.near_names import did_you_mean
 from ..files.digests import digest
@@ -19,9 +20,6 @@ from .presets import build_preset
 
 ORIGINAL = "RSIBR_ORIGINAL"
 """Environment variable: the file of which the open one is a copy, if it is one; empty if that has no name."""
-
-NAMES_SHOWN = 8
-"""Number of a file's materials that are listed when an unknown one is asked for."""
 
 GENERATED = (
     "generated_type",
@@ -213,10 +211,9 @@ def _named(where: str, name: str, found: Any) -> Any:
     """The entry of `found` of that name; `found` holds materials or their names."""
     names = {getattr(item, "name", item): item for item in found}
     if name not in names:
-        shown = ", ".join(sorted(names)[:NAMES_SHOWN]) or "another file"
-        more = f" and {len(names) - NAMES_SHOWN} more" if len(names) > NAMES_SHOWN else ""
+        shown = in_short(sorted(names)) or "another file"
         raise SceneError(
-            f"{where} holds no material {name}{did_you_mean(name, names)}: choose one of {shown}{more}."
+            f"{where} holds no material {name}{did_you_mean(name, names)}: choose one of {shown}."
         )
     return names[name]
 

@@ -4,11 +4,9 @@ import bpy
 import numpy as np
 
 from ..core.conventions import Array
+from ..core.counted import in_short
 from ..core.errors import SceneError
 from ..core.near_names import did_you_mean
-
-NAMES_SHOWN = 8
-"""Number of a scene's objects that are listed when an unknown one is asked for."""
 
 SOLID = {"MESH", "CURVE", "SURFACE", "META", "FONT", "CURVES", "POINTCLOUD", "VOLUME", "GREASEPENCIL"}
 """Types of objects with an extent."""
@@ -25,10 +23,9 @@ def find_object(scene: bpy.types.Scene, name: str) -> bpy.types.Object:
     found: bpy.types.Object | None = scene.objects.get(name)
     if found is None:
         names = [item.name for item in scene.objects]
-        shown = ", ".join(names[:NAMES_SHOWN]) or "another scene, as it is empty"
-        more = f" and {len(names) - NAMES_SHOWN} more" if len(names) > NAMES_SHOWN else ""
+        shown = in_short(names) or "another scene, as it is empty"
         near = did_you_mean(name, names)
-        raise SceneError(f"Scene {scene.name} holds no object {name}{near}: choose one of {shown}{more}.")
+        raise SceneError(f"Scene {scene.name} holds no object {name}{near}: choose one of {shown}.")
     return found
 
 

@@ -97,6 +97,18 @@ def test_a_table_of_excel_is_read() -> None:
     assert bakes[0].job.settings.exact
 
 
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16"])
+def test_a_table_with_decimal_commas_is_read(encoding: str) -> None:
+    path = Path("excel.csv")
+    specular = "phong:n=20,ks=0.3"  # no number: its comma stays
+    path.write_text(
+        f"environment;method;clamp;error;brdf\nlight/dawn.exr;lobe-stack;0,5;1,5e-2;{specular}\n",
+        encoding=encoding,
+    )
+    (job,) = (each.job for each in read_batch(path))
+    assert (job.light.clamp, job.settings.error, job.settings.brdf) == (0.5, 0.015, specular)
+
+
 @pytest.mark.parametrize(
     ("rows", "sentence"),
     [

@@ -1,5 +1,6 @@
 """What commands read: it is a file, and stays as it is."""
 
+import json
 import os
 from pathlib import Path
 
@@ -66,3 +67,18 @@ def test_what_never_ends_is_refused_at_once(
     os.mkfifo(lights / "pipe.exr")
     result = json_result(capfd, *(word.format(name) for word in command))
     assert result["error"] == f"{name} is a pipe or a device, not a file: save it as a file first."
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
+def test_a_job_is_read_as_editors_save_it(
+    encoding: str, lights: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    job = {
+        "format": 2,
+        "kind": "mip_chain",
+        "settings": {"size": 2},
+        "light": {"environment": "light.exr"},
+        "output": "a.rsibr.exr",
+    }
+    (lights / "a.json").write_text(json.dumps(job), encoding=encoding)
+    assert json_result(capfd, "bake", "a.json")["map_set"] == "a.rsibr.exr"

@@ -1,6 +1,7 @@
 """A file is opened once to be read: each time costs, over a network most."""
 
 import io
+import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -39,6 +40,21 @@ def test_a_path_through_a_file_does_not_exist(tmp_path: Path) -> None:
     (tmp_path / "a.exr").touch()
     with pytest.raises(InputFileError, match=r"a\.exr/b\.exr does not exist: check the name and the folder"):
         read_radiance(tmp_path / "a.exr" / "b.exr")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows takes both signs")
+def test_a_path_of_windows_is_answered_with_the_file_that_is_meant(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("light").mkdir()
+    Path("light/a.exr").touch()
+    with pytest.raises(
+        InputFileError, match=r"^light\\a\.exr does not exist, but light/a\.exr does: write / "
+    ):
+        read_radiance("light\\a.exr")
+    with pytest.raises(InputFileError, match=r"b\.exr does not exist: check the name and the folder"):
+        read_radiance("light\\b.exr")
 
 
 @pytest.mark.parametrize("read", [read_parts, read_exr, read_radiance, describe_exr])

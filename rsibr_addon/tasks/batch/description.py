@@ -17,7 +17,7 @@ from ...files.kinds.registry import STORED
 from ...files.measured_files import MEASURED_FORMATS, measured_spec
 from ...files.output_paths import portable_name
 from ...files.pictures import split_layer
-from ...files.reading import opened
+from ...files.reading import opened, text_of
 from ...job import BakeJob
 from ...settings.light import Light
 from .bake_list import bakes_of_list, is_bake_list
@@ -69,7 +69,7 @@ def read_batch(path: Path, folder: Path | None = None) -> list[BatchBake]:
     folder = path.parent if folder is None else folder
     try:
         # Patterns may overlap, and so mean a bake twice
-        read = _read(data.decode("utf-8-sig"), path, folder)
+        read = _read(text_of(data), path, folder)
         found = list({(bake.job.to_json(), bake.opened): bake for bake in read}.values())
         _check(found, path)
     except UnicodeDecodeError as error:

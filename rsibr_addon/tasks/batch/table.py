@@ -20,8 +20,8 @@ def rows_of(text: str) -> Iterator[dict[str, Any]]:
     Parameters
     ----------
     text : str
-        The first line names the columns. They are parted by commas, or by semicolons as Excel parts them in
-        countries with a decimal comma.
+        The first line names the columns. They are parted by commas; or by semicolons, as Excel parts them in
+        countries with a decimal comma, which numbers then may have.
 
     Raises
     ------
@@ -29,7 +29,8 @@ def rows_of(text: str) -> Iterator[dict[str, Any]]:
         Says in which line what is wrong.
     """
     first = text.partition("\n")[0]
-    table = csv.DictReader(io.StringIO(text), delimiter=";" if first.count(";") > first.count(",") else ",")
+    has_decimal_commas = first.count(";") > first.count(",")
+    table = csv.DictReader(io.StringIO(text), delimiter=";" if has_decimal_commas else ",")
     table.fieldnames = [name.strip().lower() for name in table.fieldnames or ()]
     for row in table:
         line = table.line_num
@@ -39,7 +40,7 @@ def rows_of(text: str) -> Iterator[dict[str, Any]]:
             )
         cells = {name: cell.strip() for name, cell in row.items() if name and cell and cell.strip()}
         if cells:
-            yield _fields(cells, line)
+            yield _fields(cells, line, has_decimal_commas)
 
 
 def method_kind(name: str) -> str:
@@ -58,7 +59,7 @@ def method_kind(name: str) -> str:
     return kind
 
 
-def _fields(cells: dict[str, str], line: int) -> dict[str, Any]:
+def _fields(cells: dict[str, str], line: int, has_decimal_commas: bool) -> dict[str, Any]:
     try:
         environment, method = cells.pop("environment"), cells.pop("method")
     except KeyError as error:
@@ -69,18 +70,20 @@ def _fields(cells: dict[str, str], line: int) -> dict[str, Any]:
     if "output" in cells:
         fields["output"] = cells.pop("output")
     if "clamp" in cells:
-        fields["clamp"] = _number(cells.pop("clamp"), line)
-    return fields | {"methods": ({"kind": method} | _values(method_kind(method), cells, line),)}
+        fields["clamp"] = _number(cells.pop("clamp"), line, has_decimal_commas)
+    return fields | {
+        "methods": ({"kind": method} | _values(method_kind(method), cells, line, has_decimal_commas),)
+    }
 
 
-def _number(text: str, line: int) -> float:
+def _number(text: str, line: int, has_decimal_comma: bool) -> float:
     try:
-        return float(text)
+        return float(_with_point(text) if has_decimal_comma else text)
     except ValueError:
         raise SchemaError(f"clamp of line {line} is not a number") from None
 
 
-def _values(kind: str, cells: dict[str, str], line: int) -> dict[str, Any]:
+def _values(kind: str, cells: dict[str, str], line: int, has_decimal_commas: bool) -> dict[str, Any]:
     """Settings as JSON has them, of the cells of a row."""
     known = {each.name: each for each in declared_options(STORED[kind].settings)}
     values: dict[str, Any] = {}
@@ -88,12 +91,18 @@ def _values(kind: str, cells: dict[str, str], line: int) -> dict[str, Any]:
         if name not in known:
             near = did_you_mean(name, known)
             raise SchemaError(f"column {name} of line {line}{near} is none of {', '.join(known)}")
+        if has_decimal_commas and known[name].wanted is float:
+            cell = _with_point(cell)
         try:
             value = _flag(cell) if known[name].wanted is bool else value_from_text(known[name], cell)
         except ValueError as error:
             raise SchemaError(f"{name} of line {line}: {error}") from error
         values[name] = list(value) if isinstance(value, tuple) else value
     return values
+
+
+def _with_point(number: str) -> str:
+    return number.replace(",", ".")
 
 
 def _flag(cell: str) -> bool:

@@ -20,7 +20,7 @@ from ...files.digests import digest
 from ...files.output_paths import HASH_LETTERS, portable_name
 from ...files.outputs import make_folder
 from ...files.pictures import split_layer
-from ...files.reading import opened
+from ...files.reading import opened, text_of
 from ...job import OBJECT, BakeJob, job_of_object, read_job
 from ...settings.baked_inputs import ObjectInputsSettings
 from ..batch.bake_list import HERE, bake_list_text
@@ -298,7 +298,7 @@ def _read_job(path: Path) -> BakeJob[Any] | None:
         return None
     if not isinstance(plain, dict) or not {"settings", "arguments"} & plain.keys():
         return None
-    job = read_job(data.decode("utf-8-sig"), str(path))
+    job = read_job(text_of(data), str(path))
     if not isinstance(job, BakeJob):
         raise InputFileError(
             f"{path} is the job of rsibr {job.arguments[0]}, which a farm does not do: send a batch, or the "

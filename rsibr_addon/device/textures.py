@@ -36,6 +36,13 @@ class GpuTexture:
         self._texture: gpu.types.GPUTexture | None = None
         self._rows_there = 0
 
+    @classmethod
+    def drawn(cls, texture: gpu.types.GPUTexture) -> "GpuTexture":
+        """One that the GPU draws, and so has."""
+        made = cls.__new__(cls)
+        made._values, made._texture = None, texture
+        return made
+
     @property
     def is_whole(self) -> bool:
         """Whether all of it is on the GPU."""

@@ -162,7 +162,7 @@ def test_family_column() -> None:
 def test_a_width_and_the_next_one_have_all_their_kernels_looked_up(name: str) -> None:
     family, first = getattr(families(), name), 0 if name == "ggx" else len(families().ggx.alpha)
     _, places = atlas_texels(pyramid())
-    texels = lookup_texels(families(), pyramid(), places)
+    texels = lookup_texels(families(), places, pyramid().suns, len(pyramid().bank))
     needed = np.any(family.weights, axis=(1, 2, 4))
     for width, column in enumerate(texels[:, first : first + len(needed)].swapaxes(0, 1)):
         listed = column[1 : 1 + int(column[0, 0])]

@@ -1,5 +1,6 @@
 """A pyramid of kernels and the families of lobes on the GPU: draws meshes in Principled materials."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import gpu
@@ -63,35 +64,20 @@ def depth_first_shader() -> gpu.types.GPUShader:
     return build("depth_first", mesh_interface(""), "depth_first_vert.glsl", "viewport_occluder_frag.glsl")
 
 
-class GpuPyramid(ProgramMapSet):
-    """The light's half and the material's, for Principled materials.
+class GpuPrincipled(ProgramMapSet):
+    """Draws Principled materials from the light's half and the material's.
 
     Parameters
     ----------
-    pyramid : Pyramid
-    families : Families
-
-    Raises
-    ------
-    ShapeError
-        A family has more lobes than ours, or is not sampled as they are.
+    textures : sequence of GpuTexture
+        In the order of `SAMPLERS`.
+    has_suns : bool
+        Whether the light has any.
     """
 
-    def __init__(self, pyramid: Pyramid, families: Families) -> None:
-        half = half_holds(pyramid.all_maps)
-        self._atlas_format = "RGBA16F" if half else "RGBA32F"
-        atlas, places = atlas_texels(pyramid)
-        self.textures = (
-            GpuTexture("kernel bank", atlas, self._atlas_format),
-            GpuTexture("lookups", lookup_texels(families, pyramid, places)),
-            GpuTexture("family of GGX", family_texels(families.ggx)),
-            GpuTexture("family of leaning facets", family_texels(families.leaning)),
-            GpuTexture("albedos of GGX", albedo_texels(families)),
-            GpuTexture("Fresnel terms", rise_table()[None, :, 1:]),
-            GpuTexture("sheen", sheen_texels(families)),
-        )
-        self._families, self._pyramid, self._places = families, pyramid, places
-        self._suns = (SUNS,) if len(pyramid.suns) else ()
+    def __init__(self, textures: Sequence[GpuTexture], has_suns: bool) -> None:
+        self.textures = textures
+        self._suns = (SUNS,) if has_suns else ()
         self._materials = MaterialBinding()
 
     def inputs(self, look: PrincipledLook | Surface) -> Inputs:
@@ -105,18 +91,6 @@ class GpuPyramid(ProgramMapSet):
             textures,
             exact_from={"atlas": 0},
         )
-
-    def split_sum(self) -> dict[str, GpuTexture]:
-        """See `WithSplitSum`."""
-        split, whole = split_families(self._families), replace(self._pyramid, suns=NO_SUNS)
-        textures = {
-            "ggx": GpuTexture("split sum as a family", family_texels(split.ggx)),
-            "lookups": GpuTexture("split sum's lookups", lookup_texels(split, whole, self._places)),
-        }
-        if self._suns:
-            atlas, _ = atlas_texels(whole)
-            textures["atlas"] = GpuTexture("split sum's kernel bank", atlas, self._atlas_format)
-        return textures
 
     def draw(self, mesh: GpuMesh, draw: Draw, look: PrincipledLook | Surface | OwnMaterials) -> None:
         """See `GpuMapSet.draw`."""
@@ -183,6 +157,61 @@ class GpuPyramid(ProgramMapSet):
     def _light(self, shader: gpu.types.GPUShader) -> None:
         for name, texture in zip(SAMPLERS, self.textures, strict=True):
             shader.uniform_sampler(name, texture.whole())
+
+
+class GpuPyramid(GpuPrincipled):
+    """A pyramid, and the families of lobes.
+
+    Parameters
+    ----------
+    pyramid : Pyramid
+    families : Families
+
+    Raises
+    ------
+    ShapeError
+        A family has more lobes than ours, or is not sampled as they are.
+    """
+
+    def __init__(self, pyramid: Pyramid, families: Families) -> None:
+        half = half_holds(pyramid.all_maps)
+        self._atlas_format = "RGBA16F" if half else "RGBA32F"
+        atlas, places = atlas_texels(pyramid)
+        lookups = lookup_texels(families, places, pyramid.suns, len(pyramid.bank))
+        light = GpuTexture("kernel bank", atlas, self._atlas_format), GpuTexture("lookups", lookups)
+        super().__init__((*light, *family_textures(families)), len(pyramid.suns) > 0)
+        self._families, self._pyramid, self._places = families, pyramid, places
+
+    def split_sum(self) -> dict[str, GpuTexture]:
+        """See `WithSplitSum`."""
+        split, resolved = split_families(self._families), len(self._pyramid.bank)
+        textures = {
+            "ggx": GpuTexture("split sum as a family", family_texels(split.ggx)),
+            "lookups": GpuTexture(
+                "split sum's lookups", lookup_texels(split, self._places, NO_SUNS, resolved)
+            ),
+        }
+        if self._suns:
+            atlas, _ = atlas_texels(replace(self._pyramid, suns=NO_SUNS))
+            textures["atlas"] = GpuTexture("split sum's kernel bank", atlas, self._atlas_format)
+        return textures
+
+
+def family_textures(families: Families) -> tuple[GpuTexture, ...]:
+    """The material's half: `SAMPLERS` from `ggx` on.
+
+    Raises
+    ------
+    ShapeError
+        See `GpuPyramid`.
+    """
+    return (
+        GpuTexture("family of GGX", family_texels(families.ggx)),
+        GpuTexture("family of leaning facets", family_texels(families.leaning)),
+        GpuTexture("albedos of GGX", albedo_texels(families)),
+        GpuTexture("Fresnel terms", rise_table()[None, :, 1:]),
+        GpuTexture("sheen", sheen_texels(families)),
+    )
 
 
 def look_fields(look: Surface, antialiased: bool) -> tuple[Array, ...]:

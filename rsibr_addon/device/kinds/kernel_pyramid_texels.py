@@ -5,7 +5,6 @@ import numpy as np
 from ...core.brdf.fresnel_powers import dielectric
 from ...core.conventions import Array
 from ...core.errors import ShapeError
-from ...core.kinds.kernel_pyramid.pyramid import Pyramid
 from ...core.kinds.kernel_pyramid.shading import Families
 from ...core.kinds.kernel_pyramid.suns import Suns
 from ...core.lobes.family import KERNELS, Family
@@ -61,15 +60,17 @@ def family_texels(family: Family) -> Array:
     return texels
 
 
-def lookup_texels(families: Families, pyramid: Pyramid, places: Array) -> Array:
+def lookup_texels(families: Families, places: Array, suns: Suns, resolved: int) -> Array:
     """Which maps are looked up about which axes, as gpu_shaders/lib/pyramid_lib.glsl reads it.
 
     Parameters
     ----------
     families : Families
-    pyramid : Pyramid
     places : ndarray, shape (1, K + 3 + R, 4)
-        See `core.kinds.kernel_pyramid.atlas.atlas_texels`.
+        See `core.kinds.kernel_pyramid.atlas.AtlasLayout`.
+    suns : Suns
+    resolved : int
+        Number of kernels with maps of their own.
 
     Returns
     -------
@@ -83,7 +84,7 @@ def lookup_texels(families: Families, pyramid: Pyramid, places: Array) -> Array:
     of_maps = places[0, :, :3]  # all maps are squares
     columns = [column for family in (families.ggx, families.leaning) for column in _columns(family, of_maps)]
     of_normals = np.pad(of_maps[len(KERNELS) :], ((0, 0), (0, 1)))
-    columns.append(np.vstack([of_normals, _sun_texels(pyramid.suns, len(pyramid.bank))]))
+    columns.append(np.vstack([of_normals, _sun_texels(suns, resolved)]))
     texels = np.zeros((max(map(len, columns)), len(columns), 4), dtype=np.float32)
     for number, column in enumerate(columns):
         texels[: len(column), number] = column

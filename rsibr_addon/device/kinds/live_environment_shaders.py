@@ -45,6 +45,18 @@ def harmonics_shader() -> gpu.types.GPUShader:
     return _build_pass("live_harmonics", ("rows",), ())
 
 
+@kept_until_exit
+def mirror_shader() -> gpu.types.GPUShader:
+    """Makes an octahedral map of six faces."""
+    return _build_pass("live_mirror", ("faces",), ("width",))
+
+
+@kept_until_exit
+def tapped_shader() -> gpu.types.GPUShader:
+    """Makes a map of a pyramid of a sharper one."""
+    return _build_pass("live_tapped", ("sources", "taps"), ("row",))
+
+
 def _build_pass(
     name: str, samplers: tuple[str, ...], whole_numbers: tuple[str, ...], *defines: str
 ) -> gpu.types.GPUShader:

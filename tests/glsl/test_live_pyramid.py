@@ -1,0 +1,111 @@
+"""Changing light filtered for own materials on the GPU, against its reference in numpy."""
+
+import gpu
+import numpy as np
+import pytest
+from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.atlas import atlas_texels
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.live import live_maps, live_pyramid, tapped
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.look import PrincipledLook
+from rsibr.rsibr_addon.core.maps import octahedral
+from rsibr.rsibr_addon.device.context import ensure_context
+from rsibr.rsibr_addon.device.kinds.kernel_pyramid import GpuPyramid
+from rsibr.rsibr_addon.device.kinds.live_pyramid import GpuLivePyramid
+from rsibr.rsibr_addon.device.preview import PreviewRenderer
+from rsibr.tests.glsl.evaluation import evaluate
+from rsibr.tests.glsl.principled_inputs import families
+from rsibr.tests.glsl.test_live_environment import random_faces, read, show, smooth_faces
+from rsibr.tests.glsl.test_preview_renderer import SIZE, SPHERE
+from rsibr.tests.glsl.twins import AXES, COUNT, ULP, unit_vectors
+
+LIBRARY = "live_pyramid_lib.glsl"
+FACE = 32
+
+ROUNDED = 1.0 / 256.0
+"""Hardware may round the weights of bilinear lookups so."""
+
+
+def test_every_map_is_the_reference_s() -> None:
+    ensure_context()
+    faces = random_faces(FACE)
+    live = GpuLivePyramid(FACE, families())
+    show(live, faces)
+    expected, _ = atlas_texels(live_pyramid(faces))
+    found = read(live._atlas)
+    assert found.shape == expected.shape[:2] + (3,)
+    for left, bottom, width, height in live._places:
+        part = slice(bottom, bottom + height), slice(left, left + width)
+        assert np.abs(found[part] - expected[part][..., :3]).max() < ROUNDED
+
+
+def test_a_later_change_leaves_nothing_of_what_was() -> None:
+    ensure_context()
+    live, fresh = (GpuLivePyramid(FACE, families()) for _ in range(2))
+    show(live, random_faces(FACE, 1))
+    for each in (live, fresh):
+        show(each, random_faces(FACE, 2))
+    np.testing.assert_array_equal(read(live._atlas), read(fresh._atlas))
+
+
+@pytest.mark.slow
+def test_a_picture_is_that_of_the_uploaded_pyramid() -> None:
+    ensure_context()
+    faces = smooth_faces(FACE)
+    live = GpuLivePyramid(FACE, families())
+    show(live, faces)
+    uploaded = GpuPyramid(live_pyramid(faces), families())
+    camera = Camera((1.0, -0.7, 0.4), 0.6)
+    for inputs in ({"metallic": 1.0, "roughness": 0.3}, {"coat_weight": 1.0}, {"diffuse_roughness": 1.0}):
+        look = PrincipledLook(own=False, **inputs)
+        found, expected = (
+            PreviewRenderer(each).draw(*SPHERE, camera, SIZE, look) for each in (live, uploaded)
+        )
+        assert expected[..., :3].max() > 0.1
+        # Half floats of what is uploaded, whose differences lobes magnify: as of `principled_radiance`
+        assert np.abs(found - expected).max() < 2e-3 * expected.max()
+
+
+def test_filtering_leaves_blender_s_state_alone() -> None:
+    ensure_context()
+    gpu.state.blend_set("ALPHA")
+    try:
+        show(GpuLivePyramid(FACE, families()), random_faces(FACE))
+        assert gpu.state.blend_get() == "ALPHA"
+    finally:
+        gpu.state.blend_set("NONE")
+
+
+def test_octahedral_direction() -> None:
+    uv = np.random.default_rng(4).random((COUNT, 2))
+    found = evaluate(LIBRARY, "result_0.xyz = octahedral_direction(in_0.xy);", [uv], 1)[:, 0, :3]
+    # A length, and the roundings of uv
+    np.testing.assert_allclose(found, octahedral.direction_from_uv(uv), atol=16 * ULP)
+
+
+def test_bordered_direction() -> None:
+    size = 8
+    along = np.arange(-1, size + 1)
+    column, row = (each.ravel() for each in np.meshgrid(along, along))
+    code = "result_0.xyz = bordered_direction(in_0.xy + 0.5, 8.0);"
+    found = evaluate(LIBRARY, code, [np.stack([column, row], axis=-1).astype(np.float64)], 1)[:, 0, :3]
+    within = np.stack(octahedral.wrap(column, row, size, size), axis=-1)
+    np.testing.assert_allclose(found, octahedral.direction_from_uv((within + 0.5) / size), atol=16 * ULP)
+
+
+def test_tapped_radiance() -> None:
+    ensure_context()
+    faces = smooth_faces(FACE)
+    live = GpuLivePyramid(FACE, families())
+    show(live, faces)
+    textures: dict[str, tuple[str, gpu.types.GPUTexture]] = {
+        "atlas": ("FLOAT_2D", live._atlas.texture),
+        "taps": ("FLOAT_2D", live._taps),
+    }
+    axis = unit_vectors(5, AXES)
+    row = np.arange(len(axis))[:, None] % 2.0
+    code = "result_0.rgb = tapped_radiance(atlas, taps, int(in_1.x + 0.5), in_0.xyz);"
+    found = evaluate(LIBRARY, code, [axis, row], 1, textures)[:, 0, :3]
+    pyramid = live_pyramid(faces)
+    for number, source in enumerate((pyramid.mirror, pyramid.maps[-1])):
+        expected = tapped(source, live_maps(FACE).others[number].taps, axis[number::2])
+        assert np.abs(found[number::2] - expected).max() < ROUNDED

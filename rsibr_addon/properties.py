@@ -47,6 +47,12 @@ class RSIBR_PG_live(bpy.types.PropertyGroup):
         items=[(str(size), str(size), "") for size in (32, 64, 128, 256)],
         default="64",
     )
+    mips = bpy.props.BoolProperty(
+        name="Mips and Harmonics",
+        description="Shade one material by sliders from mips and harmonics, as in Kautz, Daubert and Seidel "
+        "2004, instead of the object's own materials from kernels of all widths",
+        update=_notice,
+    )
     degree = bpy.props.IntProperty(
         name="Degree",
         description="Degree of the harmonics of diffuse light: 2 is the paper's nine numbers; more follow "

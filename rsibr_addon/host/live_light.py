@@ -21,7 +21,7 @@ _colours_of = attrgetter(*_COLOURS)
 def live_name(item: bpy.types.Object) -> str:
     """A name for the light around an object, another for other settings, that no file can have."""
     live = item.rsibr.live
-    return f"live\0{item.session_uid}\0{live.size}\0{live.degree}"
+    return f"live\0{item.session_uid}\0{live.size}\0{live.degree if live.mips else 'kernels'}"
 
 
 def is_live_name(name: str) -> bool:

@@ -23,6 +23,13 @@ class RSIBR_PT_live(InSidebar, bpy.types.Panel):
             tell(self.layout, SOLID, panel_width(context), icon="INFO")
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False
-        self.layout.prop(context.object.rsibr.live, "size")
-        self.layout.prop(context.object.rsibr.live, "degree")
-        self.layout.prop(context.object.rsibr.live, "budget")
+        live = context.object.rsibr.live
+        self.layout.prop(live, "size")
+        self.layout.prop(live, "budget")
+        header, opened = self.layout.panel("RSIBR_live_advanced", default_closed=True)
+        header.label(text="Advanced")
+        if opened:
+            opened.prop(live, "mips")
+            degree = opened.column()
+            degree.active = live.mips
+            degree.prop(live, "degree")

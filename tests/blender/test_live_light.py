@@ -27,6 +27,15 @@ def test_live_light_comes_before_a_map_set() -> None:
     assert "64" in name
     cube.rsibr.live.size = "128"
     assert map_set_of(cube) != name
+    # Harmonics are of mips alone, as kernels have none
+    name = map_set_of(cube)
+    cube.rsibr.live.degree = 3
+    assert map_set_of(cube) == name
+    cube.rsibr.live.mips = True
+    assert map_set_of(cube) != name
+    name = map_set_of(cube)
+    cube.rsibr.live.degree = 4
+    assert map_set_of(cube) != name
     assert live_name(bpy.data.objects["Camera"]) != live_name(cube)
     cube.rsibr.show = False
     assert map_set_of(cube) == ""

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import rsibr
 from rsibr.rsibr_addon.device.context import ensure_context
+from rsibr.rsibr_addon.device.kinds.live_environment import GpuLiveEnvironment
 from rsibr.rsibr_addon.host.live_light import hidden
 from rsibr.rsibr_addon.host.surroundings import (
     Sampling,
@@ -63,7 +64,7 @@ def surface_of(view: View, item: bpy.types.Object) -> Surface:
 def live_faces(view: View, item: bpy.types.Object) -> np.ndarray:
     """Shape (6, SIZE, SIZE, 3), rows from the bottom up."""
     view.depsgraph.update()
-    light = LiveLight(SIZE, 2)
+    light = LiveLight(GpuLiveEnvironment(SIZE))
     while not light.is_ready:
         assert light.render(view, surface_of(view, item))
     strip = np.array(light.gpu_map_set._faces.texture.read(), np.float32)

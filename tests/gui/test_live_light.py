@@ -32,7 +32,8 @@ def mirror():
     cube = bpy.data.objects["Cube"]
     cube.color = (1.0, 0.0, 0.0, 1.0)
     cube.rsibr.mip_chain.f_lambda, cube.rsibr.mip_chain.k_d = (1.0, 1.0, 1.0), (0.0, 0.0, 0.0)
-    cube.rsibr.live.size, cube.rsibr.live.budget = "32", 1000
+    live = cube.rsibr.live
+    live.size, live.budget, live.mips = "32", 1000, True
     return cube
 
 def only_light():

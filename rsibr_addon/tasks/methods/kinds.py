@@ -15,11 +15,13 @@ from ...core.lobes.rings import WIDTHS
 from ...device.drawing import GpuMapSet
 from ...device.kinds.environment import GpuEnvironment
 from ...device.kinds.kernel_pyramid import GpuPyramid
+from ...device.kinds.live_environment import GpuLiveEnvironment
+from ...device.kinds.live_pyramid import GpuLivePyramid
 from ...device.kinds.lobe_stack import GpuLobeStack
 from ...device.kinds.mip_chain import GpuMipChain
 from ...device.kinds.radiance_views import GpuRadianceViews
 from ...device.kinds.reflection_tables import GpuReflectionTables
-from ...files.kinds import environment, kernel_pyramid
+from ...files.kinds import environment, kernel_pyramid, mip_chain
 from ...files.kinds.registry import STORED
 from ...files.map_set import read_map_set, read_map_set_header
 from ...files.map_set_data import MapSet
@@ -65,6 +67,21 @@ def darkness() -> GpuMapSet:
     none = np.zeros((len(WIDTHS), 2, 2, 3), np.float32)
     bank = KernelBank(KERNELS.concentrations[:1])
     return _pyramid(Pyramid(bank, none[:1], (none[:1],), none[:2], none))
+
+
+def live_map_set(size: int, degree: int | None) -> tuple[str, GpuLivePyramid | GpuLiveEnvironment]:
+    """What changing light is filtered into, and its kind.
+
+    Parameters
+    ----------
+    size : int
+        Width of a face in texels.
+    degree : int or None
+        Of the harmonics of a mip chain; None for a pyramid, which shades objects with their own materials.
+    """
+    if degree is None:
+        return own_materials_kind(), GpuLivePyramid(size, kernel_pyramid.shipped_families())
+    return mip_chain.KIND, GpuLiveEnvironment(size, degree=degree)
 
 
 @dataclass(frozen=True)

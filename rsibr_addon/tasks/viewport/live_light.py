@@ -16,6 +16,7 @@ from ...core.kinds.live_environment import (
     near_distances,
 )
 from ...device.kinds.live_environment import GpuLiveEnvironment
+from ...device.kinds.live_pyramid import GpuLivePyramid
 from ...device.viewport_camera import ViewportCamera
 from ...host.live_light import appearance_of, bare, can_hide, hidden, points_of
 from ...host.visible_surfaces import Surface, View
@@ -29,20 +30,13 @@ class LiveLight:
 
     Parameters
     ----------
-    size : int
-        Width of a face in texels.
-    degree : int
-        Of the harmonics of diffuse light.
-
-    Attributes
-    ----------
-    gpu_map_set : GpuLiveEnvironment
+    gpu_map_set : GpuLiveEnvironment or GpuLivePyramid
         To be drawn with, once `is_ready`.
     """
 
-    def __init__(self, size: int, degree: int) -> None:
-        self.gpu_map_set = GpuLiveEnvironment(size, degree=degree)
-        self._camera = ViewportCamera(size, size)
+    def __init__(self, gpu_map_set: GpuLiveEnvironment | GpuLivePyramid) -> None:
+        self.gpu_map_set = gpu_map_set
+        self._camera = ViewportCamera(gpu_map_set.size, gpu_map_set.size)
         self._missing = FACE_COUNT
         self._due = FACE_COUNT
         self._next_face = 0

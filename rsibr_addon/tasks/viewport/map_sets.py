@@ -14,7 +14,7 @@ from ...device.backdrop import Backdrop
 from ...host.live_light import is_live_name
 from ...host.map_sets import written_path
 from ...host.visible_surfaces import Surface
-from ..methods.kinds import KINDS, darkness, open_map_set, own_materials_kind
+from ..methods.kinds import KINDS, darkness, live_map_set, open_map_set, own_materials_kind
 from ..methods.live_materials import LiveFits
 from .live_light import LiveLight
 
@@ -262,9 +262,10 @@ class MapSets:
     def _come_nearer(self, path: str, item: Any) -> None:
         """Take the next step on a map set's way: have it read, upload a piece, have it used."""
         if is_live_name(path):
-            settings = item.rsibr
-            light = self.lights[path] = LiveLight(int(settings.live.size), settings.live.degree)
-            self.used[path] = ViewportMapSet("mip_chain", light.gpu_map_set)
+            live = item.rsibr.live
+            kind, gpu_map_set = live_map_set(int(live.size), live.degree if live.mips else None)
+            self.lights[path] = LiveLight(gpu_map_set)
+            self.used[path] = ViewportMapSet(kind, gpu_map_set)
             return
         if path == DARKNESS:
             self.used[path] = ViewportMapSet(own_materials_kind(), darkness(), backdrop=Backdrop(NO_LIGHT))

@@ -10,6 +10,7 @@ from rsibr.rsibr_addon.host.live_light import (
     live_name,
     points_of,
 )
+from rsibr.rsibr_addon.host.sun_lamps import suns_above
 from rsibr.rsibr_addon.host.visible_surfaces import is_wanted, layer_of, map_set_of, renders_surroundings
 
 pytestmark = pytest.mark.usefixtures("registered")
@@ -113,3 +114,32 @@ def test_one_viewport_renders_an_object_s_surroundings() -> None:
     assert showing() == [False, False]
     both[0].shading.type = "SOLID"
     assert not renders_surroundings(both[0], cube, {(scene.session_uid, "Another")})
+
+
+def test_suns_light_what_nothing_hides_from_them() -> None:
+    scene, shading = bpy.context.scene, viewport().shading
+    bpy.data.objects.remove(bpy.data.objects["Cube"])
+    bpy.data.objects["Light"].data.type = "SUN"
+    sun = bpy.data.objects["Light"]
+    sun.matrix_world = np.eye(4).tolist()
+    sun.data.energy, sun.data.color, sun.data.angle = 3.0, (1.0, 0.5, 0.25), 0.02
+
+    def found(distance: float = 0.0) -> tuple[list, list, float]:
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        direction, irradiance, angle = suns_above(scene, depsgraph, shading, np.zeros(3), distance)
+        return direction.tolist(), irradiance.tolist(), angle
+
+    none = [], [], np.pi
+    shading.type = "SOLID"
+    assert found() == none
+    shading.type = "RENDERED"
+    assert found() == ([[0.0, 0.0, 1.0]], [[3.0, 1.5, 0.75]], pytest.approx(0.02))
+    sun.data.exposure = 1.0
+    assert found()[1] == [[6.0, 3.0, 1.5]]
+    bpy.ops.mesh.primitive_plane_add(location=(0.0, 0.0, 2.0))
+    assert found() == none
+    assert found(distance=2.5)[0] == [[0.0, 0.0, 1.0]]
+    bpy.context.object.hide_set(True)
+    assert found()[0] == [[0.0, 0.0, 1.0]]
+    shading.use_scene_lights_render = False
+    assert found() == none

@@ -13,6 +13,7 @@ from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import bake_pyramid, leani
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.live import CUBE, live_maps, live_pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import principled_radiance
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.suns import NO_SUNS, lamp_suns
 from rsibr.rsibr_addon.core.lobes.rings import WIDTHS
 from rsibr.rsibr_addon.core.maps.representation import representation
 from rsibr.rsibr_addon.core.progress import drain
@@ -92,6 +93,27 @@ def test_materials_are_those_of_a_baked_pyramid() -> None:
         )
         wrong = np.sqrt(np.mean((found - expected) ** 2) / np.mean(expected**2))
         assert wrong < most, inputs
+
+
+def test_suns_of_lamps_are_in_all_maps_by_the_lobes() -> None:
+    """As a baked pyramid has suns of its environment, so that materials reflect both alike."""
+    towards = normalize(np.array([[0.2, -0.5, 0.8]]))
+    suns = lamp_suns(towards, np.array([[3.0, 2.0, 1.0]]), np.radians(0.5))
+    dark, lit = (live_pyramid(np.full((6, SIZE, SIZE, 3), 0.5), each) for each in (NO_SUNS, suns))
+    np.testing.assert_array_equal(lit.mirror, dark.mirror)
+    for sunless, sheet in zip(lit.sunless, dark.maps, strict=True):
+        # What is negligible stays: 1e-8 of the sharpest kernel's peak, of 160 a steradian
+        np.testing.assert_allclose(sunless, sheet, rtol=1e-5, atol=1e-5)
+    cosine = np.maximum(OCTAHEDRAL.texel_directions(32)[0] @ towards[0], 0.0)[..., None]
+    np.testing.assert_allclose(
+        lit.diffuse[0] - dark.diffuse[0], cosine / np.pi * suns.irradiance[0], atol=1e-12
+    )
+
+
+def test_a_lamp_s_lobe_is_as_wide_as_the_lamp_or_a_sun_of_an_environment() -> None:
+    towards, light = np.array([[0.0, 0.0, 1.0]]), np.ones((1, 3))
+    assert lamp_suns(towards, light, 0.0).narrowest == 1.0 / 256.0
+    assert lamp_suns(towards, light, 2.0 * np.pi / 256.0).narrowest == pytest.approx(4.0 / 256.0)
 
 
 def test_small_faces_are_refused() -> None:

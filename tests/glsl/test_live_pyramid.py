@@ -4,12 +4,15 @@ import gpu
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.geometry.camera import Camera
+from rsibr.rsibr_addon.core.geometry.directions import normalize
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.atlas import atlas_texels
-from rsibr.rsibr_addon.core.kinds.kernel_pyramid.live import live_maps, live_pyramid, tapped
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.live import live_maps, live_pyramid, sunlit, tapped
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.look import PrincipledLook
+from rsibr.rsibr_addon.core.kinds.kernel_pyramid.suns import lamp_suns
+from rsibr.rsibr_addon.core.lobes.rings import WIDTHS
 from rsibr.rsibr_addon.core.maps import octahedral
 from rsibr.rsibr_addon.device.context import ensure_context
-from rsibr.rsibr_addon.device.kinds.kernel_pyramid import GpuPyramid
+from rsibr.rsibr_addon.device.kinds.kernel_pyramid import SUNS, GpuPyramid
 from rsibr.rsibr_addon.device.kinds.live_pyramid import GpuLivePyramid
 from rsibr.rsibr_addon.device.preview import PreviewRenderer
 from rsibr.tests.glsl.evaluation import evaluate
@@ -20,6 +23,10 @@ from rsibr.tests.glsl.twins import AXES, COUNT, ULP, unit_vectors
 
 LIBRARY = "live_pyramid_lib.glsl"
 FACE = 32
+
+TOWARDS = normalize(np.array([[0.6, -0.5, 0.6], [0.1, -0.9, 0.3]]))
+LAMPS = TOWARDS, np.array([[3.0, 2.0, 1.0], [0.5, 1.0, 2.0]]), 0.01
+NONE = np.zeros((0, 3)), np.zeros((0, 3)), np.pi
 
 ROUNDED = 1.0 / 256.0
 """Hardware may round the weights of bilinear lookups so."""
@@ -45,6 +52,24 @@ def test_a_later_change_leaves_nothing_of_what_was() -> None:
     for each in (live, fresh):
         show(each, random_faces(FACE, 2))
     np.testing.assert_array_equal(read(live._atlas), read(fresh._atlas))
+
+
+@pytest.mark.slow
+def test_suns_of_lamps_light_all_that_the_reference_lights() -> None:
+    ensure_context()
+    faces = smooth_faces(FACE)
+    live = GpuLivePyramid(FACE, families())
+    camera = Camera((1.0, -0.7, 0.4), 0.6)
+    look = PrincipledLook(
+        own=False, roughness=0.3, diffuse_roughness=1.0, sheen_weight=1.0, sheen_roughness=0.5
+    )
+    for lamps in (LAMPS, NONE):
+        live.set_lamps(*lamps)
+        show(live, faces)
+        uploaded = GpuPyramid(live_pyramid(faces, lamp_suns(*lamps)), families())
+        found, expected = (PreviewRenderer(it).draw(*SPHERE, camera, SIZE, look) for it in (live, uploaded))
+        # Half floats of what is uploaded, whose differences lobes magnify: as of `principled_radiance`
+        assert np.abs(found - expected).max() < 2e-3 * expected.max()
 
 
 @pytest.mark.slow
@@ -90,6 +115,25 @@ def test_bordered_direction() -> None:
     found = evaluate(LIBRARY, code, [np.stack([column, row], axis=-1).astype(np.float64)], 1)[:, 0, :3]
     within = np.stack(octahedral.wrap(column, row, size, size), axis=-1)
     np.testing.assert_allclose(found, octahedral.direction_from_uv((within + 0.5) / size), atol=16 * ULP)
+
+
+def test_sunlit_by_normal() -> None:
+    ensure_context()
+    live = GpuLivePyramid(FACE, families())
+    live.set_lamps(*LAMPS)
+    normal = unit_vectors(6, AXES)
+    number = 1 + np.arange(len(normal))[:, None] % 5
+    ring = np.array([1.0, 1.0, *WIDTHS])[number - 1]
+    code = "result_0.rgb = sunlit_by_normal(lookups, int(in_1.x + 0.5), in_2.x, in_0.xyz);"
+    textures = {"lookups": ("FLOAT_2D", live.textures[1].whole())}
+    given = [normal, number.astype(np.float64), ring]
+    found = evaluate(LIBRARY, code, given, 1, textures, defines=(SUNS,))[:, 0, :3]
+    *rings, white, leaning = (each.lobe for each in live_maps(FACE).others[-5:])
+    for each, lobe in enumerate((white, leaning, *rings), 1):
+        some = number[:, 0] == each
+        expected = sunlit(lamp_suns(*LAMPS), lobe, normal[some])
+        # Single precision; a narrow ring rises a hundredfold within a tenth above the horizon
+        assert np.abs(found[some] - expected).max() < 1e-4 * expected.max()
 
 
 def test_tapped_radiance() -> None:

@@ -71,6 +71,14 @@ def scenario(told):
     bpy.data.objects.remove(wall)
     yield from drawn()
     told["not the world's"] = others((203, 149, 108), among)
+    # Its own material in the dark, but for the sun itself, at 45 degrees to the top
+    cube.rsibr.live.mips = False
+    inputs = cube.active_material.node_tree.nodes["Principled BSDF"].inputs
+    inputs["Base Color"].default_value, inputs["Specular IOR Level"].default_value = (0.5, 0.5, 0.5, 1.0), 0.0
+    world["Strength"].default_value, shading.use_scene_lights_render = 0.0, True
+    yield from drawn()
+    x, y = location_3d_to_region_2d(region(view()), view().spaces.active.region_3d, Vector((0, 0, 1)))
+    told["in the sun"] = pixels()[int(y), int(x)].tolist()
     told["faults"] = [previews.faults.message(cube), previews.faults.trouble]
 """
 
@@ -87,6 +95,10 @@ def test_a_lamp_s_and_the_world_s_light_are_mirrored(told: Told) -> None:
     np.testing.assert_allclose(answer["no lamps"], (1.0 - 0.5 * wall) * WORLD, rtol=0.02)
     assert answer["own"] > 2000
     assert answer["not the world's"] == 0
+    # A diffuse surface of albedo .5, as sRGB encodes it
+    shown = 0.5 * 4.0 * np.sqrt(0.5) / np.pi
+    expected = 255.0 * (1.055 * shown ** (1.0 / 2.4) - 0.055)
+    np.testing.assert_allclose(answer["in the sun"], [expected] * 3, atol=3.0)
     assert answer["faults"] == [None, None]
 
 

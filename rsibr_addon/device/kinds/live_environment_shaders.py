@@ -52,9 +52,9 @@ def mirror_shader() -> gpu.types.GPUShader:
 
 
 @kept_until_exit
-def tapped_shader() -> gpu.types.GPUShader:
-    """Makes a map of a pyramid of a sharper one."""
-    return _build_pass("live_tapped", ("sources", "taps"), ("row",))
+def tapped_shader(defines: tuple[str, ...]) -> gpu.types.GPUShader:
+    """Makes a map of a pyramid of a sharper one; defines: `SUNS`, or nothing."""
+    return _build_pass("live_tapped", ("sources", "taps", "lookups"), ("row",), *defines)
 
 
 def _build_pass(

@@ -4,6 +4,8 @@ The pyramid is an atlas as `kernel_pyramid` shades from. A pass cannot read the 
 each map that others are made of is copied to a second atlas, where it is looked up.
 """
 
+from functools import partial
+
 import gpu
 import numpy as np
 
@@ -11,15 +13,22 @@ from ...core.conventions import Array
 from ...core.kinds.kernel_pyramid.atlas import AtlasLayout, atlas_layout
 from ...core.kinds.kernel_pyramid.live import LiveMaps, live_maps
 from ...core.kinds.kernel_pyramid.shading import Families
-from ...core.kinds.kernel_pyramid.suns import NO_SUNS
+from ...core.kinds.kernel_pyramid.suns import NO_SUNS, lamp_suns
 from ...core.kinds.live_environment import FACE_COUNT
+from ...core.lobes.rings import WIDTHS
 from .. import buffers
 from ..passes import plain_state
 from ..textures import GpuTexture, texels_shader
-from .kernel_pyramid import GpuPrincipled, family_textures
+from .kernel_pyramid import SUNS, GpuPrincipled, family_textures
 from .kernel_pyramid_texels import lookup_texels
 from .live_environment_shaders import mirror_shader, tapped_shader
 from .live_faces import LiveFaces, Target
+
+_FIRST_TAP = 3
+"""As gpu_shaders/lib/live_pyramid_lib.glsl has it."""
+
+_COSINE_MAP, _LEANING_MAP, _RING_MAPS = 1, 2, 3
+"""As gpu_shaders/lib/pyramid_lib.glsl has them."""
 
 
 class GpuLivePyramid(LiveFaces, GpuPrincipled):
@@ -57,9 +66,25 @@ class GpuLivePyramid(LiveFaces, GpuPrincipled):
         self._places = [
             (*corner, width + 2, width + 2) for corner, width in zip(layout.corners, widths, strict=True)
         ]
-        lookups = GpuTexture("lookups", lookup_texels(families, layout.places, NO_SUNS, len(how.bank)))
+        self._lookups_of = partial(lookup_texels, families, layout.places, resolved=len(how.bank))
+        lookups = GpuTexture("lookups", self._lookups_of(suns=NO_SUNS))
         light = GpuTexture.drawn(self._atlas.texture), lookups
         GpuPrincipled.__init__(self, (*light, *family_textures(families)), has_suns=False)
+
+    def set_lamps(self, direction: Array, irradiance: Array, angle: float) -> None:
+        """Set the lamps that are suns and in no face; `filter` has to be called before they show.
+
+        Parameters
+        ----------
+        direction, irradiance : ndarray, shape (N, 3)
+        angle : float
+            See `core.kinds.kernel_pyramid.suns.lamp_suns`.
+        """
+        suns = lamp_suns(direction, irradiance, angle)
+        atlas, _, *of_families = self.textures
+        lookups = GpuTexture("lookups", self._lookups_of(suns=suns))
+        self.textures, self._suns = (atlas, lookups, *of_families), (SUNS,) if len(suns) else ()
+        self._lately.clear()  # looks are drawn from other textures now
 
     def filter(self) -> None:
         """Make the pyramid anew."""
@@ -71,10 +96,11 @@ class GpuLivePyramid(LiveFaces, GpuPrincipled):
             shader.uniform_int("width", self._places[0][2] - 2)
             self._make(0, shader)
             for number in range(1, len(self._places)):
-                shader = tapped_shader()
+                shader = tapped_shader(self._suns)
                 shader.bind()
                 shader.uniform_sampler("sources", self._sources.texture)
                 shader.uniform_sampler("taps", self._taps)
+                shader.uniform_sampler("lookups", self.textures[1].whole())
                 shader.uniform_int("row", number - 1)
                 self._make(number, shader)
 
@@ -95,7 +121,9 @@ class GpuLivePyramid(LiveFaces, GpuPrincipled):
 
 def _tap_texels(how: LiveMaps, layout: AtlasLayout) -> Array:
     """A row for each map but the mirror, as gpu_shaders/lib/live_pyramid_lib.glsl reads it."""
-    texels = np.zeros((len(how.others), 2 + max(len(each.taps) for each in how.others), 4), np.float32)
+    texels = np.zeros(
+        (len(how.others), _FIRST_TAP + max(len(each.taps) for each in how.others), 4), np.float32
+    )
     corners = np.array(layout.corners)
     widths = [how.mirror_width, *(each.width for each in how.others)]
     for number, (row, each) in enumerate(zip(texels, how.others, strict=True), 1):
@@ -107,5 +135,8 @@ def _tap_texels(how: LiveMaps, layout: AtlasLayout) -> Array:
             len(each.taps),
         )
         row[1, :2], row[1, 2] = corners[number] + 1, each.width
-        row[2 : 2 + len(each.taps)] = each.taps
+        row[_FIRST_TAP : _FIRST_TAP + len(each.taps)] = each.taps
+    rings = len(WIDTHS)
+    texels[len(how.bank) :, 2, 0] = [*range(_RING_MAPS, _RING_MAPS + rings), _COSINE_MAP, _LEANING_MAP]
+    texels[len(how.bank) : len(how.bank) + rings, 2, 1] = WIDTHS
     return texels

@@ -19,6 +19,7 @@ from ...device.kinds.live_environment import GpuLiveEnvironment
 from ...device.kinds.live_pyramid import GpuLivePyramid
 from ...device.viewport_camera import ViewportCamera
 from ...host.live_light import appearance_of, bare, can_hide, hidden, points_of
+from ...host.sun_lamps import suns_above
 from ...host.visible_surfaces import Surface, View
 
 UPDATES_JUDGED = 5
@@ -97,13 +98,17 @@ class LiveLight:
         out_of_sight: AbstractContextManager[None]
         # An instance cannot be hidden without all others that the same object makes
         if not surface.is_instance and can_hide(surface.item, layer):
-            reach = np.abs(reached - centre).max()
+            reach, own = np.abs(reached - centre).max(), 0.0
             nearest, out_of_sight = np.full(FACE_COUNT, NEAREST * reach), hidden(surface.item, layer)
         else:
             nearest, out_of_sight = near_distances(reached - centre), nullcontext()
             nearest = np.maximum(nearest, space.clip_start)
+            own = float(np.linalg.norm(reached - centre, axis=-1).max())
         with bare(space), out_of_sight:
             for face in faces:
                 projection = face_projection(nearest[face], max(space.clip_end, 2.0 * nearest[face]))
                 seen = self._camera.see(view.scene, view.layer[1], space, face_view(face, centre), projection)
                 self.gpu_map_set.set_face(face, seen)
+            if isinstance(self.gpu_map_set, GpuLivePyramid):
+                suns = suns_above(view.scene, view.depsgraph, space.shading, centre, own)
+                self.gpu_map_set.set_lamps(*suns)

@@ -25,6 +25,7 @@ from ...resample import lookup
 from ...ties import TIE
 from .bake import leaning_lobe, ring_lobe
 from .pyramid import OCTAHEDRAL, Pyramid
+from .suns import NO_SUNS, Suns
 
 CUBE = representation("cube_map")
 
@@ -74,11 +75,14 @@ class LiveMap:
         Of its square in texels.
     taps : ndarray, shape (N, 4)
         Unit directions of lookups about an axis +z, and their weights.
+    lobe : ZonalLobe
+        What it shows of light.
     """
 
     source: int
     width: int
     taps: Array
+    lobe: ZonalLobe
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,22 +142,23 @@ def live_maps(size: int) -> LiveMaps:
     angles = 0.5 * np.pi * (np.arange(_RINGS_BY_NORMAL) + 0.5) / _RINGS_BY_NORMAL
     for lobe in (*map(ring_lobe, WIDTHS), _white(), leaning_lobe()):
         taps = _taps(lobe, source, angles, LEAST_BY_NORMAL, _WAVES_BY_NORMAL)
-        others.append(LiveMap(source.number, LEAST_BY_NORMAL, taps))
+        others.append(LiveMap(source.number, LEAST_BY_NORMAL, taps, lobe))
     return LiveMaps(bank, MIRROR_WIDTH * size, tuple(others))
 
 
-def live_pyramid(faces: Array) -> Pyramid:
+def live_pyramid(faces: Array, suns: Suns = NO_SUNS) -> Pyramid:
     """The pyramid of six renders.
 
     Parameters
     ----------
     faces : ndarray, shape (6, n, n, 3)
         Radiance, in the order of `maps.cube_map`.
+    suns : Suns
+        Those of lamps, which are in no face.
 
     Returns
     -------
     Pyramid
-        Without suns.
 
     Raises
     ------
@@ -168,10 +173,37 @@ def live_pyramid(faces: Array) -> Pyramid:
     sheets = [lookup(faces, OCTAHEDRAL.texel_directions(how.mirror_width), CUBE)]
     for each in how.others:
         sheets.append(tapped(sheets[each.source], each.taps, OCTAHEDRAL.texel_directions(each.width)))
+    for sheet, each in zip(sheets[1:], how.others, strict=True):
+        sheet += sunlit(suns, each.lobe, OCTAHEDRAL.texel_directions(each.width))
     count = len(how.bank)
     rings, diffuse = sheets[count + 1 : -2], sheets[-2:]
     kernels = tuple(sheets[count:0:-1])
-    return Pyramid(how.bank, sheets[0], kernels, np.concatenate(diffuse), np.concatenate(rings))
+    return Pyramid(how.bank, sheets[0], kernels, np.concatenate(diffuse), np.concatenate(rings), suns)
+
+
+def sunlit(suns: Suns, lobe: ZonalLobe, axis: Array) -> Array:
+    """What a lobe shows of suns.
+
+    Parameters
+    ----------
+    suns : Suns
+    lobe : ZonalLobe
+    axis : ndarray, shape (..., 3)
+        Unit vectors.
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+
+    Notes
+    -----
+    GLSL twin, for lobes about the normal: gpu_shaders/lib/live_pyramid_lib.glsl `sunlit_by_normal`.
+    """
+    radiance = np.zeros(axis.shape)
+    for direction, irradiance in zip(suns.direction, suns.irradiance, strict=True):
+        angle = np.arccos(np.clip(axis @ direction, -1.0, 1.0))
+        radiance += lobe.profile(angle)[..., None] * irradiance
+    return radiance
 
 
 def tapped(sheet: Array, taps: Array, axis: Array) -> Array:
@@ -211,8 +243,8 @@ def _kernel(kappa: float, source: _Source) -> LiveMap:
     reach = np.arccos(max(1.0 - _FALL / left, _LEAST_COSINE))
     angles = np.linspace(0.0, reach, _RINGS_IF_BROAD if is_broad else _RINGS)
     waves = _WAVES_IF_BROAD if is_broad else _WAVES
-    taps = _taps(von_mises_fisher_lobe(kappa), source, angles, width, waves)
-    return LiveMap(source.number, width, taps)
+    lobe = von_mises_fisher_lobe(kappa)
+    return LiveMap(source.number, width, _taps(lobe, source, angles, width, waves), lobe)
 
 
 def _white() -> ZonalLobe:

@@ -155,6 +155,23 @@ NO_SUNS = Suns(np.zeros((0, 3)), np.zeros((0, 3)), np.full(3, np.inf), 1e-30)
 """So narrow that no lobe but a mirror is narrower: without suns, none has its `mirror_share` looked up."""
 
 
+def lamp_suns(direction: Array, irradiance: Array, angle: float) -> Suns:
+    """The brightest `MOST_SUNS` of some lamps, which are in no map, as cameras do not see them.
+
+    Parameters
+    ----------
+    direction : ndarray, shape (N, 3)
+        Unit vectors towards them.
+    irradiance : ndarray, shape (N, 3)
+        On a surface that faces them.
+    angle : float
+        Angle across one of them [rad].
+    """
+    brightest = np.argsort(-irradiance.sum(axis=1), kind="stable")[:MOST_SUNS]
+    narrowest = NARROWEST * max(angle / (2.0 * np.pi), 1.0 / CELLS)
+    return Suns(direction[brightest], irradiance[brightest], np.full(3, np.inf), min(narrowest, 1.0))
+
+
 def find_suns(radiance: Array) -> Suns:
     """The suns of an environment.
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..core.errors import InputFileError
-from ..files.reading import opened, text_of
+from ..files.reading import read_text
 from ..job import BakeJob, job_of_object, read_job
 from ..settings.baked_inputs import ObjectInputsSettings
 from .bake import run_job
@@ -57,8 +57,7 @@ def _of_its_object(job: BakeJob[Any]) -> BakeJob[Any]:
 
 def _text(path: Path) -> str:
     try:
-        with opened(path) as stream:
-            return text_of(stream.read())
+        return read_text(path)
     except UnicodeDecodeError as error:
         raise InputFileError(f"{path} is no text: give a job, which is JSON in UTF-8.") from error
 

@@ -7,6 +7,7 @@ from io import BufferedReader
 from pathlib import Path
 
 from ..core.errors import InputFileError
+from ..core.schema import LARGEST_TEXT
 
 
 @contextlib.contextmanager
@@ -39,6 +40,25 @@ def opened(path: str | Path) -> Iterator[BufferedReader]:
         raise InputFileError(f"{path} does not exist: check the name and the folder.") from error
     except OSError as error:
         raise InputFileError(f"{path} cannot be read ({error.strerror}): check its permissions.") from error
+
+
+def read_text(path: str | Path) -> str:
+    """Read a text that people write: see `text_of`.
+
+    Raises
+    ------
+    InputFileError
+        See `opened`; or the file is longer than `core.schema.LARGEST_TEXT`.
+    UnicodeDecodeError
+        It is no text.
+    """
+    with opened(path) as stream:
+        data = stream.read(LARGEST_TEXT + 1)
+    if len(data) > LARGEST_TEXT:
+        raise InputFileError(
+            f"{path} is longer than {LARGEST_TEXT // 2**20} MiB, so no text for this: give another file."
+        )
+    return text_of(data)
 
 
 def text_of(data: bytes, errors: str = "strict") -> str:

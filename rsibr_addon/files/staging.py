@@ -131,8 +131,10 @@ def clear_old_strays(output: Path) -> None:
 
 
 def _is_empty_work(entry: os.DirEntry[str]) -> bool:
-    output = Path(entry).with_name(entry.name.removesuffix(PARTIAL))
-    if not entry.name.endswith(PARTIAL) or not entry.is_dir(follow_symlinks=False) or output.exists():
+    # First what costs nothing: a folder may hold thousands of outputs
+    if not entry.name.endswith(PARTIAL) or not entry.is_dir(follow_symlinks=False):
+        return False
+    if Path(entry).with_name(entry.name.removesuffix(PARTIAL)).exists():
         return False
     with contextlib.suppress(OSError):
         return os.listdir(entry) == [LOCK]

@@ -82,3 +82,13 @@ def test_a_job_is_read_as_editors_save_it(
     }
     (lights / "a.json").write_text(json.dumps(job), encoding=encoding)
     assert json_result(capfd, "bake", "a.json")["map_set"] == "a.rsibr.exr"
+
+
+@pytest.mark.parametrize("command", ["bake", "batch"])
+def test_a_text_that_is_too_long_is_not_read(
+    command: str, lights: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    with (lights / "film.json").open("wb") as stream:
+        stream.truncate(1 << 36)  # of holes, which take no space
+    result = json_result(capfd, command, "film.json")
+    assert result["error"] == "film.json is longer than 8 MiB, so no text for this: give another file."

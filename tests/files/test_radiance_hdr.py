@@ -1,11 +1,12 @@
 """Radiance pictures, written here by the format's description and read back."""
 
 import itertools
+import os
 from pathlib import Path
 
 import numpy as np
 import pytest
-from rsibr.rsibr_addon.core.errors import InputFileError, RsibrWarning
+from rsibr.rsibr_addon.core.errors import InputFileError, MemoryShortageError, RsibrWarning
 from rsibr.rsibr_addon.files.chromaticities import XYZ, rec709_from
 from rsibr.rsibr_addon.files.radiance_hdr import read_hdr, read_hdr_header
 
@@ -259,3 +260,11 @@ def test_a_truncated_file_is_refused_wherever_it_ends(tmp_path: Path, rgbe: np.n
         path.write_bytes(whole[:length])
         with pytest.raises(InputFileError):
             read_hdr(path)
+
+
+def test_what_does_not_fit_into_memory_is_not_read(tmp_path: Path) -> None:
+    path = tmp_path / "holes.hdr"
+    path.write_bytes(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n")
+    os.truncate(path, 1 << 43)
+    with pytest.raises(MemoryShortageError, match=r"holes\.hdr takes 8796\.1 GB of memory at any size"):
+        read_hdr(path)

@@ -17,7 +17,7 @@ from ...files.kinds.registry import STORED
 from ...files.measured_files import MEASURED_FORMATS, measured_spec
 from ...files.output_paths import portable_name
 from ...files.pictures import split_layer
-from ...files.reading import opened, text_of
+from ...files.reading import read_text
 from ...job import BakeJob
 from ...settings.light import Light
 from .bake_list import bakes_of_list, is_bake_list
@@ -64,12 +64,10 @@ def read_batch(path: Path, folder: Path | None = None) -> list[BatchBake]:
     InputFileError
         The file is missing or no batch, a pattern finds nothing, or two bakes would have one output.
     """
-    with opened(path) as stream:
-        data = stream.read()
     folder = path.parent if folder is None else folder
     try:
         # Patterns may overlap, and so mean a bake twice
-        read = _read(text_of(data), path, folder)
+        read = _read(read_text(path), path, folder)
         found = list({(bake.job.to_json(), bake.opened): bake for bake in read}.values())
         _check(found, path)
     except UnicodeDecodeError as error:

@@ -20,7 +20,7 @@ from ...files.digests import digest
 from ...files.output_paths import HASH_LETTERS, portable_name
 from ...files.outputs import make_folder
 from ...files.pictures import split_layer
-from ...files.reading import opened, text_of
+from ...files.reading import read_text
 from ...job import OBJECT, BakeJob, job_of_object, read_job
 from ...settings.baked_inputs import ObjectInputsSettings
 from ..batch.bake_list import HERE, bake_list_text
@@ -290,15 +290,14 @@ def _blend_file(material: str | None) -> str:
 
 def _read_job(path: Path) -> BakeJob[Any] | None:
     """The job in a file; None where it is another file."""
-    with opened(path) as stream:
-        data = stream.read()
     try:
-        plain = loads(data) if path.suffix.lower() == ".json" else None
-    except SchemaError:
+        text = read_text(path)
+        plain = loads(text) if path.suffix.lower() == ".json" else None
+    except (SchemaError, UnicodeDecodeError):
         return None
     if not isinstance(plain, dict) or not {"settings", "arguments"} & plain.keys():
         return None
-    job = read_job(text_of(data), str(path))
+    job = read_job(text, str(path))
     if not isinstance(job, BakeJob):
         raise InputFileError(
             f"{path} is the job of rsibr {job.arguments[0]}, which a farm does not do: send a batch, or the "

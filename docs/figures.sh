@@ -164,7 +164,7 @@ kautz2000-15() { beside kautz2000-15 $ward greedy single single-2d; }
 # The web page, as Chromium shows it; docs/web-page.md
 web-page() {
     rsibr bake kernel-pyramid --environment forest -o light.rsibr.exr
-    rsibr export light.rsibr.exr --mesh monkey --view 0.1,-1,0.1 --base-color 0.955,0.638,0.538 --metallic 1 \
+    rsibr export light.rsibr.exr --mesh monkey --view 0.1,-1,0.1 --base-color 1,0.58,0.4 --metallic 1 \
         --roughness 0.55 --background light --background-blur 10 --view-transform AgX -o page.html
     cat >> page.html <<'EOS'
 <script>

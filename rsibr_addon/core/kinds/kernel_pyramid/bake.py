@@ -27,7 +27,8 @@ from .suns import find_suns
 EQUIRECT = representation("equirect")
 
 TEXELS_BY_SHARPNESS = 16.0
-"""Width of a kernel's map over the root of its concentration: lookups cost up to 1.2 % of its peak."""
+"""Width of a kernel's map over the root of its concentration: lookups cost up to 2.3 % of its peak, and 4.7 %
+on the folds of the map; .06 % of it in the root mean square over the sphere."""
 
 SMALLEST = 32
 """Least width of the largest maps."""

@@ -148,8 +148,23 @@ def _draw_messages(layout: bpy.types.UILayout, context: bpy.types.Context, fault
             tell(layout, message, panel_width(context))
     if inputs.lacks(item) and (inputs.is_refused(item) or not bakes_inputs_by_itself()):
         layout.operator("rsibr.bake_inputs")
+    if item.rsibr.map_set and (hint := _why_unseen(item, context.space_data.shading)):
+        tell(layout, hint, panel_width(context), icon="INFO")
     if running.previews.is_loading(item):
         layout.label(text="Loading...", icon="TIME")
+
+
+def _why_unseen(item: bpy.types.Object, shading: bpy.types.View3DShading) -> str:
+    """Why a viewport does not show the preview of an object, in words; empty if it does."""
+    if not item.rsibr.show:
+        return "Blender's own shading is shown: Look is switched off."
+    if shading.type == "WIREFRAME":
+        return "Wireframe shows no previews: choose another Viewport Shading."
+    if item.display_type in {"BOUNDS", "WIRE"}:
+        return "It is displayed without surfaces: choose Textured in Object, Viewport Display, Display As."
+    if item.show_in_front and shading.type == "SOLID":
+        return "Solid shows itself what is In Front: choose Material Preview, or switch In Front off."
+    return ""
 
 
 def _draw_stale(layout: bpy.types.UILayout, stale: Stale, width: int) -> bool:

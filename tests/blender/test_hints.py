@@ -11,7 +11,7 @@ from rsibr.rsibr_addon.settings.method import MethodSettings
 from rsibr.rsibr_addon.settings.mip_chain import MipChainSettings
 from rsibr.rsibr_addon.settings.radiance_views import RadianceViewsSettings
 from rsibr.rsibr_addon.settings.reflection_tables import ReflectionTablesSettings
-from rsibr.rsibr_addon.ui import advanced_panel, look_panel
+from rsibr.rsibr_addon.ui import advanced_panel, look_panel, preview_panel
 from rsibr.rsibr_addon.ui.sentences import SOLID
 
 
@@ -39,6 +39,30 @@ def test_a_comparison_tells_where_blender_shades_in_another_light(
         assert look_panel._other_light(shading) == told
     finally:
         shading.type, shading.use_scene_world, shading.use_scene_world_render = before
+
+
+@pytest.mark.parametrize(
+    ("change", "kind", "told"),
+    [
+        ({}, "SOLID", ""),
+        ({"display_type": "WIRE"}, "SOLID", "displayed without surfaces"),
+        ({"display_type": "BOUNDS"}, "MATERIAL", "displayed without surfaces"),
+        ({"display_type": "SOLID"}, "MATERIAL", ""),
+        ({}, "WIREFRAME", "Wireframe shows no previews"),
+        ({"show_in_front": True}, "SOLID", "In Front"),
+        ({"show_in_front": True}, "MATERIAL", ""),
+    ],
+)
+@pytest.mark.usefixtures("panel")
+def test_why_a_preview_is_not_seen_is_told(change: dict[str, object], kind: str, told: str) -> None:
+    item, shading = bpy.context.object, Mock(type=kind)
+    for name, value in change.items():
+        setattr(item, name, value)
+    said = preview_panel._why_unseen(item, shading)
+    assert told in said
+    assert bool(said) == bool(told)
+    item.rsibr.show = False
+    assert "Look is switched off" in preview_panel._why_unseen(item, shading)
 
 
 def test_hints_name_panels_by_their_labels() -> None:

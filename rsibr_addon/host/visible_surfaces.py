@@ -110,6 +110,11 @@ class View:
         return bool(self.space.shading.type != "WIREFRAME")
 
     @property
+    def draws_in_front(self) -> bool:
+        """Whether Blender draws objects that are *In Front* over all others."""
+        return bool(self.space.shading.type == "SOLID")
+
+    @property
     def shades_all(self) -> bool:
         """Whether objects without a map set are shaded too, from the world's."""
         return bool(self.space.shading.type == "RENDERED" and self.scene.render.engine == RENDER_ENGINE)

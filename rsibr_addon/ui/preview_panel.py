@@ -162,8 +162,6 @@ def _why_unseen(item: bpy.types.Object, shading: bpy.types.View3DShading) -> str
         return "Wireframe shows no previews: choose another Viewport Shading."
     if item.display_type in {"BOUNDS", "WIRE"}:
         return "It is displayed without surfaces: choose Textured in Object, Viewport Display, Display As."
-    if item.show_in_front and shading.type == "SOLID":
-        return "Solid shows itself what is In Front: choose Material Preview, or switch In Front off."
     return ""
 
 

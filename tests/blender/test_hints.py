@@ -49,8 +49,6 @@ def test_a_comparison_tells_where_blender_shades_in_another_light(
         ({"display_type": "BOUNDS"}, "MATERIAL", "displayed without surfaces"),
         ({"display_type": "SOLID"}, "MATERIAL", ""),
         ({}, "WIREFRAME", "Wireframe shows no previews"),
-        ({"show_in_front": True}, "SOLID", "In Front"),
-        ({"show_in_front": True}, "MATERIAL", ""),
     ],
 )
 @pytest.mark.usefixtures("panel")

@@ -83,6 +83,8 @@ def scenario(told):
     bmesh.update_edit_mesh(cube.data)
     bpy.ops.object.mode_set(mode="OBJECT")
     yield from cover(told, "edited")
+    cube.show_in_front = True
+    yield from cover(told, "in front")
 """
 
 CUT = """
@@ -103,7 +105,8 @@ def test_in_every_view(told: Told) -> None:
 
 def test_of_every_shape(told: Told) -> None:
     answer = told(PRELUDE + SHAPES)
-    assert set(answer) == {"behind another", "subdivided", "edited"}
+    assert set(answer) == {"behind another", "subdivided", "edited", "in front"}
+    assert answer["in front"][0] > answer["edited"][0]
     blenders, _, differing = answer.pop("subdivided")
     # Blender subdivides on the GPU; last bits of vertices may decide on pixels of the outline, 250 long.
     assert differing <= 3 < blenders

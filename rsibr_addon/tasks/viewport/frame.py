@@ -79,6 +79,20 @@ class Frame:
         """Those of the light of its objects: what is drawn together has the same."""
         return list(dict.fromkeys(each.placed.strength for each in self.shown))
 
+    def layers(self, view: View) -> "list[tuple[Frame, bool]]":
+        """What is drawn one after the other, and whether among the surfaces that Blender has drawn.
+
+        Objects that are *In Front* come last, where Blender draws them over all others.
+        """
+        if not view.draws_in_front:
+            return [(self, view.has_depth)]
+        parts: tuple[list[Shown], list[Shown]] = ([], [])
+        for each in self.shown:
+            parts[each.drawable.surface.item.show_in_front].append(each)
+        others, in_front = parts
+        last = replace(self, shown=in_front, hiding=[], holes=[], floors=[])
+        return [(replace(self, shown=others), view.has_depth), (last, False)]
+
     def seen_by(self, sight: Sight) -> "Frame":
         """The same in another view."""
 

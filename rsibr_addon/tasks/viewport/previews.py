@@ -190,15 +190,16 @@ class Previews:
         display, scale = self._displays.of(view.scene)
         if display is None:
             return False
-        for side, strength in product(sides, frame.strengths):
-            self._set(self._stage, frame, strength, view, side.other)
-            if side.difference and not side.from_blender:
-                self._set(self._other_stage, frame, strength, view, not side.other)
-            difference = self._difference(view, side, strength * scale, scale)
-            if side.from_blender and difference is None:  # Blender's own shading stays in sight
-                continue
-            span, beneath = (side.left, side.right), self._beneath(view, strength)
-            self._stage.show(display, strength * scale, span, view.has_depth, difference, beneath)
+        for layer, among_others in frame.layers(view):
+            for side, strength in product(sides, layer.strengths):
+                self._set(self._stage, layer, strength, among_others, side.other)
+                if side.difference and not side.from_blender:
+                    self._set(self._other_stage, layer, strength, among_others, not side.other)
+                difference = self._difference(view, side, strength * scale, scale)
+                if side.from_blender and difference is None:  # Blender's own shading stays in sight
+                    continue
+                span, beneath = (side.left, side.right), self._beneath(view, strength)
+                self._stage.show(display, strength * scale, span, among_others, difference, beneath)
         return True
 
     def frame(self, view: View, sight: Sight, wanted: Collection[bool] = (False,)) -> Frame:
@@ -383,6 +384,6 @@ class Previews:
             self.faults.note(drawable.surface.item, error)
             return {}
 
-    def _set(self, stage: Stage, frame: Frame, strength: float, view: View, other: bool) -> None:
+    def _set(self, stage: Stage, frame: Frame, strength: float, among_others: bool, other: bool) -> None:
         """Draw previews in light of one strength, in their first or their other look, onto a stage."""
-        frame.set(stage, strength, not view.has_depth, lambda each: each.draw(other), other)
+        frame.set(stage, strength, not among_others, lambda each: each.draw(other), other)

@@ -17,7 +17,6 @@ from .world_light import AS_IT_IS, WorldLight, world_light
 CAMERAS = ("PERSP", "ORTHO")
 """Types of cameras whose rays a matrix describes."""
 
-STEREOSCOPY = "stereoscopy"
 
 NOTHING = 1e10
 """Depth of what no surface covers, as Cycles has it."""
@@ -114,6 +113,7 @@ def camera_view(
     depsgraph: bpy.types.Depsgraph,
     camera: bpy.types.Object | None,
     pose: Matrix | None,
+    shift: float,
     resolution: tuple[int, int],
 ) -> CameraView:
     """The view of a camera, within the render's border if it has one.
@@ -125,7 +125,9 @@ def camera_view(
     camera : bpy.types.Object or None
         Evaluated.
     pose : Matrix or None
-        The camera's; its scale does not count.
+        The camera's, or an eye's of a stereoscopic picture; its scale does not count.
+    shift : float
+        The camera's horizontal shift, or the eye's.
     resolution : (int, int)
         Width and height of the whole frame in pixels.
 
@@ -138,7 +140,7 @@ def camera_view(
     seen_by = checked_camera(scene, camera)
     render = scene.render
     width, height = resolution
-    frame = camera_frame(seen_by, depsgraph, resolution)
+    frame = _shifted(camera_frame(seen_by, depsgraph, resolution), seen_by.data, shift)
     left, bottom, right, top = _border(render, resolution)
     part: Array = np.eye(4)
     for axis, (begin, end, size) in enumerate(((left, right, width), (bottom, top, height))):
@@ -153,6 +155,20 @@ def camera_view(
     shape, no_viewport = (right - left, top - bottom), cast(bpy.types.SpaceView3D, None)
     projection = part @ frame.projection
     return CameraView(scene, layer, depsgraph, no_viewport, unscaled, projection, shape, frame)
+
+
+def _shifted(frame: PictureFrame, lens: bpy.types.Camera, shift: float) -> PictureFrame:
+    """The frame of a camera with another horizontal shift."""
+    # A shift is a share of the sensor or the orthographic scale, of which the frame may show a part
+    across: Array = frame.projection[0, 0]
+    if lens.type == "ORTHO":
+        across = across * lens.ortho_scale / 2.0
+    else:
+        sensor = lens.sensor_height if lens.sensor_fit == "VERTICAL" else lens.sensor_width
+        across = across * sensor / (2.0 * lens.lens)
+    moved: Array = np.eye(4)
+    moved[0, 3] = 2.0 * across * (lens.shift_x - shift)
+    return replace(frame, projection=moved @ frame.projection)
 
 
 def checked_camera(scene: bpy.types.Scene, camera: bpy.types.Object | None) -> bpy.types.Object:
@@ -178,7 +194,6 @@ def left_out(scene: bpy.types.Scene, layer: bpy.types.ViewLayer, camera: bpy.typ
     asked = {
         "motion blur": scene.render.use_motion_blur,
         "depth of field": camera.data.dof.use_dof,
-        STEREOSCOPY: scene.render.use_multiview,
         f"the material override of view layer {layer.name}": layer.material_override,
         f"the world override of view layer {layer.name}": layer.world_override,
     }

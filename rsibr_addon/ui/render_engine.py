@@ -15,7 +15,7 @@ from ..device.context import ensure_context, has_driver
 from ..files.map_set import is_whole_map_set
 from ..host.handlers import add_handlers
 from ..host.option_properties import options_of
-from ..host.render_views import camera_view, left_out
+from ..host.render_views import CameraView, camera_view, left_out
 from ..host.visible_surfaces import RENDER_ENGINE, current_view
 from ..session.running import session
 from ..settings.render import RenderOptions
@@ -118,9 +118,19 @@ class RSIBR_RE_previews(bpy.types.RenderEngine):
         return False
 
     def _render(self, depsgraph: bpy.types.Depsgraph) -> None:
+        layer = depsgraph.view_layer.name
+        result = self.begin_result(0, 0, 1, 1, layer=layer)
+        names = [each.name for each in result.views]  # two of a stereoscopic picture
+        self.end_result(result, cancel=True)
+        for name in names:
+            self.active_view_set(name)
+            self._render_view(depsgraph, name)
+
+    def _render_view(self, depsgraph: bpy.types.Depsgraph, name: str) -> None:
         camera = self.camera_override
         pose = self.camera_model_matrix(camera) if camera else None
-        view = camera_view(depsgraph, camera, pose, (self.resolution_x, self.resolution_y))
+        shift = self.camera_shift_x(camera) if camera else 0.0
+        view = camera_view(depsgraph, camera, pose, shift, (self.resolution_x, self.resolution_y))
         passes, renders = _passes(depsgraph.view_layer_eval), session().renders
         picture = renders.picture(view, passes)
         for message in renders.news(left_out(depsgraph.scene, depsgraph.view_layer, camera)):
@@ -131,20 +141,21 @@ class RSIBR_RE_previews(bpy.types.RenderEngine):
             if self.test_break():
                 return
             picture.add_sample()
-            self.update_stats("", f"Sample {done + 1} of {samples}")
+            self.update_stats(name, f"Sample {done + 1} of {samples}")
             self.update_progress((done + 1) / samples)
             if done + 1 < samples and time.monotonic() > since + SHOW_SECONDS and not bpy.app.background:
-                self._show(picture, view.size, depsgraph.view_layer.name)
+                self._show(picture, view, name)
                 since = time.monotonic()
-        self._show(picture, view.size, depsgraph.view_layer.name)
+        self._show(picture, view, name)
         for message in renders.news(renders.messages(picture)):
             warn(message)
 
-    def _show(self, picture: Picture, size: tuple[int, int], layer: str) -> None:
-        result = self.begin_result(0, 0, *size, layer=layer)
+    def _show(self, picture: Picture, view: CameraView, name: str) -> None:
+        layer = view.depsgraph.view_layer.name
+        result = self.begin_result(0, 0, *view.size, layer=layer, view=name)
         of_layer = result.layers[0].passes
-        for name, pixels in picture.read().items():
-            of_layer[name].rect.foreach_set(pixels.ravel())
+        for pass_name, pixels in picture.read().items():
+            of_layer.find_by_name(pass_name, name).rect.foreach_set(pixels.ravel())
         self.end_result(result)
 
 

@@ -69,7 +69,10 @@ def scene(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
 
 @pytest.fixture
 def render(scene: Any, tmp_path: Path) -> Render:
-    """Render a frame, and read its passes: name -> pixels, shape (height, width, channels)."""
+    """Render a frame, and read its passes: name -> pixels, shape (height, width, channels).
+
+    Of a stereoscopic one, those of the right eye.
+    """
     import bpy
     from rsibr.rsibr_addon.files.exr import read_parts
 
@@ -86,6 +89,8 @@ def render(scene: Any, tmp_path: Path) -> Render:
         path = tmp_path / f"{engine}.exr"
         scene.render.filepath = str(path)
         bpy.ops.render.render(write_still=True)
+        if scene.render.use_multiview:
+            path = tmp_path / f"{engine}_R.exr"
         passes: dict[str, dict[str, np.ndarray]] = {}
         for part in read_parts(path):
             for channel, pixels in part.channels.items():

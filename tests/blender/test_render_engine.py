@@ -37,6 +37,18 @@ def bordered(scene: bpy.types.Scene) -> None:
     render.pixel_aspect_x, render.resolution_percentage = 1.5, 90
 
 
+def stereoscopic(scene: bpy.types.Scene) -> None:
+    scene.render.use_multiview, scene.render.image_settings.views_format = True, "INDIVIDUAL"
+    stereo = scene.camera.data.stereo
+    stereo.convergence_mode, stereo.interocular_distance, stereo.convergence_distance = "OFFAXIS", 1.0, 7.0
+    scene.camera.data.shift_x = 0.1
+
+
+def orthographic_eye(scene: bpy.types.Scene) -> None:
+    stereoscopic(scene)
+    orthographic(scene)
+
+
 def add_shapes() -> None:
     """What renders have otherwise than viewports: levels, hidden objects, instances."""
     cube = bpy.data.objects["Cube"]
@@ -58,7 +70,7 @@ def add_shapes() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("change", [perspective, orthographic, bordered])
+@pytest.mark.parametrize("change", [perspective, orthographic, bordered, stereoscopic, orthographic_eye])
 def test_the_same_surfaces_are_at_the_same_places_as_by_cycles(
     scene: bpy.types.Scene, render: Render, change: Callable[[bpy.types.Scene], None]
 ) -> None:

@@ -40,7 +40,7 @@ def places_on_floor(scene: bpy.types.Scene) -> tuple[Array, Array]:
     """The points of z = 0 that pixels' middles see, shape (HEIGHT, WIDTH, 3), and where the ball is."""
     depsgraph = bpy.context.evaluated_depsgraph_get()
     camera = scene.camera
-    view = camera_view(depsgraph, camera, camera.matrix_world, (WIDTH, HEIGHT))
+    view = camera_view(depsgraph, camera, camera.matrix_world, 0.0, (WIDTH, HEIGHT))
     x, y = np.meshgrid((np.arange(WIDTH) + 0.5) / WIDTH, (np.arange(HEIGHT) + 0.5) / HEIGHT)
     clip = np.stack([2.0 * x - 1.0, 2.0 * y - 1.0, np.zeros_like(x), np.ones_like(x)], axis=-1)
     world = clip @ (view.pose @ np.linalg.inv(view.projection)).T

@@ -11,7 +11,7 @@ from ...files.atomic import check_target, written_aside
 from ...files.outputs import make_folder
 from ...host.blend_files import open_blend
 from ...host.preferences import enable_extension
-from ...host.render_views import STEREOSCOPY, checked_camera, without
+from ...host.render_views import checked_camera, without
 from ...host.rendering import render_frame
 from ...host.scenes import find_scene
 from ...host.visible_surfaces import RENDER_ENGINE
@@ -71,7 +71,7 @@ def render_frames(
     if not any(layer.use for layer in scene.view_layers):
         raise SceneError(f"Scene {scene.name} renders no view layer: switch Use for Rendering on for one.")
     if scene.render.use_multiview:
-        warn(without(STEREOSCOPY))
+        warn(without("stereoscopy"))
     ensure_context()
     paths = [_path(output, blend, number) for number in numbers]
     if len(set(paths)) < len(paths):

@@ -1,4 +1,4 @@
-"""Write the light of the active object's mip chain as an engine loads it."""
+"""Write the light of the active object's map set as an engine loads it."""
 
 import os
 from pathlib import Path
@@ -22,7 +22,7 @@ COLUMNS = 40
 
 
 class RSIBR_OT_export_for_engine(ExportsMapSet, bpy.types.Operator):
-    """Write the light of the active object's mip chain for one engine, exactly as that loads it"""  # noqa: D400  (a tooltip)
+    """Write the light of the active object's map set for one engine, exactly as that loads it"""  # noqa: D400  (a tooltip)
 
     bl_idname = "rsibr.export_for_engine"
     bl_label = "Export Light for an Engine"

@@ -21,7 +21,7 @@ PAGE, PAGE_ENDING = "page", ".html"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what `run` reads."""
-    add_map_set_or_light(parser, "which engines take, as they take mip chains")
+    add_map_set_or_light(parser, "which engines take, as they take the light of map sets")
     uses = "; ".join(f"{name}, {each.use}" for name, each in ENGINES.items())
     parser.add_argument(
         "--for",

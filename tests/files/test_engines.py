@@ -125,17 +125,21 @@ def test_what_an_engine_cannot_take_is_told(name: str, tmp_path: Path) -> None:
         small = engine.settings(size=engine.least // 2)
         with pytest.raises(RangeError, match=rf"{engine.label} takes cubes from {engine.least} texels on"):
             drain(export_for_engine(source, tmp_path / f"new{ending}", name, small))
-    tables = tmp_path / "tables.rsibr.exr"
+    assert {path.name for path in tmp_path.iterdir()} == {"sky.exr"}
+
+
+def test_of_any_map_set_the_light_is_taken(tmp_path: Path) -> None:
+    tables, light = tmp_path / "tables.rsibr.exr", Environment(sky(8), "sky.exr")
     maps = {role: np.ones((4, 8, 3), np.float32) for role in (Role.DIFFUSE, Role.SPECULAR)}
     held = ReflectionTables(maps, np.ones((len(Role), 3, 3), dtype=np.float32))
-    write_map_set(
-        tables, reflection_tables.to_map_set(held, Origin(Environment(sky(8), "sky"), {}, "a test"))
-    )
-    with pytest.raises(
-        RangeError, match=r"of the kind Reflection Tables, which .* one of the kind Mip Chain"
-    ):
-        drain(export_for_engine(tables, tmp_path / f"new{ending}", name))
-    assert {path.name for path in tmp_path.iterdir()} == {"sky.exr", "tables.rsibr.exr"}
+    write_map_set(tables, reflection_tables.to_map_set(held, Origin(light, {}, "a test")))
+    write_radiance(tmp_path / "sky.exr", light.radiance)
+    for name, ending in (("any", ".ktx2"), ("lobes", ".ktx2"), ("unreal", ".exr")):
+        settings = {"any": AnySettings(size=32), "lobes": LobesSettings(widest=32)}.get(name)
+        written = [tmp_path / f"{name}-of-{source}{ending}" for source in ("tables", "sky")]
+        for source, output in zip((tables, tmp_path / "sky.exr"), written, strict=True):
+            drain(export_for_engine(source, output, name, settings))
+        assert written[0].read_bytes() == written[1].read_bytes()
 
 
 ANY = [

@@ -1,4 +1,4 @@
-"""The light of a mip chain or of a picture, filtered by an engine's own rule and written for it."""
+"""The light of a map set or of a picture, filtered by an engine's own rule and written for it."""
 
 from pathlib import Path
 
@@ -16,7 +16,6 @@ from ....core.progress import Progress, Steps
 from ....files.atomic import check_apart, check_target
 from ....files.kinds import environment, kernel_pyramid, mip_chain
 from ....files.kinds.kernel_pyramid import shipped_families
-from ....files.kinds.registry import STORED
 from ....files.map_set import read_map_set
 from ....files.map_set_data import MapSet
 from ....files.outputs import together
@@ -24,15 +23,15 @@ from ....files.radiance_pictures import write_radiance
 from ....files.version import rsibr
 from . import lobes
 from .engine import CubeEngine, EngineLight, PanoramaEngine
-from .engines import ENGINES, Engine
+from .engines import ENGINES
 from .lobes import LobesEngine
 from .settings import CubeSettings, EngineSettings, LobesSettings
 
 SIZE = 256
-"""Width of the first mip of a picture's cube."""
+"""Width of the first mip of a cube, if no mip chain says it."""
 
 WIDEST = 512
-"""Width of the sharpest maps of a picture's kernels."""
+"""Width of the sharpest maps of kernels, if no kernel pyramid says it."""
 
 ROUGHEST = (1.0,)
 """The lobe of this roughness is the cosine over pi, so that its mip is the diffuse light."""
@@ -46,8 +45,8 @@ def export_for_engine(
     Parameters
     ----------
     source : Path
-        A mip chain, whose environment is filtered again by the engine's rule; a picture of an environment;
-        or, for lobes, a kernel pyramid.
+        A map set, whose environment is filtered again by the engine's rule, but a kernel pyramid is taken as
+        it is for lobes; or a picture of an environment.
     output : Path
         Its suffix is one of the engine's.
     name : str
@@ -78,7 +77,7 @@ def export_for_engine(
         check_target(path, force)
         check_apart(path, [source])
     yield Progress(0, 1, f"reading {source.name}")
-    held = _read(source, engine)
+    held = _read(source)
     light = environment.from_map_set(source, held)
     match engine, asked:
         case CubeEngine(), CubeSettings(size=size):
@@ -124,22 +123,14 @@ def _filtered(light: Environment, engine: CubeEngine, size: int) -> Steps[Engine
     return EngineLight(light.name, rsibr(), tuple(mips), diffuse, roughness, harmonics)
 
 
-def _read(source: Path, engine: Engine) -> MapSet:
+def _read(source: Path) -> MapSet:
     if environment.is_environment(source):
         return environment.read_as_map_set(source)
-    held = read_map_set(source)
-    is_pyramid = isinstance(engine, LobesEngine) and held.kind == kernel_pyramid.KIND
-    if held.kind != mip_chain.KIND and not is_pyramid:
-        of, wanted = (STORED[kind].settings.LABEL for kind in (held.kind, mip_chain.KIND))
-        raise RangeError(
-            f"{source} is of the kind {of}, which {engine.label} cannot take: give one of the kind {wanted}, "
-            f"or the picture of its environment."
-        )
-    return held
+    return read_map_set(source)
 
 
 def _size_of(source: Path, held: MapSet) -> int:
-    return SIZE if held.kind == environment.KIND else mip_chain.from_map_set(source, held).size
+    return mip_chain.from_map_set(source, held).size if held.kind == mip_chain.KIND else SIZE
 
 
 def _turned(faces: Array, engine: CubeEngine) -> Array:

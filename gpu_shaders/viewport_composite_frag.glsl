@@ -9,8 +9,8 @@
 // differ in their last bits from those that it hands out, and depths by up to six.
 const float DEPTH_TOLERANCE = 8.0 / 16777216.0;
 
-// The scale of differences: its corner beside the line, and its size, in pixels; numbers are written above
-// it.
+// The scale of differences: its corner beside the line, and its size, in pixels at Blender's own scale;
+// numbers are written above it.
 const vec2 SCALE_PLACE = vec2(24.0, 24.0);
 const vec2 SCALE_SIZE = vec2(192.0, 12.0);
 
@@ -22,7 +22,8 @@ vec3 uncovered(vec4 seen)
 
 void main()
 {
-  vec2 on_scale = (gl_FragCoord.xy - vec2(max(left, 0.0), 0.0) - SCALE_PLACE) / SCALE_SIZE;
+  vec2 beside_line = (gl_FragCoord.xy - vec2(max(left, 0.0), 0.0)) / ui_scale;
+  vec2 on_scale = (beside_line - SCALE_PLACE) / SCALE_SIZE;
   if (full > 0.0 && on_scale == clamp(on_scale, 0.0, 1.0)) {
     gl_FragDepth = 0.0;
     colour = vec4(linear_from_srgb(heat(on_scale.x)), 1.0);

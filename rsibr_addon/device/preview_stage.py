@@ -19,10 +19,12 @@ import numpy as np
 from ..core.conventions import Array
 from .drawing import LEAST_STRENGTH, Draw, GpuMesh
 from .passes import screen_triangle
+from .screen_scale import ui_scale
 from .stage_shaders import composite_shader, occluder_shader
 
 SCALE_PLACE, SCALE_SIZE = (24, 24), (192, 12)
-"""The scale of differences: its corner beside the line, and its size, in pixels, as the shader has them."""
+"""The scale of differences: its corner beside the line, and its size, as the shader has them, in pixels at
+Blender's own scale."""
 
 _FONT, _LETTERS = 0, 12.0
 
@@ -136,12 +138,14 @@ def draw_scale_numbers(left: float, full: float) -> None:
         See `Difference`.
     """
     _, _, width, _ = gpu.state.viewport_get()
-    blf.size(_FONT, _LETTERS)
+    scale = ui_scale()
+    blf.size(_FONT, scale * _LETTERS)
     blf.color(_FONT, 1.0, 1.0, 1.0, 1.0)
     for share in (0.0, 0.5, 1.0):
         text = f"{100.0 * share * full:.3g}%"
-        x = left * width + SCALE_PLACE[0] + share * SCALE_SIZE[0]
-        blf.position(_FONT, x - 0.5 * blf.dimensions(_FONT, text)[0], SCALE_PLACE[1] + SCALE_SIZE[1] + 6, 0.0)
+        x = left * width + scale * (SCALE_PLACE[0] + share * SCALE_SIZE[0])
+        y = scale * (SCALE_PLACE[1] + SCALE_SIZE[1] + 6)
+        blf.position(_FONT, x - 0.5 * blf.dimensions(_FONT, text)[0], y, 0.0)
         blf.draw(_FONT, text)
 
 
@@ -216,6 +220,7 @@ class Stage:
         shader.uniform_float("right", x + right * width if right < 1.0 else np.inf)
         shader.uniform_sampler("previews", self.radiance)
         shader.uniform_sampler("depths", self._depth)
+        shader.uniform_float("ui_scale", ui_scale())
         shader.uniform_float("full", compared.full)
         shader.uniform_float("others_scale", compared.scale)
         shader.uniform_sampler("display", display)
@@ -234,7 +239,7 @@ class Stage:
         shader.uniform_float("scale", scale)
         shader.uniform_float("least", least)
         shader.uniform_float("most", most)
-        shader.uniform_float("line", 1.0 if least < 1.0 else 0.0)
+        shader.uniform_float("line", ui_scale() if least < 1.0 else 0.0)
         shader.uniform_float("as_radiance", float(as_radiance))
         self._screen.draw(shader)
 

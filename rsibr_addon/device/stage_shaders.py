@@ -23,6 +23,7 @@ def composite_shader() -> gpu.types.GPUShader:
     info.push_constant("FLOAT", "left")
     info.push_constant("FLOAT", "right")
     info.push_constant("FLOAT", "line")
+    info.push_constant("FLOAT", "ui_scale")
     info.push_constant("FLOAT", "least")
     info.push_constant("FLOAT", "most")
     info.push_constant("FLOAT", "as_radiance")

@@ -4,6 +4,8 @@ from textwrap import wrap
 
 import bpy
 
+from ..device.screen_scale import ui_scale
+
 LETTER_WIDTH, MARGIN = 7, 60
 """Mean width of a letter in a panel, and width of a region's margins and an icon; in pixels at Blender's own
 scale."""
@@ -19,12 +21,8 @@ SOLID = "Solid shading has neither lamps nor world: choose Material Preview or R
 
 
 def panel_width(context: bpy.types.Context) -> int:
-    """Width of the region that a panel is drawn in, in pixels at Blender's own scale.
-
-    Screens of high resolution and *Resolution Scale* make both region and letters larger.
-    """
-    scale = context.preferences.system.ui_scale or 1.0  # 0 without a window
-    return int(context.region.width / scale)
+    """Width of the region that a panel is drawn in, in pixels at Blender's own scale."""
+    return int(context.region.width / ui_scale())
 
 
 def letters_in(width: int) -> int:

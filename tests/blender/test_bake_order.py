@@ -153,10 +153,7 @@ def test_equal_bakes_have_one_file_and_others_another(tmp_path: Path) -> None:
 def panel_labels() -> str:
     """What the panel tells of the light, in a region that is wide enough for a line of it."""
     layout = MagicMock()
-    blender, region = bpy.context, SimpleNamespace(width=5000)
-    context = SimpleNamespace(
-        scene=blender.scene, object=None, region=region, preferences=blender.preferences
-    )
+    context = SimpleNamespace(scene=bpy.context.scene, object=None, region=SimpleNamespace(width=5000))
     draw_light(layout, context)
     return " ".join(call.kwargs["text"] for call in layout.column.return_value.label.call_args_list)
 

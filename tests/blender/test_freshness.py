@@ -302,7 +302,7 @@ def drawn_request_and_state() -> list[tuple[str, str]]:
     layout = Mock()
     layout.column.return_value = layout
     context = Mock(scene=bpy.context.scene, object=cube())
-    context.region.width, context.preferences.system.ui_scale = 10_000, 1.0  # each sentence in one line
+    context.region.width = 10_000  # each sentence in one line
     served = preview_panel._draw_request(layout, context)
     preview_panel._draw_freshness(layout, cube(), context.region.width, served)
     return [(each.kwargs.get("icon", ""), each.kwargs["text"]) for each in layout.label.call_args_list]

@@ -6,8 +6,9 @@ import bpy
 import pytest
 from rsibr.rsibr_addon.core.errors import SceneError
 from rsibr.rsibr_addon.core.options import declared_options
+from rsibr.rsibr_addon.device.screen_scale import ui_scale
 from rsibr.rsibr_addon.files.kinds.registry import STORED, look_types
-from rsibr.rsibr_addon.ui import advanced_panel, preview_panel, result_panel
+from rsibr.rsibr_addon.ui import advanced_panel, preview_panel, result_panel, sentences
 from rsibr.rsibr_addon.ui.sentences import LONG_LABEL_SHARE, LONGEST_LABEL, letters_in, panel_width, tell
 
 NARROW = 292
@@ -107,8 +108,13 @@ def test_broken_lines_begin_below_each_other(icon: str) -> None:
     assert set(icons[1:]) == {"NONE" if icon == "NONE" else "BLANK1"}
 
 
-@pytest.mark.parametrize(("scale", "pixels"), [(1.0, NARROW), (2.0, 2 * NARROW), (0.0, NARROW)])
-def test_as_many_letters_fit_at_every_scale_of_the_screen(scale: float, pixels: int) -> None:
-    preferences = SimpleNamespace(system=SimpleNamespace(ui_scale=scale))
-    context = SimpleNamespace(preferences=preferences, region=SimpleNamespace(width=pixels))
-    assert panel_width(context) == NARROW
+@pytest.mark.parametrize("scale", [1.0, 2.0])
+def test_as_many_letters_fit_at_every_scale_of_the_screen(
+    scale: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sentences, "ui_scale", lambda: scale)
+    assert panel_width(SimpleNamespace(region=SimpleNamespace(width=scale * NARROW))) == NARROW
+
+
+def test_without_a_window_the_scale_is_blenders_own() -> None:
+    assert ui_scale() == 1.0

@@ -96,6 +96,8 @@ def run_job(job: BakeJob[Any], console: Console) -> dict[str, Any]:
     is_map_set = job.settings.KIND in STORED
     if is_map_set and job.light.environment is None:
         _check_world()
+    if is_map_set and job.settings.expected:
+        console.tell(f"{job.settings.expected}.")
     baked = console.steps(bake(job))
     console.say(f"{baked.path}: {baked.told}")
     return {"map_set" if is_map_set else "baked_inputs": str(baked.path), **baked.figures}

@@ -55,6 +55,11 @@ class Console:
         """Add a line to the result for people."""
         self.lines.append(line)
 
+    def tell(self, sentence: str) -> None:
+        """Show what is good to know before long work to whoever watches its bar."""
+        if self.progress == "bar":
+            self.told.write(f"rsibr: {sentence}\n")
+
     def fail(self, sentence: str) -> None:
         """Show why a command failed."""
         self.told.write(f"rsibr: error: {sentence}\n")

@@ -24,6 +24,11 @@ class MethodSettings(Options):
     REMARK: ClassVar[str] = ""
 
     @property
+    def expected(self) -> str:
+        """What errors were measured with such settings, in words; empty where none were."""
+        return ""
+
+    @property
     def only_names_material(self) -> bool:
         """Whether the material is no more than a name, as where photographs show it."""
         return False

@@ -12,6 +12,12 @@ from ..core.options import Choice, Materials, option
 from .comparison import ComparisonOptions, samples_option
 from .method import MethodSettings
 
+EXPECTED = {
+    12: "1 % off for clay, 13 to 22 % for copper and plastic, 16 to 65 % for car paint and mirrors",
+    42: "6 to 12 % off for copper and plastic, 18 to 45 % for car paint and mirrors",
+}
+"""Number of views -> what was measured with them: docs/accuracy.md."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class RadianceViewsSettings(MethodSettings):
@@ -135,6 +141,12 @@ class RadianceViewsSettings(MethodSettings):
             raise RangeError("A goal is for lobes fitted to the views: ask for them (Fit Lobes, More Views).")
         if self.photographs is not None and (self.more_views or self.goal) is not None:
             raise RangeError("Photographs are what they are: leave More Views and Goal out.")
+
+    @property
+    def expected(self) -> str:
+        """See `MethodSettings`."""
+        given = self.view_file or self.photographs
+        return "" if given or self.views not in EXPECTED else f"{self.views} views are {EXPECTED[self.views]}"
 
     @property
     def fits_lobes(self) -> bool:

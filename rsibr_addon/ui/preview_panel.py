@@ -91,6 +91,8 @@ def _draw_request(layout: bpy.types.UILayout, context: bpy.types.Context) -> boo
         tell(layout, remark, width, icon="INFO")
     if session().freshness.serves(request, context.scene, context.object):
         return True
+    if request.settings.expected:
+        tell(layout, request.settings.expected, width, icon="INFO")
     cost = request.cost
     takes = f"{amount(cost.memory)} of memory, {amount(cost.disk)} on disk"
     tell(layout, capital(f"{duration(cost.seconds)}, {takes}"), width, icon="TIME")

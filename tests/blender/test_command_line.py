@@ -235,6 +235,17 @@ def test_progress_bar_fills_and_is_wiped(capfd: pytest.CaptureFixture[str]) -> N
     assert err.endswith("\r\x1b[2K")
 
 
+@pytest.mark.parametrize(("progress", "told"), [("bar", True), ("none", False)])
+def test_errors_that_were_measured_are_told_to_whoever_watches(
+    progress: str, told: bool, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    write_radiance(tmp_path / "light.exr", np.ones((8, 16, 3), np.float32))
+    words = ["--environment", str(tmp_path / "light.exr"), "--material", "lambert:kd=0.5", "--size", "4"]
+    output = str(tmp_path / "views.rsibr.exr")
+    assert run(["bake", "radiance-views", *words, "-o", output, "--progress", progress]) == 0
+    assert ("rsibr: 12 views are 1 % off for clay" in capfd.readouterr().err) is told
+
+
 def test_a_bug_keeps_its_traceback(monkeypatch: pytest.MonkeyPatch) -> None:
     def steps():
         yield Progress(0, 1, "stumbling")

@@ -8,6 +8,7 @@ from rsibr.rsibr_addon.core.errors import SceneError
 from rsibr.rsibr_addon.core.options import declared_options
 from rsibr.rsibr_addon.device.screen_scale import ui_scale
 from rsibr.rsibr_addon.files.kinds.registry import STORED, look_types
+from rsibr.rsibr_addon.settings.radiance_views import RadianceViewsSettings
 from rsibr.rsibr_addon.ui import advanced_panel, preview_panel, result_panel, sentences
 from rsibr.rsibr_addon.ui.sentences import LONG_LABEL_SHARE, LONGEST_LABEL, letters_in, panel_width, tell
 
@@ -46,6 +47,17 @@ def test_the_material_that_is_baked_is_named(kind: str, settings: dict[str, str]
     for name, value in settings.items():
         setattr(getattr(chosen, kind), name, value)
     assert preview_panel._shaded_as(bpy.context) == told
+
+
+@pytest.mark.usefixtures("panel")
+def test_errors_that_were_measured_are_told_before_a_bake() -> None:
+    chosen, told = bpy.context.scene.rsibr_bake, []
+    chosen.kind = "radiance_views"
+    column = SimpleNamespace(label=lambda text, icon: told.append(text))
+    known = {name: getattr(bpy.context, name) for name in ("scene", "object", "preferences")}
+    context = SimpleNamespace(region=SimpleNamespace(width=1000), **known)
+    preview_panel._draw_request(SimpleNamespace(column=lambda align: column), context)
+    assert RadianceViewsSettings(material="copper").expected in " ".join(told)
 
 
 @pytest.mark.parametrize("kind", STORED)

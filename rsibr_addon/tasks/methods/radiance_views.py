@@ -22,7 +22,7 @@ from ...core.progress import Progress, Steps, drain
 from ...core.warned import warn
 from ...files.ball_list import BallPhotograph, read_ball_list
 from ...files.fits import fields_of
-from ...files.kinds.radiance_views import LEFT_OUT, LOBES, LOBES_LEFT_OUT
+from ...files.kinds.radiance_views import LEFT_OUT, LOBES, LOBES_LEFT_OUT, left_out
 from ...files.map_set_data import ENVIRONMENT, MapsInTurn
 from ...files.map_set_header import Origin, Recipe, make_header
 from ...files.view_directions import read_view_dirs
@@ -135,12 +135,13 @@ def bake(job: BakeJob[RadianceViewsSettings], recipe: Recipe) -> Steps[Baked]:
         capture = partial(lit.capture, kept.keep)
         captured = yield from capture_views(asked, light, sphere.vertices, kept, capture)
         software = software_of(job, measured=_is_rendered(asked))
-        path = drain(written(job, recipe, _map_set(lit, asked, light, captured, kept, software)))
+        map_set = _map_set(lit, asked, light, captured, kept, software)
+        path = drain(written(job, recipe, map_set))
     told, figures = captured.report()
-    size = f"{asked.size}x{asked.size}"
-    return Baked(
-        path, f"{counted(len(captured.view_dirs), 'view')} of {size}{told}", {"size": asked.size, **figures}
-    )
+    stated = left_out(map_set.header)
+    error = f", error in views left out {min(stated.values()):.2g}" if stated else ""
+    views = f"{counted(len(captured.view_dirs), 'view')} of {asked.size}x{asked.size}"
+    return Baked(path, f"{views}{error}{told}", {"size": asked.size, **figures})
 
 
 def _is_rendered(settings: RadianceViewsSettings) -> bool:
@@ -190,7 +191,7 @@ def _map_set(
     albedo, count = lit.albedo(), len(sphere.vertices)
     shapes = {ENVIRONMENT: light.radiance.shape[:2], ALBEDO: albedo.shape[:2]}
     parts: list[dict[str, Any]] = [{"name": name, "role": name} for name in shapes]
-    left_out = LeftOut(sphere, settings.size, albedo)
+    predicted = LeftOut(sphere, settings.size, albedo)
     for view in range(count):
         view_dir = sphere.vertices[view].tolist()
         finished = kept.parts(view)
@@ -198,9 +199,9 @@ def _map_set(
             name = f"view{view:03d}.{part.name}"
             shapes[name] = (settings.size,) * 2
             parts.append({"name": name, "role": part.name, "view": view, "view_dir": view_dir})
-        left_out.add(view, *(part.side_by_side("RGB") for part in finished))
+        predicted.add(view, *(part.side_by_side("RGB") for part in finished))
     errors = {"relative_noise": kept.noise(count)}
-    errors |= {f"{LEFT_OUT}{warping}": error for warping, error in left_out.errors().items()}
+    errors |= {f"{LEFT_OUT}{warping}": error for warping, error in predicted.errors().items()}
 
     def maps() -> Iterator[Array]:
         yield from (light.radiance, albedo)

@@ -156,6 +156,14 @@ def registered() -> Iterator[None]:
     rsibr.unregister()
 
 
+@pytest.fixture
+def quick_furnace(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Have captures measure albedos by few samples, which takes a twentieth of the time."""
+    from rsibr.rsibr_addon.host import furnace
+
+    monkeypatch.setattr(furnace, "SAMPLES", 4)
+
+
 def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> pytest.Module:
     return CheckedModule.from_parent(parent, path=module_path)
 

@@ -13,7 +13,7 @@ from rsibr.rsibr_addon.tasks.methods.bake import bake
 from rsibr.rsibr_addon.tasks.queue.bake_request import request_for
 from rsibr.tests.open_file import open_file_state
 
-pytestmark = pytest.mark.needs("cycles")
+pytestmark = [pytest.mark.needs("cycles"), pytest.mark.usefixtures("quick_furnace")]
 
 
 @pytest.fixture(autouse=True)

@@ -13,6 +13,8 @@ from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.job import read_job
 from rsibr.tests.pages import blocks, calls
 
+pytestmark = pytest.mark.usefixtures("quick_furnace")
+
 GUIDE = "docs/guide.md"
 
 COMPLETE = [

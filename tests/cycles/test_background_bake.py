@@ -16,6 +16,8 @@ from rsibr.rsibr_addon.tasks.light import environments
 from rsibr.rsibr_addon.tasks.queue.bake_request import bake_of, request_for
 from rsibr.tests.bake_jobs import run_job
 
+pytestmark = pytest.mark.usefixtures("quick_furnace")
+
 HEIGHT = 16
 """Of the environment that the world is sampled into, here and in the other process."""
 
@@ -23,8 +25,9 @@ CHILD = f"""
 import sys
 import bpy
 from rsibr.rsibr_addon.command_line.main import run
+from rsibr.rsibr_addon.host import furnace
 from rsibr.rsibr_addon.tasks.light import environments
-environments.WORLD_HEIGHT = {HEIGHT}
+environments.WORLD_HEIGHT, furnace.SAMPLES = {HEIGHT}, 4
 words = sys.argv[1:]
 bpy.ops.wm.open_mainfile(filepath=words[2], use_scripts=False)
 bpy.context.window.scene = bpy.data.scenes[words[words.index("--scene") + 1]]

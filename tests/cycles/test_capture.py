@@ -37,6 +37,8 @@ from rsibr.rsibr_addon.tasks.methods.bake import bake
 from rsibr.rsibr_addon.tasks.methods.kinds import open_map_set
 from rsibr.tests.open_file import open_file_state
 
+pytestmark = pytest.mark.usefixtures("quick_furnace")
+
 LIT = (12, 3)
 
 

@@ -10,7 +10,7 @@ from rsibr.rsibr_addon.files.map_set import read_map_set
 from rsibr.rsibr_addon.files.pictures import read_exr
 from rsibr.tests.json_command import json_result
 
-pytestmark = pytest.mark.needs("gl")
+pytestmark = [pytest.mark.needs("gl"), pytest.mark.usefixtures("quick_furnace")]
 
 CAPTURE = ["capture", "--environment", "forest", "--material", "copper", "--size", "16", "--samples", "2"]
 CAPTURE += ["-o", "copper.rsibr.exr"]

@@ -13,8 +13,6 @@ from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.rsibr_addon.job import read_job
 from rsibr.tests.pages import blocks, calls
 
-pytestmark = pytest.mark.usefixtures("quick_furnace")
-
 GUIDE = "docs/guide.md"
 
 COMPLETE = [
@@ -38,8 +36,17 @@ SMALL = {
 }
 """Command, or kind that is baked -> its options that make it quick."""
 
-SMALL_SCRIPT = {'views="42", samples=128': "size=8, samples=2", "size=256": "size=64"}
+SMALL_SCRIPT = {
+    'environment="sunset"': 'environment="sunset", size=128',
+    'views="42", samples=128': "size=8, samples=2",
+    "size=256": "size=64",
+}
 """The same of operators, by what the guide's script says."""
+
+
+@pytest.fixture(autouse=True)
+def _small_world(monkeypatch: pytest.MonkeyPatch, quick_furnace: None) -> None:
+    monkeypatch.setattr("rsibr.rsibr_addon.tasks.light.environments.WORLD_HEIGHT", 16)
 
 
 def made_small(words: list[str]) -> list[str]:

@@ -15,6 +15,9 @@ TRIES = 100
 """Most tries to hold a folder, which its former holder may be removing each time."""
 
 
+_own: set[Path] = set()
+
+
 @contextlib.contextmanager
 def held(folder: Path) -> Iterator[bool]:
     """Hold a folder alone; it is removed afterwards if it is empty.
@@ -37,12 +40,24 @@ def held(folder: Path) -> Iterator[bool]:
         It cannot be made.
     """
     file, alone = _held(folder)
+    if alone:
+        _own.add(folder)
     try:
         yield alone
     finally:
+        _own.discard(folder)
         with contextlib.suppress(OSError), file:
             if alone and os.listdir(folder) == [LOCK]:
                 _close_and_remove(file, folder / LOCK)
+                folder.rmdir()
+
+
+def remove_empty_own() -> None:
+    """Remove the empty folders that this process holds, as it ends without leaving their contexts."""
+    for folder in list(_own):
+        with contextlib.suppress(OSError):
+            if os.listdir(folder) == [LOCK]:
+                (folder / LOCK).unlink()
                 folder.rmdir()
 
 

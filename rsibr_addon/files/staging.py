@@ -14,7 +14,7 @@ import zlib
 from collections.abc import Iterator
 from pathlib import Path
 
-from .locks import LOCK, TRIES, held
+from .locks import LOCK, TRIES, held, remove_empty_own
 
 REPLACED = "replaced"
 """Folder in a staging folder, for the former owner of the final name."""
@@ -83,9 +83,13 @@ def _new_folder(around: Path, stack: contextlib.ExitStack) -> Path:
 
 
 def remove_own() -> None:
-    """Remove the staging folders of this process, which is about to end without leaving their contexts."""
+    """Remove the staging folders of this process, which is about to end without leaving their contexts.
+
+    Work folders that it holds go too, where nothing in them is finished.
+    """
     for folder in list(_own):
         _remove(folder)
+    remove_empty_own()
 
 
 def clear_strays(around: Path) -> None:

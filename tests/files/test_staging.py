@@ -183,6 +183,13 @@ def test_a_process_that_is_told_to_end_takes_its_own_with_it(tmp_path: Path) -> 
         assert list(tmp_path.iterdir()) == [out]
 
 
+def test_held_folders_go_with_a_process_that_is_told_to_end_but_for_what_is_finished(tmp_path: Path) -> None:
+    with held(tmp_path / "empty"), held(tmp_path / "kept"):
+        (tmp_path / "kept" / "part").touch()
+        remove_own()
+        assert {each.name for each in tmp_path.rglob("*")} == {"kept", LOCK, "part"}
+
+
 def test_a_file_system_that_does_not_show_what_it_made_is_an_error(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

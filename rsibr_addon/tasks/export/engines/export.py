@@ -57,7 +57,7 @@ def export_for_engine(
     MapSetError, InputFileError
         The source cannot be read, or does not hold its environment.
     RangeError
-        It is of another kind, or too small for the engine.
+        The size is too small for the engine, or a width is asked of a kernel pyramid, which has its own.
     OutputFileError
         The name is not one of the engine's, or a file exists.
 

@@ -68,7 +68,7 @@ def test_measured_errors_are_told_while_the_content_is_the_same(path: Path) -> N
     assert measured_sentence(path, look) == sentence
     assert measured_sentence(path, ViewsLook("texel", "albedo")) == ""
     write_flat_capture(path, (0.5, 0.0, 0.5))
-    again = "The file has changed since it was compared: compare again."
+    again = "flat.rsibr.exr has changed since it was compared: compare again."
     assert measured_facts(path) == {"Measured": again}
     assert measured_sentence(path, look) == again
 

@@ -100,7 +100,7 @@ def _comparison_of(map_set: Path, truth: Truth) -> Comparison | None:
         return None
     comparison = _comparison(comparison_beside(map_set) / RESULT, settings, truth.way)
     if comparison is not None and comparison.content != map_set_content(map_set):
-        raise InputFileError("The file has changed since it was compared: compare again.")
+        raise InputFileError(f"{map_set.name} has changed since it was compared: compare again.")
     return comparison
 
 

@@ -23,6 +23,7 @@ GRACE_SECONDS = 0.4
 
 AGAIN = "Interrupted: give the same command again."
 GOES_ON = "Interrupted: give the same command again, and it goes on from the views that are finished."
+BATCH_GOES_ON = "Interrupted: give the same command again, and it goes on with the bakes that are not done."
 MAY_GO_ON = "Interrupted: give the same command again; a capture goes on from the views that are finished."
 
 TRY_AGAIN = 75
@@ -89,6 +90,8 @@ def interrupted(argv: Sequence[str]) -> str:
     command, first = (*argv[:2], "", "")[:2]
     if command == "capture" or (command, first) == ("bake", "radiance-views"):
         return GOES_ON
+    if command == "batch":
+        return BATCH_GOES_ON
     is_job = command == "job" or (command == "bake" and first.endswith(".json"))
     return MAY_GO_ON if is_job else AGAIN
 

@@ -279,16 +279,17 @@ def test_console_is_the_installed_command() -> None:
         (["bake", "radiance-views", "-o", "a.exr"], "and it goes on"),
         (["bake", "job.json"], "a capture goes on"),
         (["job", "job.json"], "a capture goes on"),
+        (["batch", "a.json"], "it goes on with the bakes"),
         (["bake", "mip-chain", "-o", "a.exr"], ""),
         (["bake", "--brdf", "ggx:alpha=1"], ""),
         (["info", "a.exr"], ""),
         ([], ""),
     ],
 )
-def test_only_an_interrupted_capture_speaks_of_views(words: list[str], goes_on: str) -> None:
+def test_what_is_interrupted_says_whether_it_goes_on(words: list[str], goes_on: str) -> None:
     sentence = interrupted(words)
     assert goes_on in sentence
-    assert ("views" in sentence) is bool(goes_on)
+    assert ("goes on" in sentence) is bool(goes_on)
 
 
 @pytest.mark.parametrize(

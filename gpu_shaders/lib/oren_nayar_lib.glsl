@@ -5,7 +5,7 @@
 const float LOST_BY_LEANING = PI / 2.0 - 2.0 / 3.0;
 
 // a and b.
-vec2 facets(float roughness)
+vec2 fujii_coefficients(float roughness)
 {
   float a = 1.0 / (PI + roughness * LOST_BY_LEANING);
   return vec2(a, roughness * a);
@@ -24,7 +24,7 @@ float leaning_albedo(float n_dot_v)
 vec3 bounces(vec3 color, float roughness, float n_dot_v)
 {
   vec3 facet = clamp(color, 0.0, 1.0);
-  float b = facets(roughness).y;
+  float b = fujii_coefficients(roughness).y;
   float mean_leaning = (2.0 * PI - 5.6) / 3.0;
   float mean_lost = b * (LOST_BY_LEANING - mean_leaning);
   // Lost over mean lost, of which b is a factor both; where b is 0, nothing is lost of what is multiplied

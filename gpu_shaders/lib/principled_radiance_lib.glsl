@@ -126,7 +126,7 @@ vec3 diffuse_radiance(sampler2D atlas,
                       vec3 mirror_dir)
 {
   vec3 color = max(base_color, 0.0);
-  vec2 ab = facets(roughness);
+  vec2 ab = fujii_coefficients(roughness);
   vec4 left = bumped_cosine(normal, smooth_normal);
   vec2 uv = octahedral_uv(left.xyz);
   vec3 white = PI * pyramid_radiance(atlas, lookups, COSINE_MAP, uv);

@@ -102,11 +102,11 @@ TWINS = {
         # Axes of normals that are opposite to each other have lengths from .07
         20 * ULP,
     ),
-    "facets": Twin(
+    "fujii_coefficients": Twin(
         "oren_nayar_lib.glsl",
-        "result_0.xy = facets(in_0.x);",
+        "result_0.xy = fujii_coefficients(in_0.x);",
         lambda: [numbers(21)],
-        lambda roughness: np.stack(oren_nayar.facets(roughness[:, 0]), axis=-1),
+        lambda roughness: np.stack(oren_nayar.fujii_coefficients(roughness[:, 0]), axis=-1),
         # A product, a sum and a quotient of numbers below 1
         4 * ULP,
     ),

@@ -5,7 +5,7 @@ import numpy as np
 from ..conventions import Array, ArrayLike
 
 
-def facets(roughness: ArrayLike) -> tuple[Array, Array]:
+def fujii_coefficients(roughness: ArrayLike) -> tuple[Array, Array]:
     """A and B of [Fujii2012]: brdf = A + B `tilt`.
 
     Parameters
@@ -76,7 +76,7 @@ def bounces(color: ArrayLike, roughness: ArrayLike, n_dot_v: ArrayLike) -> Array
         Over `color`, as the single bounce is; [Portsmouth2025], as Cycles has it.
     """
     color = np.clip(np.asarray(color, dtype=np.float64), 0.0, 1.0)
-    a, b = facets(roughness)
+    a, b = fujii_coefficients(roughness)
     mean = np.pi * a + (2.0 * np.pi - 5.6) / 3.0 * b
     lost = 1.0 - np.pi * a - b * leaning_albedo(n_dot_v)
     # Smooth surfaces lose nothing, and what they lose has no mean

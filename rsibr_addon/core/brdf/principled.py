@@ -17,7 +17,7 @@ from .fresnel_powers import dielectric, edge_of, powers_of, rise, schlick
 from .ggx import ggx_ndf, smith_visibility
 from .layered import COAT_ELEVATIONS
 from .model import Brdf, Geometry
-from .oren_nayar import bounces, facets, leaning_albedo, tilt
+from .oren_nayar import bounces, fujii_coefficients, leaning_albedo, tilt
 from .parameters import Color, Range
 from .sheen_polynomials import sheen_at, sheen_brdf
 
@@ -265,7 +265,7 @@ class Principled(Brdf):
 def diffuse_brdf(surface: Surface, geometry: Geometry) -> Array:
     """Oren and Nayar's reflection of a base colour, shape (N, 3) [1/sr]."""
     color = np.asarray(surface.base_color, dtype=np.float64)
-    a, b = facets(surface.diffuse_roughness)
+    a, b = fujii_coefficients(surface.diffuse_roughness)
     leaning = tilt(geometry.n_dot_l, geometry.n_dot_v, geometry.l_dot_v)
     lost = 1.0 - np.pi * a - b * leaning_albedo(geometry.n_dot_l)
     again = bounces(color, surface.diffuse_roughness, geometry.n_dot_v) * lost[:, None]

@@ -6,7 +6,7 @@ import numpy as np
 
 from ...brdf.bumped_diffuse import bumped_cosine
 from ...brdf.fresnel_powers import powers_of
-from ...brdf.oren_nayar import bounces, facets
+from ...brdf.oren_nayar import bounces, fujii_coefficients
 from ...brdf.principled import Layers, Surface, layers_of
 from ...conventions import Array, ArrayLike
 from ...geometry.directions import dot, normalize, reflect
@@ -188,7 +188,7 @@ def _diffuse(
 ) -> Array:
     """Oren and Nayar's reflection, shape (N, 3): see `brdf.principled.diffuse_brdf`."""
     color, roughness = np.maximum(surface.base_color, 0.0), np.asarray(surface.diffuse_roughness, np.float64)
-    a, b = (np.broadcast_to(value, mu.shape)[:, None] for value in facets(roughness))
+    a, b = (np.broadcast_to(value, mu.shape)[:, None] for value in fujii_coefficients(roughness))
     again = np.broadcast_to(bounces(color, roughness, mu), normal.shape)
     axis, share = bumped_cosine(normal, smooth_normal)
     white, leant = lookup_diffuse(pyramid, axis)

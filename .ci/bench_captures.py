@@ -96,7 +96,7 @@ def captured(environment: Environment, name: str, folder: Path, view_dirs: Array
 
 def errors_and_powers(fit: Fit, light: CapturedLight, views: RadianceViews) -> tuple[Array, Array]:
     """Squared error of each view by the lobes, and its squared radiance, shapes (V,)."""
-    seen = captured_texels(views, len(views.diffuse), TEXELS, light.sun_dir)
+    seen = captured_texels(views, len(views.diffuse), TEXELS, light.suns.direction)
     root = np.sqrt(seen.stands_for)[:, None]
     true = root * (seen.diffuse + seen.glossy)
     rest = root * fit_radiance(fit, light, seen) - true
@@ -116,7 +116,7 @@ def pictured(fit: Fit, light: CapturedLight, views: RadianceViews, number: int) 
     one = RadianceViews(*maps, views.albedo, view_dirs=views.sphere.vertices[[number]])
     inside = np.linalg.norm(2.0 * texel_centres(SIZE, SIZE) - 1.0, axis=-1) < 1.0
     ours, true = np.zeros((2, SIZE, SIZE, 4))
-    seen = captured_texels(one, 1, SIZE**2, light.sun_dir)
+    seen = captured_texels(one, 1, SIZE**2, light.suns.direction)
     centre = np.add.reduceat(
         sphere_map.uv_from_normal(seen.normal @ one.frames[0]) * seen.share[:, None], seen.first
     )

@@ -21,8 +21,8 @@ from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import bake_pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import Pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import Families
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.split_sum import split_families
-from rsibr.rsibr_addon.core.kinds.kernel_pyramid.suns import NO_SUNS
 from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.core.suns import NO_SUNS
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.kinds.kernel_pyramid import GpuPyramid

@@ -15,6 +15,7 @@ void main()
                                 int(stack.lobes),
                                 int(stack.taps),
                                 int(stack.slices),
+                                LobeSuns(int(stack.suns), int(stack.kernels), int(stack.sun_row), stack.reach),
                                 seen.mirror_normal,
                                 seen.view_dir,
                                 across,

@@ -1,6 +1,8 @@
 // Twin of rsibr_addon/core/kinds/lobe_stack/shading.py: [Kautz2000] section 5.3.
 // The texture `elevations` (see device/kinds/lobe_stack.py) has a column for each sampled elevation. Row 0
 // holds their cosines; then come, for each lobe, a row of scales and one of each tap's tilt, turn and weight.
+// Light with suns has more rows. The first texel of each holds a sun's direction, or its irradiance, or
+// a kernel's concentration and peak. Then come, for each lobe, rows of the weights of its kernels.
 // The 3D texture `maps` holds, for each lobe, and for each sheet of its maps, a slice for each elevation, or
 // one for all. Around every sheet lies a border of one texel: what continues it on the sphere.
 #include "lib/directions_lib.glsl"
@@ -8,6 +10,17 @@
 #include "lib/footprint_lib.glsl"
 #include "lib/lobe_axes_lib.glsl"
 #include "lib/octahedral_lib.glsl"
+
+// Suns that maps lack.
+struct LobeSuns {
+  int count;
+  // Kernels that show them.
+  int kernels;
+  // Row of `elevations` with the first.
+  int row;
+  // 1 less the cosine from which on they are not seen.
+  float reach;
+};
 
 #define LAYOUT_DUAL_PARABOLOID 0
 #define LAYOUT_OCTAHEDRAL 1
@@ -72,6 +85,30 @@ float stack_texel_angle(int layout_number, float size, vec3 direction)
   return 2.0 / (size - 1.0) * (1.0 + part.y);
 }
 
+// What a lobe's kernels about an axis make of suns, which its map lacks.
+vec3 lobe_sunlight(sampler2D elevations, LobeSuns suns, int lobe, vec3 axis, vec2 elevation)
+{
+  int first_kernel = suns.row + 2 * suns.count;
+  int first_weight = first_kernel + suns.kernels * (1 + lobe);
+  vec3 radiance = vec3(0.0);
+  for (int sun = 0; sun < suns.count; sun++) {
+    vec3 between = axis - texelFetch(elevations, ivec2(0, suns.row + 2 * sun), 0).xyz;
+    // 1 less the cosine, without the loss of digits
+    float apart = 0.5 * dot(between, between);
+    if (apart >= suns.reach) {
+      continue;
+    }
+    vec3 profile = vec3(0.0);
+    for (int number = 0; number < suns.kernels; number++) {
+      vec4 kernel = texelFetch(elevations, ivec2(0, first_kernel + number), 0);
+      profile += elevation_value(elevations, first_weight + number, elevation) * kernel.y *
+                 exp(-kernel.x * apart);
+    }
+    radiance += profile * texelFetch(elevations, ivec2(0, suns.row + 2 * sun + 1), 0).rgb;
+  }
+  return radiance;
+}
+
 // The mean over what a pixel reflects, whose sides are across and up; normal: `Seen.mirror_normal`.
 vec3 stack_radiance(sampler3D maps,
                     sampler2D elevations,
@@ -79,6 +116,7 @@ vec3 stack_radiance(sampler3D maps,
                     int lobes,
                     int taps,
                     int slices,
+                    LobeSuns suns,
                     vec3 normal,
                     vec3 view_dir,
                     vec3 across,
@@ -103,8 +141,10 @@ vec3 stack_radiance(sampler3D maps,
           continue;
         }
         vec3 axis = lobe_axis(normal, direction, lookup.xy);
-        radiance += lookup.z * scale *
-                    map_radiance(maps, layout_number, slices, lobe, axis, elevation.x + elevation.y);
+        vec3 filtered =
+            map_radiance(maps, layout_number, slices, lobe, axis, elevation.x + elevation.y) +
+            lobe_sunlight(elevations, suns, lobe, axis, elevation);
+        radiance += lookup.z * scale * filtered;
       }
     }
     // Signed lobes may have a negative sum.

@@ -1,4 +1,4 @@
-// Twin of rsibr_addon/core/kinds/kernel_pyramid/suns.py. A program for light with suns defines SUNS. The last
+// Twin of rsibr_addon/core/suns.py. A program for light with suns defines SUNS. The last
 // column of `lookups` holds, after the places of maps, what device/kinds/kernel_pyramid_texels.py says.
 #include "lib/directions_lib.glsl"
 #include "lib/fresnel_powers_lib.glsl"

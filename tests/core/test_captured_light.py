@@ -22,8 +22,8 @@ def sunny() -> np.ndarray:
 def test_a_sun_is_seen_as_bright_as_it_is_in_every_direction() -> None:
     radiance, rng = sunny(), np.random.default_rng(8)
     light = filtered_light(radiance)
-    assert len(light.sun_dir) == 1
-    np.testing.assert_allclose(light.sun_dir[0], DIRECTIONS[SUN], atol=1e-12)
+    assert len(light.suns) == 1
+    np.testing.assert_allclose(light.suns.direction[0], DIRECTIONS[SUN], atol=1e-12)
     bank = light.filtered.bank
     spread = rng.normal(size=(40, 3)) * np.geomspace(1e-3, 2.0, 40)[:, None]
     axes = normalize(DIRECTIONS[SUN] + spread)

@@ -52,7 +52,7 @@ def captured(model, radiance: Array) -> Array:
 def error_of(fit: Fit, radiance: Array, views: RadianceViews) -> float:
     """Relative error of a fit in the 30 views beyond the first 12."""
     lit = filtered_light(radiance)
-    texels = captured_texels(views, 42, 10000, lit.sun_dir)
+    texels = captured_texels(views, 42, 10000, lit.suns.direction)
     new, true = texels.view >= 12, texels.diffuse + texels.glossy
     ours = fit_radiance(fit, lit, texels)
     counts = texels.stands_for[new, None]

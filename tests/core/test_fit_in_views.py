@@ -65,7 +65,7 @@ def test_the_error_is_relative_to_what_was_captured(light: CapturedLight, fit: F
     black = replace(fit, scale=np.zeros_like(fit.scale))
     assert error_in_views(black, light, views) == pytest.approx(1.0, rel=1e-12)
     dim = replace(fit, scale=1e-3 * fit.scale)
-    texels = captured_texels(views, 12, TEXELS, light.sun_dir)
+    texels = captured_texels(views, 12, TEXELS, light.suns.direction)
     rest = fit_radiance(dim, light, texels) - texels.diffuse - texels.glossy
     captured = texels.diffuse + texels.glossy
     # No sun stands out of this light, so all texels count alike

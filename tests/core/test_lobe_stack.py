@@ -1,5 +1,7 @@
 """Lobe stacks: baked and shaded they are what their fit says of the environment."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.brdf.model import BrdfFunction
@@ -9,7 +11,15 @@ from rsibr.rsibr_addon.core.geometry.directions import dot, normalize, reflect
 from rsibr.rsibr_addon.core.geometry.lit_sphere import ring_radiance
 from rsibr.rsibr_addon.core.kinds.lobe_stack.shading import StackLook, stack_radiance
 from rsibr.rsibr_addon.core.kinds.lobe_stack.stack import LAYOUTS, LobeStack, stack_representation
-from rsibr.rsibr_addon.core.lobes.bake import ALLOWED_INTERPOLATION, SIZES, BakedStack, bake_stack
+from rsibr.rsibr_addon.core.kinds.lobe_stack.sunlight import take_suns_apart
+from rsibr.rsibr_addon.core.lobes.bake import (
+    ALLOWED_INTERPOLATION,
+    SHARPER,
+    SIZES,
+    BakedStack,
+    bake_stack,
+    sharpest_resolved,
+)
 from rsibr.rsibr_addon.core.lobes.bank import KernelBank
 from rsibr.rsibr_addon.core.lobes.fit import Fit
 from rsibr.rsibr_addon.core.maps import equirect
@@ -184,6 +194,39 @@ def test_shading_is_continuous_where_the_view_is_along_the_normal(layout: str) -
     around = stack_radiance(stack, normal, normalize(normal + away), StackLook())
     # Texels differ by 1, sixteen of them over the map; three lobes of two taps turn by 1e-6 each.
     assert np.abs(around - stack_radiance(stack, normal, normal, StackLook())).max() < 6 * 3e-5
+
+
+def sunny() -> Array:
+    """Smooth light, and two suns that hold nearly all of its squared radiance."""
+    radiance = np.exp(TEXELS @ np.array([[0.5, -0.3, 0.9], [0.2, 0.8, -0.1], [-0.4, 0.3, 0.6]]))
+    radiance[9, 20], radiance[22, 51] = (900.0, 700.0, 400.0), (300.0, 500.0, 600.0)
+    return radiance
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+@pytest.mark.parametrize("shared", [False, True])
+def test_suns_are_seen_through_lobes_sharper_than_maps(layout: str, shared: bool) -> None:
+    """Kernels up to four times as sharp as the light resolves."""
+    radiance = sunny()
+    fit = random_fit(KernelBank((2.0, 256.0, SHARPER * sharpest_resolved(HEIGHT))), shared=shared)
+    found = baked(radiance, fit, layout, 64)
+    assert found.sharpest < fit.bank.concentrations[-2]
+    stack = found.stack
+    texel_dir = stack.representation.texel_directions(stack.size)
+    sunlight = take_suns_apart(stack.maps, texel_dir, fit, found.sharpest, radiance)
+    assert len(sunlight.suns) == 2
+    apart = replace(stack, sunlight=sunlight)
+    for mu in fit.mu:
+        for sun in sunlight.suns.direction:
+            # A view that mirrors the sun, within what offsets turn lobes by
+            mirror_dir = normalize(sun + 0.1 * RNG.normal(size=3))
+            across = normalize(np.cross(mirror_dir, RNG.normal(size=3)))
+            normal = mu * mirror_dir + np.sqrt(1.0 - mu**2) * across
+            view_dir = reflect(mirror_dir, normal)
+            expected = np.maximum(sum_over_texels(fit, radiance, normal, view_dir), 0.0)
+            shaded = stack_radiance(apart, normal, view_dir, StackLook())
+            # Between texels .05 apart, light of a curvature twice its own is off by .05^2 / 4; lobes cancel
+            np.testing.assert_allclose(shaded, expected, rtol=5e-3, atol=0.02)
 
 
 def test_too_narrow_lobes_are_refused_with_the_remedy() -> None:

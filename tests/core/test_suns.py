@@ -16,10 +16,10 @@ from rsibr.rsibr_addon.core.kinds.kernel_pyramid import shading
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import bake_pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import principled_radiance
-from rsibr.rsibr_addon.core.kinds.kernel_pyramid.suns import MOST_SUNS, NO_SUNS, Suns, find_suns
 from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.core.resample import lookup
+from rsibr.rsibr_addon.core.suns import MOST_SUNS, NO_SUNS, Suns, find_suns
 from rsibr.rsibr_addon.files.kinds.kernel_pyramid import shipped_families
 
 HEIGHT, WIDTH = 128, 256

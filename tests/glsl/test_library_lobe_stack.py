@@ -1,16 +1,21 @@
 """The functions that lobe stacks are shaded with against their numpy twins."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.geometry.directions import dot, normalize, reflect
 from rsibr.rsibr_addon.core.geometry.sides import seen_surface
 from rsibr.rsibr_addon.core.kinds.lobe_stack.shading import StackLook, stack_radiance
 from rsibr.rsibr_addon.core.kinds.lobe_stack.stack import LAYOUTS, LobeStack, stack_representation
+from rsibr.rsibr_addon.core.kinds.lobe_stack.sunlight import Sunlight
+from rsibr.rsibr_addon.core.lobes.bank import KernelBank
 from rsibr.rsibr_addon.core.lobes.fit import lobe_axes
 from rsibr.rsibr_addon.core.maps import octahedral
 from rsibr.rsibr_addon.core.resample import lookup
+from rsibr.rsibr_addon.core.suns import Suns
 from rsibr.rsibr_addon.device import buffers
-from rsibr.rsibr_addon.device.kinds.lobe_stack import elevation_texels, map_texels
+from rsibr.rsibr_addon.device.kinds.lobe_stack import elevation_texels, map_texels, sun_numbers
 from rsibr.rsibr_addon.device.textures import GpuTexture
 from rsibr.tests.glsl.evaluation import Samplers, evaluate
 from rsibr.tests.glsl.twins import AXES, COUNT, ULP, Twin, check, single, unit_vectors
@@ -21,6 +26,7 @@ SIZE = 16
 STACK = random_stack("octahedral", SIZE)
 DIAGONALS = normalize([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 0, 1)])
 EDGES = np.concatenate([AXES, DIAGONALS])
+NO_SUNS = "LobeSuns(0, 0, 0, 0.0)"
 
 
 def elevations(stack: LobeStack = STACK) -> Samplers:
@@ -174,13 +180,70 @@ def test_stack_radiance(layout: str, shared: bool) -> None:
     clear = np.all(np.abs(axes @ stack.representation.frame[:, 2]) > 1e-5, axis=(1, 2))
     code = (
         f"result_0.rgb = stack_radiance(maps, elevations, {LAYOUTS.index(layout)}, 3, 2, "
-        f"{1 if shared else 5}, in_0.xyz, in_1.xyz, vec3(0.0), vec3(0.0));"
+        f"{1 if shared else 5}, {NO_SUNS}, in_0.xyz, in_1.xyz, vec3(0.0), vec3(0.0));"
     )
     found = evaluate("lobe_stack_lib.glsl", code, [facing, view_dir], 1, maps(stack) | elevations(stack))
     expected = stack_radiance(stack, normal, view_dir, StackLook())
     # As above, times scales and taps, which sum to 3.
     assert np.abs(found[:, 0, :3] - expected)[clear].max() < 3 * 8e-3
     assert np.count_nonzero(clear) > 0.99 * COUNT
+
+
+def sunlit(shared: bool) -> LobeStack:
+    """Two suns and kernels about as wide as lobes' axes are far from them."""
+    weights = RNG.uniform(-0.2, 1.0, (3, 1 if shared else 5, 3, 3))
+    suns = Suns(
+        normalize([(1.0, 2.0, 3.0), (-3.0, 1.0, -1.0)]), RNG.uniform(1.0, 2.0, (2, 3)), np.ones(3), 0.1
+    )
+    sunlight = Sunlight(suns, KernelBank((200.0, 800.0, 65536.0)), weights)
+    return replace(random_stack("octahedral", SIZE, shared), sunlight=sunlight)
+
+
+def near_suns(stack: LobeStack) -> np.ndarray:
+    """Directions at all distances from suns, and some on them."""
+    suns = stack.sunlight.suns.direction[np.arange(COUNT) % 2]
+    away = 10.0 ** RNG.uniform(-4.0, -0.5, (COUNT, 1))
+    away[:10] = 0.0
+    return single(normalize(suns + away * unit_vectors(43)))
+
+
+def suns_of(stack: LobeStack) -> str:
+    return "LobeSuns({}, {}, {}, {})".format(*sun_numbers(stack))
+
+
+@pytest.mark.parametrize("shared", [False, True])
+def test_lobe_sunlight(shared: bool) -> None:
+    stack = sunlit(shared)
+    axis, mu = near_suns(stack), cosines()
+    code = (
+        f"result_0.rgb = lobe_sunlight(elevations, {suns_of(stack)}, 2, in_0.xyz, "
+        "elevation_at(elevations, in_1.x));"
+    )
+    found = evaluate("lobe_stack_lib.glsl", code, [axis, mu], 1, elevations(stack))[:, 0, :3]
+    expected = stack.sunlight.along(2, axis, *stack.elevation(mu[:, 0]))
+    # An axis is rounded by 2^-24, which a kernel of width 1 / sqrt(65536) shows 256 times as large
+    scale = np.abs(stack.sunlight.along(2, stack.sunlight.suns.direction[:1], *stack.elevation([0.5]))).max()
+    assert np.abs(found - expected).max() < 256 * 8 * ULP * scale
+    assert np.count_nonzero(np.any(expected, axis=1)) > COUNT / 4
+
+
+def test_stack_radiance_with_suns() -> None:
+    stack = sunlit(False)
+    stack.maps[:] = 0.0
+    normal = unit_vectors(38)
+    mirror_dir = near_suns(stack)
+    normal = single(normal * np.sign(dot(normal, mirror_dir))[:, None])
+    view_dir = single(reflect(mirror_dir, normal))
+    facing = seen_surface(normal, view_dir).mirror_normal
+    code = (
+        f"result_0.rgb = stack_radiance(maps, elevations, {LAYOUTS.index('octahedral')}, 3, 2, 5, "
+        f"{suns_of(stack)}, in_0.xyz, in_1.xyz, vec3(0.0), vec3(0.0));"
+    )
+    found = evaluate("lobe_stack_lib.glsl", code, [facing, view_dir], 1, maps(stack) | elevations(stack))
+    expected = stack_radiance(stack, normal, view_dir, StackLook())
+    assert np.count_nonzero(np.any(expected, axis=1)) > COUNT / 20
+    # As above, and axes are good to 1e-6
+    np.testing.assert_allclose(found[:, 0, :3], expected, rtol=1e-3, atol=256 * 4e-6 * expected.max())
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)

@@ -13,9 +13,9 @@ from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import bake_pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.look import PrincipledLook
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import Pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import principled_radiance
-from rsibr.rsibr_addon.core.kinds.kernel_pyramid.suns import NO_SUNS
 from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.core.suns import NO_SUNS
 from rsibr.rsibr_addon.device.kinds.kernel_pyramid import SUNS, GpuPyramid, principled_shader, sunlit_shader
 from rsibr.tests.glsl.evaluation import evaluate
 from rsibr.tests.glsl.principled_inputs import (

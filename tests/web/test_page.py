@@ -12,10 +12,10 @@ from rsibr.rsibr_addon.core.geometry.directions import turn_about_z
 from rsibr.rsibr_addon.core.kinds.kernel_bank.shading import BankLook
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.look import PrincipledLook
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.split_sum import split_families
-from rsibr.rsibr_addon.core.kinds.kernel_pyramid.suns import NO_SUNS
 from rsibr.rsibr_addon.core.kinds.mip_chain.shading import MipLook
 from rsibr.rsibr_addon.core.pictures.display import displayed, table_radiance
 from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.core.suns import NO_SUNS
 from rsibr.rsibr_addon.device.kinds.kernel_pyramid import GpuPyramid
 from rsibr.rsibr_addon.device.preview import STILL, PreviewRenderer
 from rsibr.rsibr_addon.files.kinds.kernel_pyramid import shipped_families

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -28,6 +29,11 @@ ALLOWED_INTERPOLATION = 0.0025
 ALLOWED_OF_A_KERNEL = 0.05
 """The same error allowed for a bank's sharpest kernel, which is only the small tip of a lobe's peak."""
 
+SHARPER = 4.0
+"""How much more concentrated than the sharpest kernel that an environment resolves kernels may be. Suns need
+no map (`core.suns`), and for other light the map of that sharpest kernel stands in.
+"""
+
 _SHARPEST_BY_TEXELS = 0.25
 
 Afford = Callable[[float, int], None]
@@ -48,23 +54,31 @@ class BakedStack:
         Maps of the kernels that the fit uses; all maps of the stack together can take many times as much
         memory.
     fit : Fit
+    sharpest : float
+        Concentration of the kernel that stands for sharper ones in the maps.
     interpolation : float
         Relative root-mean-square error that bilinear lookups between texels are expected to cost on a sphere.
     """
 
     filtered: FilteredBank
     fit: Fit
+    sharpest: float
     interpolation: float
 
     @property
+    def in_maps(self) -> Fit:
+        """The fit as the maps have it."""
+        return self.fit.blunted(self.sharpest)
+
+    @property
     def stack(self) -> LobeStack:
-        """The stack, with all its maps in memory."""
-        return stack_from_bank(self.filtered, self.fit)[0]
+        """The stack, with all its maps in memory and suns in them."""
+        return stack_from_bank(self.filtered, self.in_maps)[0]
 
     @property
     def bound(self) -> Array:
         """No texel is further from the sum over all texels, and rounding to float32; shape (3,)."""
-        return bound_from_bank(self.filtered, self.fit)
+        return bound_from_bank(self.filtered, self.in_maps)
 
 
 @dataclass(frozen=True)
@@ -82,6 +96,7 @@ class BakedBank:
     interpolation: tuple[float, ...]
 
 
+@cache
 def sharpest_resolved(height: int) -> float:
     """Concentration of the sharpest kernel that an environment resolves.
 
@@ -163,20 +178,22 @@ def bake_stack(
     Raises
     ------
     RangeError
-        There is no such layout, the size is out of range, or a lobe is narrower than the environment
-        resolves.
+        There is no such layout, the size is out of range, or a kernel is more than `SHARPER` times as
+        concentrated as the environment resolves.
     """
     if size is not None:
         stack_representation(layout, size)
+    sharpest = _standing_in(fit.bank.kappa[fit.used], len(radiance))
+    in_maps = fit.blunted(sharpest)
 
     def cost(width: int) -> float:
         return BilinearLookups(stack_representation(layout, width), width).error(*power)
 
     yield Progress(0, 2, "analysing the environment")
-    bank = KernelBank(tuple(fit.bank.concentrations[kernel] for kernel in fit.used))
+    bank = KernelBank(tuple(in_maps.bank.concentrations[kernel] for kernel in in_maps.used))
     series = _expanded(bank)
     harmonics = analyse_environment(radiance, analysis_degree(series))
-    power = _power(fit, fit.weights[:, :, fit.used], series, harmonics)
+    power = _power(in_maps, in_maps.weights[:, :, in_maps.used], series, harmonics)
     if size is None:
         size = next((n for n in SIZES if cost(n) <= ALLOWED_INTERPOLATION), SIZES[-1])
     afford(_bytes(len(bank), layout, size), size)
@@ -185,7 +202,7 @@ def bake_stack(
         filtered = _filtered(harmonics, bank, series, layout, size)
     except RangeError as error:
         raise RangeError(f"This environment is too coarse for some lobes of the fit. {error}") from error
-    return BakedStack(filtered, fit, cost(size))
+    return BakedStack(filtered, fit, sharpest, cost(size))
 
 
 def filter_environment(radiance: Array, bank: KernelBank, layout: str, size: int) -> FilteredBank:
@@ -197,14 +214,29 @@ def filter_environment(radiance: Array, bank: KernelBank, layout: str, size: int
     radiance, layout, size
         See `bake_bank`.
 
+    Returns
+    -------
+    FilteredBank
+        Of all kernels; those that the environment does not resolve have the map of the sharpest that it does.
+
     Raises
     ------
     RangeError
-        There is no such layout, the size is out of range, or a kernel is narrower than the environment
-        resolves.
+        There is no such layout, the size is out of range, or a kernel is more than `SHARPER` times as
+        concentrated as the environment resolves.
     """
-    series = _expanded(bank)
-    return _filtered(analyse_environment(radiance, analysis_degree(series)), bank, series, layout, size)
+    in_maps = np.minimum(bank.kappa, _standing_in(bank.kappa, len(radiance)))
+    distinct, number = np.unique(in_maps, return_inverse=True)
+    series = _expanded(KernelBank(tuple(distinct.tolist())))
+    harmonics = analyse_environment(radiance, analysis_degree(series))
+    filtered = prefilter(harmonics, series, stack_representation(layout, size).texel_directions(size))
+    return FilteredBank(layout, bank, filtered.radiance[number], filtered.bound[number])
+
+
+def _standing_in(kappa: Array, height: int) -> float:
+    """Concentration of the kernel that stands for sharper ones in maps of an environment."""
+    resolved = sharpest_resolved(height)
+    return resolved if kappa.max(initial=0.0) <= SHARPER * resolved else float(kappa.max())
 
 
 def _bytes(kernels: int, layout: str, size: int) -> float:

@@ -1,8 +1,7 @@
 """The light of captures, its suns apart.
 
-Maps are looked up between texels, which blurs what a sharp kernel makes of a sun: one of the few texels that
-hold most of the squared radiance. So these are cut from the environment that sharp kernels filter. What a
-kernel makes of a single direction is known in closed form, and is added to what is looked up.
+Suns are cut from the environment that sharp kernels filter, and what these make of them in closed form is
+added to what is looked up: see `core.suns`.
 """
 
 from collections.abc import Callable, Iterator
@@ -11,25 +10,13 @@ from functools import cached_property
 
 import numpy as np
 
-from ..conventions import Array, texel_centres
-from ..geometry.directions import dot
+from ..conventions import Array
 from ..kinds.kernel_bank.filtered_bank import FilteredBank
-from ..maps import equirect
 from ..resample import texels_around
+from ..suns import LOBES_LEAST_SHARE, Suns, find_suns, sharp_of
 from .bank import KernelBank
 
-MOST_SUNS = 8
-"""Most texels that are cut."""
-
-FAINTEST_SUN = 1e-3
-"""Least share of the environment's squared radiance that makes a texel a sun."""
-
-SHARP = 200.0
-"""Concentration above which kernels take suns apart: below, they are many texels wide in any map."""
-
 _IN_CACHES = 2048
-_LEAST = 1e-7
-"""Value of a kernel, over its peak, below which a sun is too far away to be added."""
 
 
 def in_caches(count: int) -> Iterator[slice]:
@@ -45,16 +32,12 @@ class CapturedLight:
     Attributes
     ----------
     filtered : FilteredBank
-        Sharp kernels' maps are those of the environment without its N suns.
-    sun_dir : ndarray, shape (N, 3)
-        Unit vectors towards the suns.
-    irradiance : ndarray, shape (N, 3)
-        Radiance times solid angle of each.
+        Maps of `sharp_of` its kernels are those of the environment without its suns.
+    suns : Suns
     """
 
     filtered: FilteredBank
-    sun_dir: Array
-    irradiance: Array
+    suns: Suns
 
     @cached_property
     def _texels(self) -> Array:
@@ -86,16 +69,11 @@ class CapturedLight:
         return found
 
     def _add_suns(self, axes: Array, found: Array) -> None:
-        bank, first = self.filtered.bank, _first_sharp(self.filtered.bank)
-        if first == len(bank):
-            return
-        sharp = KernelBank(bank.concentrations[first:])
-        within = np.cos(np.sqrt(-2.0 * np.log(_LEAST) / sharp.kappa[0]))
-        near_each = (axes @ self.sun_dir.T > within).T
-        for near, sun_dir, irradiance in zip(near_each, self.sun_dir, self.irradiance, strict=True):
-            chosen = np.flatnonzero(near)
-            between = axes[chosen] - sun_dir
-            found[chosen, first:] += sharp.values(0.25 * dot(between, between))[..., None] * irradiance
+        sharp = sharp_of(self.filtered.bank)
+        if sharp is not None:
+            of_sharp = found[:, -len(sharp) :]
+            for near, light in self.suns.near(sharp, axes):
+                of_sharp[near] += light
 
 
 def captured_light(
@@ -111,32 +89,10 @@ def captured_light(
     filter_light : callable
         An environment and kernels to its filtered maps.
     """
-    sun_dir, irradiance, rest = _cut_suns(radiance)
-    first = _first_sharp(bank)
-    parts = [
-        filter_light(light, KernelBank(kernels))
-        for light, kernels in ((radiance, bank.concentrations[:first]), (rest, bank.concentrations[first:]))
-        if kernels
-    ]
+    suns, sharp = find_suns(radiance, LOBES_LEAST_SHARE), sharp_of(bank)
+    broad = bank.concentrations[: len(bank) - (len(sharp) if sharp else 0)]
+    parts = [filter_light(radiance, KernelBank(broad))] if broad else []
+    if sharp is not None:
+        parts.append(filter_light(np.minimum(radiance, suns.ceiling), sharp))
     maps, bound = (np.concatenate([getattr(part, name) for part in parts]) for name in ("maps", "bound"))
-    return CapturedLight(FilteredBank(parts[0].layout, bank, maps, bound), sun_dir, irradiance)
-
-
-def _first_sharp(bank: KernelBank) -> int:
-    return int(np.searchsorted(bank.kappa, SHARP))
-
-
-def _cut_suns(radiance: Array) -> tuple[Array, Array, Array]:
-    """Directions of suns, radiance times solid angle of each, and the environment without them."""
-    height, width = radiance.shape[:2]
-    solid_angle = np.broadcast_to(equirect.texel_solid_angle(width, height), (height, width)).reshape(-1, 1)
-    rest = radiance.astype(np.float64).reshape(-1, 3)
-    power = np.sum(rest**2, axis=1) * solid_angle[:, 0]
-    order = np.argsort(-power, kind="stable")[: MOST_SUNS + 1]
-    suns = order[:-1][power[order[:-1]] > FAINTEST_SUN * power.sum()]
-    # A sun is cut down to the brightest texel that is none
-    remaining = np.minimum(rest[suns], rest[order[len(suns)]])
-    irradiance = (rest[suns] - remaining) * solid_angle[suns]
-    rest[suns] = remaining
-    sun_dir = equirect.direction_from_uv(texel_centres(width, height).reshape(-1, 2)[suns])
-    return sun_dir, irradiance, rest.reshape(radiance.shape).astype(radiance.dtype)
+    return CapturedLight(FilteredBank(parts[0].layout, bank, maps, bound), suns)

@@ -116,11 +116,11 @@ def fit_captures(
         raise RangeError(
             f"There are only {len(views.diffuse)} views, not {count}: use fewer or capture more."
         )
-    texels = captured_texels(views, count, TEXELS, light.sun_dir)
+    texels = captured_texels(views, count, TEXELS, light.suns.direction)
     power = _power(texels, texels.diffuse + texels.glossy)
     if not 0.0 < power < np.inf:
         raise RangeError("The captured views are black or not finite: capture the material in light.")
-    few = captured_texels(views, count, SEARCHED, light.sun_dir)
+    few = captured_texels(views, count, SEARCHED, light.suns.direction)
     thinnest, folds = _THINNEST * texel_angle(views.size), _folds(texels, count)
     fits: list[Fit] = []
     weighed: list[Weighed] = []
@@ -164,12 +164,10 @@ def fit_captures(
 def _closer(
     members: Sequence[Member], families: Mapping[Family, Callable[[float], Steps[Family]]]
 ) -> Steps[list[Member]]:
-    """The same widths, with lobes that are closer."""
-    closer = []
-    for each in members:
-        family = yield from families[each.family](each.alpha)
-        closer.append(Member(family, each.alpha))
-    return closer
+    """The same widths, the narrowest with lobes that are closer."""
+    *others, narrowest = members
+    family = yield from families[narrowest.family](narrowest.alpha)
+    return [*others, Member(family, narrowest.alpha)]
 
 
 def _power(texels: CapturedTexels, values: Array) -> float:

@@ -32,7 +32,7 @@ from .thinning import Equations, solution, thinned
 WIDTHS = 2.0 ** np.linspace(-8.0, 0.0, 33)
 """alpha of the rows of the GGX family, four an octave."""
 
-ELEVATIONS, LOBES, LEANING_LOBES, CLOSER_LOBES = 16, 4, 2, 6
+ELEVATIONS, LOBES, LEANING_LOBES, CLOSER_LOBES = 16, 4, 2, 8
 
 FINER = 2
 """Elevations of the GGX family from one at which axes are fitted to the next: weights change faster."""

@@ -5,7 +5,7 @@ The fit approximates the whole brdf * n.l over the sphere, 0 below the horizon: 
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -98,6 +98,20 @@ class Fit:
     def used(self) -> Indices:
         """Indices of the bank's kernels that have a weight, ascending, shape (k,)."""
         return np.flatnonzero(np.any(self.weights, axis=(0, 1, 3)))
+
+    def blunted(self, sharpest: float) -> "Fit":
+        """The fit with one kernel in place of all that are sharper.
+
+        Parameters
+        ----------
+        sharpest : float
+            Concentration of that kernel.
+        """
+        kappas = tuple(sorted({min(kappa, sharpest) for kappa in self.bank.concentrations}))
+        weights = np.zeros((*self.weights.shape[:2], len(kappas), 3))
+        for kernel, kappa in enumerate(self.bank.concentrations):
+            weights[:, :, kappas.index(min(kappa, sharpest))] += self.weights[:, :, kernel]
+        return replace(self, bank=KernelBank(kappas), weights=weights)
 
     def lobe(self, lobe: int, elevation_slice: int, channel: int) -> ZonalLobe:
         """One profile as a lobe to filter environments with, without `scale` and `taps`.

@@ -23,7 +23,7 @@ def error_in_views(fit: Fit, light: CapturedLight, views: RadianceViews) -> floa
         The environment of the captures, filtered with the fit's kernels.
     views : RadianceViews
     """
-    texels = captured_texels(views, len(views.diffuse), TEXELS, light.sun_dir)
+    texels = captured_texels(views, len(views.diffuse), TEXELS, light.suns.direction)
     captured, root = texels.diffuse + texels.glossy, np.sqrt(texels.stands_for)[:, None]
     rest = root * (fit_radiance(fit, light, texels) - captured)
     return float(np.linalg.norm(rest) / np.linalg.norm(root * captured))

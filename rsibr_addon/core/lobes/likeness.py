@@ -24,6 +24,9 @@ FUNCTIONS = 3
 Further powers differ too little to be told from captures.
 """
 
+SUNS_TELL = 2.0**0.5
+"""Factor by which images of suns may change the least width: errors then count as they are."""
+
 _COARSE = 3
 _GOLDEN, _STEPS = 0.5 * (5.0**0.5 - 1.0), 7
 _RANK = 1e-9
@@ -70,7 +73,8 @@ def likeness(
     -------
     list of Member
         At least one, at most `WIDTHS`: one after another, while each `PAYS`. The best is sought among some
-        widths of every family, then between their neighbours by golden section.
+        widths of every family, then between their neighbours by golden section. The narrowest is the last;
+        its width is sought once more, as `SUNS_TELL` says.
     """
     kept: dict[tuple[int, float], Array] = {}
 
@@ -82,23 +86,27 @@ def likeness(
             )
         return kept[key]
 
-    weight = relative_weight(radiance)
-
-    def error(members: Sequence[Member]) -> float:
+    def error(weight: Array, members: Sequence[Member]) -> float:
         every = np.concatenate([seen(member) for member in members], axis=1)
         rest = radiance - np.einsum("npc,pc->nc", every, factors(every, radiance))
         return float(np.sum((weight * rest) ** 2))
 
+    relative = partial(error, relative_weight(radiance))
     found: list[Member] = []
     least = np.inf
     while len(found) < WIDTHS:
-        with_one = partial(_with_one, error, tuple(found))
+        with_one = partial(_with_one, relative, tuple(found))
         best = min((_best_width(family, thinnest, with_one) for family in families), key=with_one)
         left = with_one(best)
         if found and left > PAYS * least:
             break
         found, least = [*found, best], left
-    return found
+    *others, narrowest = sorted(found, key=lambda member: -member.alpha)
+    with_one = partial(_with_one, partial(error, np.sqrt(texels.stands_for)[:, None]), others)
+    family, alpha = narrowest.family, narrowest.alpha
+    low = max(alpha / SUNS_TELL, min(thinnest, alpha))
+    _, width = _by_golden_section(family, low, alpha * SUNS_TELL, with_one)
+    return [*others, Member(family, width)]
 
 
 def _with_one(error: Callable[[Sequence[Member]], float], found: Sequence[Member], one: Member) -> float:
@@ -145,19 +153,25 @@ def _best_width(family: Family, thinnest: float, error: Callable[[Member], float
     coarse = np.unique(np.append(widths[::-_COARSE], widths[0]))
     errors = [error(Member(family, float(alpha))) for alpha in coarse]
     best = int(np.argmin(errors))
-    low, high = np.log(coarse[[max(best - 1, 0), min(best + 1, len(coarse) - 1)]])
-    tried = [(errors[best], float(coarse[best]))]
-    if low < high:
-        places = [high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)]
-        costs = [error(Member(family, float(np.exp(place)))) for place in places]
-        for _ in range(_STEPS):
-            if costs[0] < costs[1]:
-                high, places[1], costs[1] = places[1], places[0], costs[0]
-                places[0] = high - _GOLDEN * (high - low)
-                costs[0] = error(Member(family, float(np.exp(places[0]))))
-            else:
-                low, places[0], costs[0] = places[0], places[1], costs[1]
-                places[1] = low + _GOLDEN * (high - low)
-                costs[1] = error(Member(family, float(np.exp(places[1]))))
-        tried += [(cost, float(np.exp(place))) for cost, place in zip(costs, places, strict=True)]
+    low, high = coarse[[max(best - 1, 0), min(best + 1, len(coarse) - 1)]]
+    tried = [(errors[best], float(coarse[best])), _by_golden_section(family, low, high, error)]
     return Member(family, min(tried)[1])
+
+
+def _by_golden_section(
+    family: Family, low: float, high: float, error: Callable[[Member], float]
+) -> tuple[float, float]:
+    """The least error of a width between two others, and the width."""
+    low, high = np.log([low, high])
+    places = [high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)]
+    costs = [error(Member(family, float(np.exp(place)))) for place in places]
+    for _ in range(_STEPS if low < high else 0):
+        if costs[0] < costs[1]:
+            high, places[1], costs[1] = places[1], places[0], costs[0]
+            places[0] = high - _GOLDEN * (high - low)
+            costs[0] = error(Member(family, float(np.exp(places[0]))))
+        else:
+            low, places[0], costs[0] = places[0], places[1], costs[1]
+            places[1] = low + _GOLDEN * (high - low)
+            costs[1] = error(Member(family, float(np.exp(places[1]))))
+    return min((cost, float(np.exp(place))) for cost, place in zip(costs, places, strict=True))

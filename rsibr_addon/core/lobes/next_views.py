@@ -169,7 +169,7 @@ def equations_of_views(view_dirs: Array, size: int, light: CapturedLight, part: 
     """
     black = np.broadcast_to(np.float32(0.0), (len(view_dirs), size, size, 3))
     views = RadianceViews(black, black, view_dirs=view_dirs)
-    texels = captured_texels(views, len(view_dirs), TEXELS * len(view_dirs), light.sun_dir)
+    texels = captured_texels(views, len(view_dirs), TEXELS * len(view_dirs), light.suns.direction)
     equations = equations_of(texels, light, part.mu, part.tilts)
     both = np.sqrt(texels.stands_for)[:, None, None] * equations.rows.mean(axis=-1)
     columns: list[Array] = []

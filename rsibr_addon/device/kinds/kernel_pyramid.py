@@ -16,7 +16,7 @@ from ...core.kinds.kernel_pyramid.look import PrincipledLook
 from ...core.kinds.kernel_pyramid.pyramid import Pyramid
 from ...core.kinds.kernel_pyramid.shading import Families
 from ...core.kinds.kernel_pyramid.split_sum import split_families
-from ...core.kinds.kernel_pyramid.suns import NO_SUNS
+from ...core.suns import NO_SUNS
 from ..drawing import Draw, GpuMesh, Inputs, ProgramMapSet
 from ..own_materials import OwnMaterials
 from ..shaders import MeshProgram, build, kept_until_exit, mesh_interface

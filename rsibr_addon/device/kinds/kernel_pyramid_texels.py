@@ -6,8 +6,8 @@ from ...core.brdf.fresnel_powers import dielectric
 from ...core.conventions import Array
 from ...core.errors import ShapeError
 from ...core.kinds.kernel_pyramid.shading import Families
-from ...core.kinds.kernel_pyramid.suns import Suns
 from ...core.lobes.family import KERNELS, Family
+from ...core.suns import Suns
 
 MOST_LOBES = 4
 """Lobes of a family at most, as many as a texel has numbers."""

@@ -7,6 +7,7 @@ from ...core.errors import DeviceError
 from ...core.half_floats import half_holds
 from ...core.kinds.lobe_stack.shading import StackLook
 from ...core.kinds.lobe_stack.stack import LAYOUTS, LobeStack
+from ...core.suns import far_from
 from ..drawing import Inputs, ProgramMapSet
 from ..shaders import MeshProgram
 from ..textures import GpuTexture
@@ -18,6 +19,7 @@ lobe_stack_shader = MeshProgram(
     "lobe_stack",
     "Stack stack",
     "float layout_number; float lobes; float taps; float slices; "
+    "float suns; float kernels; float sun_row; float reach; "
     "float antialiased; float unused_0; float unused_1; float unused_2;",
     {"elevations": "FLOAT_2D", "maps": "FLOAT_3D"},
 )
@@ -50,7 +52,7 @@ class GpuLobeStack(ProgramMapSet):
 
     def inputs(self, look: StackLook) -> Inputs:
         """See `ProgramMapSet.inputs`. Reference: core/kinds/lobe_stack/shading.py."""
-        fields = self._numbers, np.array([float(look.antialiased)])
+        fields = self._numbers, np.array(sun_numbers(self._stack)), np.array([float(look.antialiased)])
         return Inputs(
             lobe_stack_shader, fields, {"elevations": self._elevations_of(look), "maps": self._maps}
         )
@@ -92,15 +94,42 @@ def elevation_texels(stack: LobeStack, shown: tuple[int, ...]) -> Array:
 
     Returns
     -------
-    ndarray, shape (1 + L * (1 + T), S, 4), float32
-        Lobes that are not shown have a scale of 0.
+    ndarray, shape (1 + L * (1 + T) + R, S, 4), float32
+        Lobes that are not shown have a scale of 0. R rows are those of suns.
     """
     lobes, slices, taps = stack.taps.shape
-    texels = np.zeros((1 + lobes * (1 + taps), slices, 4), dtype=np.float32)
+    of_suns = _sun_texels(stack)
+    texels = np.zeros((1 + lobes * (1 + taps) + len(of_suns), slices, 4), dtype=np.float32)
+    texels[len(texels) - len(of_suns) :] = of_suns
     texels[0, :, 0] = stack.mu
-    of_lobes = texels[1:].reshape(lobes, 1 + taps, slices, 4)
+    of_lobes = texels[1 : 1 + lobes * (1 + taps)].reshape(lobes, 1 + taps, slices, 4)
     for lobe in shown:
         of_lobes[lobe, 0, :, :3] = stack.scale[lobe]
     of_lobes[:, 1:, :, :2] = stack.offsets.swapaxes(1, 2)
     of_lobes[:, 1:, :, 2] = stack.taps.swapaxes(1, 2)
+    return texels
+
+
+def sun_numbers(stack: LobeStack) -> tuple[float, ...]:
+    """A stack's `LobeSuns`: see gpu_shaders/lib/lobe_stack_lib.glsl."""
+    lobes, _, taps = stack.taps.shape
+    if stack.sunlight is None:
+        return 0.0, 0.0, 0.0, 0.0
+    suns, bank = stack.sunlight.suns, stack.sunlight.bank
+    return len(suns), len(bank), 1 + lobes * (1 + taps), far_from(suns.widened(bank))
+
+
+def _sun_texels(stack: LobeStack) -> Array:
+    """Their rows, shape (R, S, 4); none without suns."""
+    slices = len(stack.mu)
+    if stack.sunlight is None:
+        return np.zeros((0, slices, 4))
+    suns, weights = stack.sunlight.suns, stack.sunlight.weights
+    widened = suns.widened(stack.sunlight.bank)
+    texels = np.zeros((2 * len(suns) + (1 + len(weights)) * len(widened), slices, 4))
+    of_suns, of_kernels, of_lobes = np.split(texels, [2 * len(suns), 2 * len(suns) + len(widened)])
+    of_suns[0::2, 0, :3], of_suns[1::2, 0, :3] = suns.direction, suns.irradiance
+    of_kernels[:, 0, :2] = np.stack([widened.kappa, widened.peaks], axis=-1)
+    by_kernel = weights.swapaxes(1, 2).reshape(len(of_lobes), -1, 3)
+    of_lobes[..., :3] = by_kernel  # one for all elevations, or one for each
     return texels

@@ -12,10 +12,10 @@ from ...core.kinds.kernel_pyramid.bake import BakedPyramid, FilterErrors
 from ...core.kinds.kernel_pyramid.look import PrincipledLook
 from ...core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid
 from ...core.kinds.kernel_pyramid.shading import Families, principled_radiance
-from ...core.kinds.kernel_pyramid.suns import NO_SUNS, Suns, find_suns
 from ...core.lobes.bank import KernelBank
 from ...core.lobes.rings import WIDTHS
 from ...core.maps import equirect
+from ...core.suns import NO_SUNS, Suns, find_suns
 from ...settings.kernel_pyramid import KernelPyramidSettings, PyramidComparison
 from ..families import shipped_family, shipped_sheen
 from ..map_set_data import ENVIRONMENT, MapSet

@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import partial
 from itertools import chain
 from pathlib import Path
-from typing import Annotated, Any, TypedDict
+from typing import Annotated, Any, NotRequired, TypedDict
 
 import numpy as np
 
@@ -17,8 +17,9 @@ from ...core.errors import MapSetError, RangeError, SchemaError, ShapeError
 from ...core.kinds.kernel_bank.filtered_bank import maps_from_bank
 from ...core.kinds.lobe_stack.shading import StackLook, stack_radiance
 from ...core.kinds.lobe_stack.stack import LobeStack, stack_representation
+from ...core.kinds.lobe_stack.sunlight import Sunlight, take_suns_apart
 from ...core.lobes.bake import BakedStack
-from ...core.lobes.bank import KernelBank
+from ...core.lobes.bank import BROADEST, SHARPEST, KernelBank
 from ...core.lobes.fit import Fit
 from ...core.schema import array, between, decode, length
 from ...settings.lobe_stack import LobeStackSettings, StackComparison
@@ -72,6 +73,7 @@ class _Lobe(TypedDict):
 
 class _Profiles(TypedDict):
     concentrations: Annotated[list[float], length(1, MOST_KERNELS)]
+    sharpest_in_maps: NotRequired[Annotated[float, between(BROADEST, SHARPEST)]]
     weights: list[list[list[Colour]]]
 
 
@@ -93,13 +95,15 @@ def in_turn(baked: BakedStack, origin: Origin) -> MapsInTurn:
     left_out = {} if fit.left_out is None else {"left_out": fit.left_out}
     made = replace(
         origin,
-        material={"brdf": fit.brdf, "method": fit.method, PROFILES: profiles(fit)},
+        material={"brdf": fit.brdf, "method": fit.method, PROFILES: profiles(fit, baked.sharpest)},
         error_bound={"filter": baked.bound.tolist(), "interpolation": baked.interpolation} | left_out,
     )
     header = make_header(filtered.layout, size, _parts(fit, fit.weights.shape[1]), made)
     shapes = {part["name"]: size[::-1] for part in header["parts"]}
     shapes[ENVIRONMENT] = origin.environment.radiance.shape[:2]
-    return MapsInTurn(KIND, shapes, _maps(origin.environment, maps_from_bank(filtered, fit)), header)
+    return MapsInTurn(
+        KIND, shapes, _maps(origin.environment, maps_from_bank(filtered, baked.in_maps)), header
+    )
 
 
 def _parts(lobes: Fit | LobeStack, map_count: int) -> list[dict[str, Any]]:
@@ -118,13 +122,22 @@ def _maps(environment: Environment, sheets: Iterable[Array]) -> Iterable[Array]:
     return chain([environment.radiance], map(strip_from_sheets, sheets))
 
 
-def profiles(fit: Fit) -> dict[str, Any]:
-    """The shapes of a fit's lobes, for a map set's material under `PROFILES`."""
-    used = np.flatnonzero(np.any(fit.weights, axis=(0, 1, 3)))
+def profiles(fit: Fit, sharpest: float = np.inf) -> dict[str, Any]:
+    """The shapes of a fit's lobes, for a map set's material under `PROFILES`.
+
+    Parameters
+    ----------
+    fit : Fit
+    sharpest : float
+        Concentration of the kernel that stands for sharper ones in the maps.
+    """
     rounded = np.vectorize(lambda value: float(f"{value:.{_DIGITS}g}"))
+    concentrations = fit.bank.kappa[fit.used]
+    stands_in = {"sharpest_in_maps": sharpest} if np.any(concentrations > sharpest) else {}
     return {
-        "concentrations": fit.bank.kappa[used].tolist(),
-        "weights": rounded(fit.weights[:, :, used]).tolist(),
+        "concentrations": concentrations.tolist(),
+        **stands_in,
+        "weights": rounded(fit.weights[:, :, fit.used]).tolist(),
     }
 
 
@@ -170,13 +183,14 @@ def fit_of(path: Path, header: dict[str, Any]) -> Fit | None:
 
 
 def from_map_set(path: Path, map_set: MapSet) -> LobeStack:
-    """A lobe stack as a map set holds it.
+    """A lobe stack as a map set holds it, its suns apart; without profiles or environment they stay in maps.
 
     Raises
     ------
     MapSetError
         Its layout is not a lobe stack's, its lobes are not numbered from 0 or do not have the same elevations
-        and numbers of maps and taps, or a map does not have the header's size.
+        and numbers of maps and taps, its profiles are not those of its lobes, or a map does not have the
+        header's size.
     """
     lobes = _parts_by_lobe(path, map_set)
     tables = _tables(lobes)
@@ -188,18 +202,34 @@ def from_map_set(path: Path, map_set: MapSet) -> LobeStack:
     taps = _taps(tables)
     try:
         sheets = stack_representation(layout, size).shape(size)
-        maps = [[sheets_from_strip(map_set.maps[part["name"]], sheets) for part in lobe] for lobe in lobes]
+        maps = np.array(
+            [[sheets_from_strip(map_set.maps[part["name"]], sheets) for part in lobe] for lobe in lobes]
+        )
         return LobeStack(
             layout=layout,
             mu=np.array([mu for mu, _ in used_at[0]]),
-            maps=np.array(maps),
+            maps=maps,
             scale=_array(tables, lambda elevation: elevation["scale"]),
             offsets=taps[..., :2],
             taps=taps[..., 2],
             albedo=_array(tables, lambda elevation: elevation["albedo"]),
+            sunlight=_sunlight(path, map_set, maps),
         )
     except (RangeError, ShapeError) as error:
         raise MapSetError(f"{path} holds no lobe stack. {error}") from error
+
+
+def _sunlight(path: Path, map_set: MapSet, maps: Array) -> Sunlight | None:
+    """What is taken out of maps, shape (L, P, sheets, size, size, 3), in place."""
+    fit, embedded = fit_of(path, map_set.header), map_set.header["environment"]["part"]
+    if fit is None or embedded is None:
+        return None
+    if fit.weights.shape[:2] != maps.shape[:2]:
+        raise ShapeError("Its profiles are not those of its maps.")
+    sheets = stack_representation(map_set.header["layout"], maps.shape[-2])
+    sharpest = map_set.header["material"][PROFILES].get("sharpest_in_maps", np.inf)
+    texel_dir = sheets.texel_directions(maps.shape[-2])
+    return take_suns_apart(maps, texel_dir, fit, sharpest, map_set.maps[embedded])
 
 
 def _parts_by_lobe(path: Path, map_set: MapSet) -> list[list[dict[str, Any]]]:

@@ -10,7 +10,7 @@ from typing import Any
 from ...core.brdf.spec import MATERIAL, is_model
 from ...core.conventions import Array
 from ...core.kinds.radiance_views.views import RadianceViews
-from ...core.lobes.bake import filter_environment, sharpest_resolved
+from ...core.lobes.bake import SHARPER, filter_environment, sharpest_resolved
 from ...core.lobes.bank import KernelBank
 from ...core.lobes.captured_light import CapturedLight, captured_light
 from ...core.lobes.captures import CapturedFit, fit_captures
@@ -73,16 +73,16 @@ def shipped_families() -> dict[Family, Callable[[float], Steps[Family]]]:
 
 
 def filtered_light(radiance: Array) -> CapturedLight:
-    """An environment as fits to captures take it: filtered with the families' kernels that it resolves.
+    """An environment as fits to captures take it: filtered with the families' kernels that it may have.
 
     Raises
     ------
     RangeError
         It resolves none.
     """
-    resolved = sharpest_resolved(len(radiance))
+    sharpest = SHARPER * sharpest_resolved(len(radiance))
     kernels = shipped_family("ggx").bank.concentrations
-    return light_by(radiance, KernelBank(tuple(each for each in kernels if each <= resolved)))
+    return light_by(radiance, KernelBank(tuple(each for each in kernels if each <= sharpest)))
 
 
 def light_by(radiance: Array, bank: KernelBank) -> CapturedLight:
@@ -92,7 +92,7 @@ def light_by(radiance: Array, bank: KernelBank) -> CapturedLight:
     ----------
     radiance : ndarray, shape (height, 2 * height, 3)
     bank : KernelBank
-        None sharper than `sharpest_resolved` of the environment's height.
+        None sharper than `filter_environment` takes.
     """
     return captured_light(radiance, bank, partial(filter_environment, layout=LAYOUT, size=SIZE))
 

@@ -20,9 +20,9 @@ from ...lobes.rings import WIDTHS, ring
 from ...maps.representation import representation
 from ...progress import Progress, Steps
 from ...resample import resample
+from ...suns import find_suns
 from ...ties import TIE
 from .pyramid import OCTAHEDRAL, Pyramid
-from .suns import find_suns
 
 EQUIRECT = representation("equirect")
 

@@ -12,7 +12,7 @@ from ...lobes.family import KERNELS
 from ...lobes.rings import WIDTHS
 from ...maps.representation import representation
 from ...resample import lookup
-from .suns import NO_SUNS, Suns
+from ...suns import NO_SUNS, Suns
 
 OCTAHEDRAL = representation("octahedral")
 

@@ -102,6 +102,8 @@ def _mirrored(
         axes = lobe_axes(normal[..., None, :], mirror_dir[..., None, :], offsets)
         for tap in range(taps.shape[-1]):
             filtered = _map_lookup(stack, lobe, axes[..., tap, :], below, share)
+            if stack.sunlight is not None:
+                filtered += stack.sunlight.along(lobe, axes[..., tap, :], below, share)
             radiance += taps[..., tap, None] * scale * filtered
     return np.maximum(radiance, 0.0)
 

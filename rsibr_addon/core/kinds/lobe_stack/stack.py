@@ -7,6 +7,7 @@ import numpy as np
 from ...conventions import Array, ArrayLike, Indices
 from ...errors import RangeError, ShapeError
 from ...maps.representation import Representation, representation
+from .sunlight import Sunlight
 
 LAYOUTS = ("dual_paraboloid", "octahedral")
 """Map representations of a stack: continuous over the sphere, with square sheets."""
@@ -36,9 +37,9 @@ class StackMaps:
 class LobeStack(StackMaps):
     """Maps from which glossy reflection is looked up, by a lobe's axis and by the view's elevation.
 
-    Radiance is the sum over lobes and taps of taps * scale * map, the map looked up along the axis that
-    `fit.lobe_axes` makes of the offsets. Between two elevations all of them are linear in mu = n.v; beyond
-    the first and the last, the values of these hold.
+    Radiance is the sum over lobes and taps of taps * scale * (map + suns), the map looked up along the axis
+    that `fit.lobe_axes` makes of the offsets, and suns as seen along it. Between two elevations all of them
+    are linear in mu = n.v; beyond the first and the last, the values of these hold.
 
     Attributes
     ----------
@@ -57,6 +58,8 @@ class LobeStack(StackMaps):
         Weights of the taps.
     albedo : ndarray, shape (L, S, 3)
         Directional albedo of each lobe with all its taps.
+    sunlight : Sunlight or None
+        Light that the maps lack; None where they have all light.
 
     Raises
     ------
@@ -74,6 +77,7 @@ class LobeStack(StackMaps):
     offsets: Array
     taps: Array
     albedo: Array
+    sunlight: Sunlight | None = None
 
     def __post_init__(self) -> None:
         slices, lobes, tap_count = len(self.mu), len(self.maps), self.taps.shape[-1]

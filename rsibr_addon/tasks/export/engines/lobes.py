@@ -16,8 +16,8 @@ from ....core.conventions import Array
 from ....core.kinds.kernel_pyramid.atlas import atlas_texels
 from ....core.kinds.kernel_pyramid.pyramid import Pyramid
 from ....core.kinds.kernel_pyramid.shading import Families
-from ....core.kinds.kernel_pyramid.suns import Suns
 from ....core.lobes.family import KERNELS
+from ....core.suns import Suns
 from ....files.atomic import written_aside
 from ....files.ktx2 import Texels, write_ktx2
 from ....files.textures import Texture

@@ -1,20 +1,22 @@
-"""The suns of an environment: the few bright places that hold most of its squared radiance.
+"""The suns of an environment: the few bright places that hold much of its squared radiance.
 
-A sun shows the lobes that a material is made of, not the material. So what a sun sends is left out of the
-lobes' light, and reflected by GGX itself, which is known in closed form.
+Maps are looked up between texels, which blurs what a sharp kernel makes of a sun. So what a sun sends is left
+out of maps, and added as it is reflected in closed form: by a lobe's kernels, or, where the material's model
+is known, by the model itself.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from ...brdf.fresnel_powers import powers_of
-from ...brdf.ggx import ggx_ndf, smith_visibility
-from ...brdf.oren_nayar import tilt
-from ...conventions import Array
-from ...geometry.directions import dot, normalize
-from ...lobes.bank import KernelBank
-from ...maps import equirect
+from .brdf.fresnel_powers import powers_of
+from .brdf.ggx import ggx_ndf, smith_visibility
+from .brdf.oren_nayar import tilt
+from .conventions import Array
+from .geometry.directions import dot, normalize
+from .lobes.bank import KernelBank
+from .maps import equirect
 
 MOST_SUNS = 8
 """A fragment's costs grow with their number."""
@@ -22,8 +24,9 @@ MOST_SUNS = 8
 CELLS = 1024
 """Cells around the horizon, of which a sun is one, or a texel where those are larger: .35 degrees wide."""
 
-LEAST_SHARE = 0.75
-"""Share of the squared radiance that suns take away; where they cannot, there are none."""
+MODELS_LEAST_SHARE, LOBES_LEAST_SHARE = 0.75, 0.1
+"""Share of the squared radiance that suns take away where models reflect them, and where kernels of lobes do,
+which costs less; where they cannot, there are none."""
 
 FAINTEST = 1e-3
 """Least share of the squared radiance in a sun's cell."""
@@ -31,8 +34,11 @@ FAINTEST = 1e-3
 NARROWEST = 4.0
 """Width alpha of a GGX lobe as wide as a cell, times the cells around the horizon."""
 
+SHARP_FOR_SUNS = 200.0
+"""Concentration from which on lobes' kernels take suns apart: below, they are many texels wide in any map."""
+
 _NEGLIGIBLE = 1e-8
-"""Value of a kernel, over its peak, below which a sun's share of a texel is not taken away."""
+"""Value of a kernel, over its peak, below which it makes nothing of a sun."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,12 +55,16 @@ class Suns:
         The largest radiance beside them.
     narrowest : float
         Width alpha of lobes as wide as a sun. Of narrower ones, what the sun lacks is seen as in a mirror.
+    spread : float
+        Variance of a sun's texels about its middle, along each axis [rad^2]; 0 of a single texel, as a map's
+        light is a sum over its texels.
     """
 
     direction: Array
     irradiance: Array
     ceiling: Array
     narrowest: float
+    spread: float = 0.0
 
     def __len__(self) -> int:
         return len(self.direction)
@@ -124,6 +134,34 @@ class Suns:
             radiance += (n_dot_l * tilt(n_dot_l, mu, view_dir @ direction))[:, None] * irradiance
         return radiance
 
+    def widened(self, bank: KernelBank) -> KernelBank:
+        """Kernels as they show a sun: as much broader as it is wide."""
+        return KernelBank(tuple((1.0 / (1.0 / bank.kappa + self.spread)).tolist()))
+
+    def near(self, bank: KernelBank, axis: Array) -> Iterator[tuple[Array, Array]]:
+        """What kernels make of each sun.
+
+        Parameters
+        ----------
+        bank : KernelBank
+            K kernels.
+        axis : ndarray, shape (..., 3)
+            Unit vectors about which they lie.
+
+        Yields
+        ------
+        near : ndarray of bool, shape (...,)
+            Axes with the sun within the reach of their kernels, n of them.
+        light : ndarray, shape (n, K, 3)
+            The sun, filtered with each kernel.
+        """
+        widened = self.widened(bank)
+        reach = far_from(widened)
+        for direction, irradiance in zip(self.direction, self.irradiance, strict=True):
+            near = 1.0 - axis @ direction < reach
+            between = axis[near] - direction
+            yield near, widened.values(0.25 * dot(between, between))[..., None] * irradiance
+
     def left_of(self, sheet: Array, texel_dir: Array, concentration: float) -> Array:
         """A filtered map without them.
 
@@ -141,14 +179,21 @@ class Suns:
         ndarray, shape (..., 3)
             Of the type of `sheet`.
         """
-        bank = KernelBank((concentration,))
-        least = 1.0 + np.log(_NEGLIGIBLE) / concentration
         rest = sheet.astype(np.float64)
-        for direction, irradiance in zip(self.direction, self.irradiance, strict=True):
-            near = texel_dir @ direction > least
-            between = texel_dir[near] - direction
-            rest[near] -= bank.values(0.25 * dot(between, between)) * irradiance
+        for near, light in self.near(KernelBank((concentration,)), texel_dir):
+            rest[near] -= light[:, 0]
         return rest.astype(sheet.dtype)
+
+
+def sharp_of(bank: KernelBank) -> KernelBank | None:
+    """The last kernels of a bank, those from `SHARP_FOR_SUNS` on; None where there are none."""
+    sharp = tuple(kappa for kappa in bank.concentrations if kappa >= SHARP_FOR_SUNS)
+    return KernelBank(sharp) if sharp else None
+
+
+def far_from(bank: KernelBank) -> float:
+    """1 less the cosine between a sun and an axis from which on kernels make nothing of it."""
+    return float(-np.log(_NEGLIGIBLE) / bank.kappa[0])
 
 
 NO_SUNS = Suns(np.zeros((0, 3)), np.zeros((0, 3)), np.full(3, np.inf), 1e-30)
@@ -172,18 +217,20 @@ def lamp_suns(direction: Array, irradiance: Array, angle: float) -> Suns:
     return Suns(direction[brightest], irradiance[brightest], np.full(3, np.inf), min(narrowest, 1.0))
 
 
-def find_suns(radiance: Array) -> Suns:
+def find_suns(radiance: Array, least_share: float = MODELS_LEAST_SHARE) -> Suns:
     """The suns of an environment.
 
     Parameters
     ----------
     radiance : ndarray, shape (height, 2 * height, 3)
         Latitude-longitude map.
+    least_share : float
+        Share of the squared radiance that they take away.
 
     Returns
     -------
     Suns
-        `MOST_SUNS` at most; `NO_SUNS` where these do not hold `LEAST_SHARE`.
+        `MOST_SUNS` at most; `NO_SUNS` where these do not take away as much.
     """
     height, width = radiance.shape[:2]
     step = -(-width // CELLS)
@@ -204,14 +251,15 @@ def find_suns(radiance: Array) -> Suns:
     angle = (inside * solid_angle[row, column])[..., None]
     held = radiance[row, column].astype(np.float64)
     left = np.minimum(held, ceiling)
-    if np.sum((held**2 - left**2) * angle) <= LEAST_SHARE * power.sum():
+    if np.sum((held**2 - left**2) * angle) <= least_share * power.sum():
         return NO_SUNS
     light = (held - left) * angle
     uv = np.stack(np.broadcast_arrays((column + 0.5) / width, (row + 0.5) / height), axis=-1)
     towards = np.einsum("nhwc,nhwi->ni", light, equirect.direction_from_uv(uv))
     lit = np.any(towards, axis=1)
     narrowest = min(NARROWEST * step / width, 1.0)
-    return Suns(normalize(towards[lit]), light.sum(axis=(1, 2))[lit], ceiling, narrowest)
+    spread = (step**2 - 1) / 12.0 * (np.pi / height) ** 2
+    return Suns(normalize(towards[lit]), light.sum(axis=(1, 2))[lit], ceiling, narrowest, spread)
 
 
 def _by_cells(reduced: np.ufunc, texels: Array, step: int) -> Array:

@@ -151,14 +151,15 @@ class Suns:
         Yields
         ------
         near : ndarray of bool, shape (...,)
-            Axes with the sun within the reach of their kernels, n of them.
+            Axes that have the sun within the reach of their kernels, n of them.
         light : ndarray, shape (n, K, 3)
             The sun, filtered with each kernel.
         """
         widened = self.widened(bank)
-        reach = far_from(widened)
-        for direction, irradiance in zip(self.direction, self.irradiance, strict=True):
-            near = 1.0 - axis @ direction < reach
+        every = axis @ self.direction.T > 1.0 - far_from(widened)
+        for near, direction, irradiance in zip(
+            np.moveaxis(every, -1, 0), self.direction, self.irradiance, strict=True
+        ):
             between = axis[near] - direction
             yield near, widened.values(0.25 * dot(between, between))[..., None] * irradiance
 

@@ -297,12 +297,15 @@ class _Corrector:
             [_rest_of(rights - own, chosen) for own, chosen in zip(self._rights, self._without, strict=True)]
         )
         # The highest price is that of no correction
-        tried: list[tuple[float, Array]] = [(np.inf, np.zeros_like(left))]
+        least = alike = np.sum((self._root[:, None] * self._rest) ** 2)
+        tried: list[tuple[float, Array, float]] = [(np.inf, np.zeros_like(left), alike)]
         for price in PRICES:
-            tried.append((price, (without + self._price * price).solve(left)))
-        gains = [np.sum(x * (self._systems @ x - 2.0 * self._own)) for _, x in tried]
-        errors = np.sum((self._root[:, None] * self._rest) ** 2) + np.array(gains)
-        price, unknowns = tried[int(np.argmax(errors <= TOLERATED**2 * errors.min()))]
+            x = (without + self._price * price).solve(left)
+            tried.append((price, x, alike + np.sum(x * (self._systems @ x - 2.0 * self._own))))
+            least = min(least, tried[-1][2])
+            if tried[-1][2] > TOLERATED**2 * least:
+                break  # lower prices fit noise
+        price, unknowns, _ = next(each for each in tried if each[2] <= TOLERATED**2 * least)
         correction = np.zeros_like(left[0])
         if np.isfinite(price):
             correction = (total + self._price * price).solve(_rest_of(rights, self._factors))

@@ -7,7 +7,6 @@ import numpy as np
 
 from ...core.errors import InputFileError, RangeError, RenderError, SceneError
 from ...core.lobes.bake import sharpest_resolved
-from ...core.lobes.family_fit import CLOSER_LOBES
 from ...core.lobes.fit import Fit
 from ...core.lobes.fit_in_views import error_in_views
 from ...core.progress import Progress, Steps
@@ -25,6 +24,9 @@ from ..methods.fit_captures import (
 )
 from .brdfs import check_told_brdf, load_brdf
 from .model_fits import FitResult, fit_model
+
+LOBES = 6
+"""Lobes for each layer of a material that views tell too little of."""
 
 
 def fit_views(settings: FitSettings, output: Path, force: bool = False) -> Steps[CapturedResult | FitResult]:
@@ -108,8 +110,7 @@ def _fit_to_material(captures: Captures, named: str | None) -> Steps[FitResult |
         if named is None:
             check_told_brdf(captures.spec)
         brdf = yield from load_brdf(named or captures.spec)
-        # As many lobes for each layer as a fit to captures has for each width
-        fitting = Fitting(lobes=CLOSER_LOBES)
+        fitting = Fitting(lobes=LOBES)
         found = yield from fit_model(brdf, fitting, sharpest_resolved(len(captures.radiance)))
     except (InputFileError, RangeError, RenderError, SceneError) as error:
         warn(f"Lobes cannot be fitted to the material itself, so they are those of the captures: {error}")

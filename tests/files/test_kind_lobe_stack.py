@@ -2,6 +2,7 @@
 
 import copy
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,10 +11,19 @@ import pytest
 from rsibr.rsibr_addon.core.environment import Environment
 from rsibr.rsibr_addon.core.errors import MapSetError
 from rsibr.rsibr_addon.core.kinds.lobe_stack.stack import LAYOUTS, LobeStack
+from rsibr.rsibr_addon.core.lobes.bake import BakedStack, bake_stack
 from rsibr.rsibr_addon.core.lobes.bank import KernelBank
 from rsibr.rsibr_addon.core.lobes.fit import Fit
 from rsibr.rsibr_addon.core.maps.representation import FRONT
-from rsibr.rsibr_addon.files.kinds.lobe_stack import PROFILES, fit_of, from_map_set, profiles, to_map_set
+from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.files.kinds.lobe_stack import (
+    PROFILES,
+    fit_of,
+    from_map_set,
+    in_turn,
+    profiles,
+    to_map_set,
+)
 from rsibr.rsibr_addon.files.map_set import read_map_set, read_map_set_header, write_map_set
 from rsibr.rsibr_addon.files.map_set_data import MapSet
 from rsibr.rsibr_addon.files.map_set_header import Origin
@@ -168,3 +178,54 @@ def test_profiles_of_other_lobes_are_refused(profiles: Any) -> None:
     map_set.header["material"][PROFILES] = profiles
     with pytest.raises(MapSetError, match=r"a\.exr describes no lobes .*: bake it again"):
         fit_of(Path("a.exr"), map_set.header)
+
+
+def sunny() -> Environment:
+    """Even light, and a sun whose squared radiance is nearly all of it."""
+    radiance = np.full((32, 64, 3), 0.2, np.float32)
+    radiance[22, 30] = 2000.0, 1500.0, 1000.0
+    return Environment(radiance, "sunny")
+
+
+def with_suns(path: Path, half: bool = False) -> tuple[BakedStack, LobeStack]:
+    """A stack with kernels beyond what its light resolves, and as it is read again."""
+    fit = random_fit(KernelBank((2.0, 256.0, 512.0)))
+    baked = drain(bake_stack(sunny().radiance, fit, "octahedral", 32))
+    write_map_set(path, in_turn(baked, Origin(sunny(), {}, "test")), half=half)
+    return baked, from_map_set(path, read_map_set(path))
+
+
+@pytest.mark.parametrize("half", [False, True])
+def test_suns_are_taken_apart_when_a_stack_is_read(tmp_path: Path, half: bool) -> None:
+    baked, back = with_suns(tmp_path / "a.rsibr.exr", half)
+    stated = read_map_set_header(tmp_path / "a.rsibr.exr")["material"][PROFILES]
+    assert stated["sharpest_in_maps"] == baked.sharpest < 512.0
+    assert len(back.sunlight.suns) == 1
+    # Of the sun, what is left in maps is what the broad kernel makes of it, to the digits of the file
+    broad = replace(baked.fit, weights=baked.fit.weights * [[1.0], [0.0], [0.0]])
+    weights = baked.fit.weights[:, :, 1:].sum(axis=2)[:, :, None, None, None]
+    expected = drain(bake_stack(sunny().radiance, broad, "octahedral", 32)).stack.maps + 0.2 * weights
+    digits = 2.0**-10 if half else 1e-5
+    # A kernel's sum over so few texels is off by some percents of even light
+    np.testing.assert_allclose(back.maps, expected, atol=0.01 + digits * baked.stack.maps.max())
+    assert baked.stack.maps.max() > 20.0 * expected.max()
+
+
+def test_without_environment_or_profiles_suns_stay_in_maps(tmp_path: Path) -> None:
+    path = tmp_path / "a.rsibr.exr"
+    baked, _ = with_suns(path)
+    lightless, shapeless = read_map_set(path), read_map_set(path)
+    lightless.header["environment"]["part"] = None
+    del shapeless.header["material"][PROFILES]
+    for map_set in (lightless, shapeless):
+        back = from_map_set(path, map_set)
+        assert back.sunlight is None
+        np.testing.assert_array_equal(back.maps, baked.stack.maps)
+
+
+def test_profiles_of_other_maps_are_refused() -> None:
+    _, map_set = map_set_of_fit()
+    told = map_set.header["material"][PROFILES]
+    told["weights"] = [lobe[:1] for lobe in told["weights"]]
+    with pytest.raises(MapSetError, match=r"holds no lobe stack\. Its profiles are not those of its maps"):
+        from_map_set(Path("a.exr"), map_set)

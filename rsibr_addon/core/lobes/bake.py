@@ -16,6 +16,7 @@ from ..filtering.zonal import TOLERANCE, ZonalSeries, expand
 from ..kinds.kernel_bank.filtered_bank import FilteredBank, bound_from_bank, stack_from_bank
 from ..kinds.lobe_stack.stack import LobeStack, stack_representation
 from ..progress import Progress, Steps
+from ..suns import LOBES_LEAST_SHARE, SHARP_FOR_SUNS, find_suns
 from ..ties import TIE
 from .bank import SHARP, SHARPEST, KernelBank, octaves
 from .fit import Fit
@@ -57,7 +58,8 @@ class BakedStack:
     sharpest : float
         Concentration of the kernel that stands for sharper ones in the maps.
     interpolation : float
-        Relative root-mean-square error that bilinear lookups between texels are expected to cost on a sphere.
+        Relative root-mean-square error that bilinear lookups between texels are expected to cost on a sphere,
+        suns apart.
     """
 
     filtered: FilteredBank
@@ -186,23 +188,28 @@ def bake_stack(
     sharpest = _standing_in(fit.bank.kappa[fit.used], len(radiance))
     in_maps = fit.blunted(sharpest)
 
-    def cost(width: int) -> float:
-        return BilinearLookups(stack_representation(layout, width), width).error(*power)
+    def cost(width: int, looked_up: Array) -> float:
+        return BilinearLookups(stack_representation(layout, width), width).error(looked_up, power)
 
     yield Progress(0, 2, "analysing the environment")
     bank = KernelBank(tuple(in_maps.bank.concentrations[kernel] for kernel in in_maps.used))
     series = _expanded(bank)
     harmonics = analyse_environment(radiance, analysis_degree(series))
-    power = _power(in_maps, in_maps.weights[:, :, in_maps.used], series, harmonics)
+    whole = light_power(harmonics, analysis_degree(series))
+    apart = _power_without_suns(radiance, whole)
+    in_file, power = _power(in_maps, series, whole, whole[None])
+    is_sharp = bank.kappa[:, None, None] >= SHARP_FOR_SUNS
+    shown, _ = _power(in_maps, series, whole, np.where(is_sharp, apart, whole))
     if size is None:
-        size = next((n for n in SIZES if cost(n) <= ALLOWED_INTERPOLATION), SIZES[-1])
+        # The maps serve other programs too, for which they hold suns
+        size = next((n for n in SIZES if cost(n, in_file) <= ALLOWED_INTERPOLATION), SIZES[-1])
     afford(_bytes(len(bank), layout, size), size)
     yield Progress(1, 2, f"filtering {fit.weights.shape[0] * fit.weights.shape[1]} maps of {size} texels")
     try:
         filtered = _filtered(harmonics, bank, series, layout, size)
     except RangeError as error:
         raise RangeError(f"This environment is too coarse for some lobes of the fit. {error}") from error
-    return BakedStack(filtered, fit, sharpest, cost(size))
+    return BakedStack(filtered, fit, sharpest, cost(size, shown))
 
 
 def filter_environment(radiance: Array, bank: KernelBank, layout: str, size: int) -> FilteredBank:
@@ -256,22 +263,33 @@ def _filtered(
     return FilteredBank(layout, bank, filtered.radiance, filtered.bound)
 
 
-def _power(
-    fit: Fit, weights: Array, series: list[ZonalSeries], harmonics: EnvironmentHarmonics
-) -> tuple[Array, float]:
+def _power_without_suns(radiance: Array, whole: Array) -> Array:
+    """Power by degree of an environment without its suns, given that of all of it; shape (D, 3)."""
+    suns = find_suns(radiance, LOBES_LEAST_SHARE)
+    if not len(suns):
+        return whole
+    degree = len(whole) - 1
+    return light_power(analyse_environment(np.minimum(radiance, suns.ceiling), degree), degree)
+
+
+def _power(fit: Fit, series: list[ZonalSeries], light: Array, in_maps: Array) -> tuple[Array, float]:
     """Power by degree of all that is looked up on a sphere seen from afar, and power of its radiance.
 
     A sphere's rings count by mu. Errors of several lookups are taken as independent, and radiance as if all
     lobes of a view had one axis.
+
+    series: of the K kernels that the fit uses. light: power by degree, shape (D, 3). in_maps: power of what
+    the kernels' maps hold of it, shape (K, D, 3) or (1, D, 3).
     """
-    degree = analysis_degree(series)
-    gains = np.zeros((len(series), degree + 1))
+    gains = np.zeros((len(series), len(light), 1))
     for row, lobe in zip(gains, series, strict=True):
-        row[: lobe.degree + 1] = lobe.coefficients
-    light = light_power(harmonics, degree)
-    # Power of every lobe and elevation, degree by degree
-    amplitude = fit.scale[:, :, None] * np.einsum("lpkc,kd->lpdc", weights, gains)
-    lookups = np.sum(fit.taps**2, axis=2)
-    looked_up = np.einsum("s,ls,lsdc,dc->dc", fit.mu, lookups, amplitude**2, light)
-    together = np.einsum("ls,lsdc->sdc", fit.taps.sum(axis=2), amplitude)
-    return looked_up, float(np.einsum("s,sdc,dc->", fit.mu, together**2, light))
+        row[: lobe.degree + 1, 0] = lobe.coefficients
+    weights = fit.weights[:, :, fit.used]
+    # Of every lobe and elevation, degree by degree
+    held, whole = (
+        fit.scale[:, :, None] * np.einsum("lpkc,kdc->lpdc", weights, gains * np.sqrt(power))
+        for power in (in_maps, light)
+    )
+    looked_up = np.einsum("s,ls,lsdc->dc", fit.mu, np.sum(fit.taps**2, axis=2), held**2)
+    together = np.einsum("ls,lsdc->sdc", fit.taps.sum(axis=2), whole)
+    return looked_up, float(np.einsum("s,sdc->", fit.mu, together**2))

@@ -34,7 +34,7 @@ from rsibr.rsibr_addon.core.maps import sphere_map
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.device import buffers
 from rsibr.rsibr_addon.device.context import ensure_context
-from rsibr.rsibr_addon.device.kinds.lobe_stack import elevation_texels, map_texels, sun_numbers
+from rsibr.rsibr_addon.device.kinds.lobe_stack import elevation_texels, map_texels
 from rsibr.rsibr_addon.device.textures import GpuTexture
 from rsibr.rsibr_addon.files.brdfs import brdf_from_spec
 from rsibr.rsibr_addon.tasks.light.environments import load_environment
@@ -130,7 +130,7 @@ def from_graphics_memory(stack: LobeStack, points: Points) -> Array:
     """The stack as half floats in a 3D texture, shaded by the shaders' own function."""
     lobes, slices = stack.maps.shape[:2]
     numbers = LAYOUTS.index(stack.layout), lobes, stack.taps.shape[2], slices
-    suns = f"LobeSuns({', '.join(map(str, sun_numbers(stack)))})"
+    suns = "LobeSuns(0, 0, 0, 0.0, vec4(0.0))"  # they are in the maps
     code = (
         f"result_0.rgb = stack_radiance(maps, elevations, {', '.join(map(str, numbers))}, {suns}, "
         f"normalize(in_0.xyz), normalize(in_1.xyz), vec3(0.0), vec3(0.0));"

@@ -18,8 +18,10 @@ struct LobeSuns {
   int kernels;
   // Row of `elevations` with the first.
   int row;
-  // 1 less the cosine from which on they are not seen.
+  // 1 less the cosine from which on each is not seen.
   float reach;
+  // A cone, with the cosine of its half angle: outside, none is seen.
+  vec4 cone;
 };
 
 #define LAYOUT_DUAL_PARABOLOID 0
@@ -88,6 +90,9 @@ float stack_texel_angle(int layout_number, float size, vec3 direction)
 // What a lobe's kernels about an axis make of suns, which its map lacks.
 vec3 lobe_sunlight(sampler2D elevations, LobeSuns suns, int lobe, vec3 axis, vec2 elevation)
 {
+  if (suns.count == 0 || dot(axis, suns.cone.xyz) < suns.cone.w) {
+    return vec3(0.0);
+  }
   int first_kernel = suns.row + 2 * suns.count;
   int first_weight = first_kernel + suns.kernels * (1 + lobe);
   vec3 radiance = vec3(0.0);

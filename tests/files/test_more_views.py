@@ -115,7 +115,7 @@ def test_lobes_that_miss_the_goal_give_way_to_those_of_the_material(
 ) -> None:
     wanted = job(fit_lobes=True, goal=0.001)
     # Enough for a Lambert surface
-    monkeypatch.setattr(fit_views, "CLOSER_LOBES", 1)
+    monkeypatch.setattr(fit_views, "LOBES", 1)
     with pytest.warns(RsibrWarning, match=r"The lobes have an error of .* and the goal is 0.001"):
         baked = drain(bake(wanted))
     fit = stated_lobes(wanted.output)

@@ -26,7 +26,7 @@ SIZE = 16
 STACK = random_stack("octahedral", SIZE)
 DIAGONALS = normalize([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 0, 1)])
 EDGES = np.concatenate([AXES, DIAGONALS])
-NO_SUNS = "LobeSuns(0, 0, 0, 0.0)"
+NO_SUNS = "LobeSuns(0, 0, 0, 0.0, vec4(0.0))"
 
 
 def elevations(stack: LobeStack = STACK) -> Samplers:
@@ -208,7 +208,8 @@ def near_suns(stack: LobeStack) -> np.ndarray:
 
 
 def suns_of(stack: LobeStack) -> str:
-    return "LobeSuns({}, {}, {}, {})".format(*sun_numbers(stack))
+    (*counts, reach), cone = sun_numbers(stack).tolist()
+    return "LobeSuns({:.0f}, {:.0f}, {:.0f}, {}, vec4({}, {}, {}, {}))".format(*counts, reach, *cone)
 
 
 @pytest.mark.parametrize("shared", [False, True])

@@ -15,11 +15,14 @@ from ..textures import GpuTexture
 DEEPEST = 2048
 """Greatest number of slices of a 3D texture in every driver."""
 
+_ROUNDING = 1e-6
+"""Of cosines between directions in single precision."""
+
 lobe_stack_shader = MeshProgram(
     "lobe_stack",
     "Stack stack",
     "float layout_number; float lobes; float taps; float slices; "
-    "float suns; float kernels; float sun_row; float reach; "
+    "float suns; float kernels; float sun_row; float reach; vec4 cone; "
     "float antialiased; float unused_0; float unused_1; float unused_2;",
     {"elevations": "FLOAT_2D", "maps": "FLOAT_3D"},
 )
@@ -52,7 +55,7 @@ class GpuLobeStack(ProgramMapSet):
 
     def inputs(self, look: StackLook) -> Inputs:
         """See `ProgramMapSet.inputs`. Reference: core/kinds/lobe_stack/shading.py."""
-        fields = self._numbers, np.array(sun_numbers(self._stack)), np.array([float(look.antialiased)])
+        fields = self._numbers, sun_numbers(self._stack), np.array([float(look.antialiased)])
         return Inputs(
             lobe_stack_shader, fields, {"elevations": self._elevations_of(look), "maps": self._maps}
         )
@@ -110,13 +113,18 @@ def elevation_texels(stack: LobeStack, shown: tuple[int, ...]) -> Array:
     return texels
 
 
-def sun_numbers(stack: LobeStack) -> tuple[float, ...]:
-    """A stack's `LobeSuns`: see gpu_shaders/lib/lobe_stack_lib.glsl."""
-    lobes, _, taps = stack.taps.shape
+def sun_numbers(stack: LobeStack) -> Array:
+    """A stack's `LobeSuns`, shape (2, 4): see gpu_shaders/lib/lobe_stack_lib.glsl."""
     if stack.sunlight is None:
-        return 0.0, 0.0, 0.0, 0.0
+        return np.zeros((2, 4))
+    lobes, _, taps = stack.taps.shape
     suns, bank = stack.sunlight.suns, stack.sunlight.bank
-    return len(suns), len(bank), 1 + lobes * (1 + taps), far_from(suns.widened(bank))
+    reach = far_from(suns.widened(bank))
+    total = suns.direction.sum(axis=0)
+    middle = total / max(float(np.linalg.norm(total)), _ROUNDING)
+    within = np.arccos(np.clip(suns.direction @ middle, -1.0, 1.0)).max() + np.arccos(1.0 - reach)
+    least = np.cos(min(within, np.pi)) - _ROUNDING
+    return np.array([[len(suns), len(bank), 1 + lobes * (1 + taps), reach], [*middle, least]])
 
 
 def _sun_texels(stack: LobeStack) -> Array:

@@ -13,10 +13,10 @@ from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import bake_pyramid, leani
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.live import CUBE, live_maps, live_pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import principled_radiance
-from rsibr.rsibr_addon.core.kinds.kernel_pyramid.suns import NO_SUNS, lamp_suns
 from rsibr.rsibr_addon.core.lobes.rings import WIDTHS
 from rsibr.rsibr_addon.core.maps.representation import representation
 from rsibr.rsibr_addon.core.progress import drain
+from rsibr.rsibr_addon.core.suns import NO_SUNS, lamp_suns
 from rsibr.rsibr_addon.files.kinds.kernel_pyramid import shipped_families
 
 SIZE = 32

@@ -8,9 +8,9 @@ from rsibr.rsibr_addon.core.geometry.directions import normalize
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.atlas import atlas_texels
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.live import live_maps, live_pyramid, sunlit, tapped
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.look import PrincipledLook
-from rsibr.rsibr_addon.core.kinds.kernel_pyramid.suns import lamp_suns
 from rsibr.rsibr_addon.core.lobes.rings import WIDTHS
 from rsibr.rsibr_addon.core.maps import octahedral
+from rsibr.rsibr_addon.core.suns import lamp_suns
 from rsibr.rsibr_addon.device.context import ensure_context
 from rsibr.rsibr_addon.device.kinds.kernel_pyramid import SUNS, GpuPyramid
 from rsibr.rsibr_addon.device.kinds.live_pyramid import GpuLivePyramid

@@ -13,9 +13,9 @@ from ...core.conventions import Array
 from ...core.kinds.kernel_pyramid.atlas import AtlasLayout, atlas_layout
 from ...core.kinds.kernel_pyramid.live import LiveMaps, live_maps
 from ...core.kinds.kernel_pyramid.shading import Families
-from ...core.kinds.kernel_pyramid.suns import NO_SUNS, lamp_suns
 from ...core.kinds.live_environment import FACE_COUNT
 from ...core.lobes.rings import WIDTHS
+from ...core.suns import NO_SUNS, lamp_suns
 from .. import buffers
 from ..passes import plain_state
 from ..textures import GpuTexture, texels_shader
@@ -78,7 +78,7 @@ class GpuLivePyramid(LiveFaces, GpuPrincipled):
         ----------
         direction, irradiance : ndarray, shape (N, 3)
         angle : float
-            See `core.kinds.kernel_pyramid.suns.lamp_suns`.
+            See `core.suns.lamp_suns`.
         """
         suns = lamp_suns(direction, irradiance, angle)
         atlas, _, *of_families = self.textures

@@ -22,10 +22,10 @@ from ...lobes.family import KERNELS
 from ...lobes.rings import WIDTHS
 from ...maps.representation import representation
 from ...resample import lookup
+from ...suns import NO_SUNS, Suns
 from ...ties import TIE
 from .bake import leaning_lobe, ring_lobe
 from .pyramid import OCTAHEDRAL, Pyramid
-from .suns import NO_SUNS, Suns
 
 CUBE = representation("cube_map")
 

@@ -47,6 +47,7 @@ Place = tuple[Any, int]
 
 
 ENDING = ("bare", "hidden")
+"""What cannot but end its state: a call that fails there leaves it, as where an object is not shown again."""
 
 CALLS, READS = sys.monitoring.events.CALL, sys.monitoring.events.INSTRUCTION
 """Where faults are: in calls of Blender, or in reads of attributes, most of which are its properties."""
@@ -67,7 +68,7 @@ def fault_at(place: Place | None, where: int) -> Iterator[dict[Place, str]]:
             raise InjectedError(name)
 
     def called(code: Any, offset: int, function: Any, first: Any) -> None:
-        if is_blenders(function) and code.co_filename != __file__:
+        if is_blenders(function) and code.co_filename != __file__ and code.co_name not in ENDING:
             reach(getattr(function, "__name__", type(function).__name__), code, offset)
 
     def reached(code: Any, offset: int) -> Any:
@@ -181,7 +182,9 @@ def shade(
         if map_set is None:
             # All faces at once, however long they take
             monkeypatch.setattr(live_light, "faces_within", lambda budget, seconds: 6)
-            item.rsibr.live.on, item.rsibr.live.size = True, "32"
+            # Programs of mips are compiled sooner, and those of own materials have had their faults by then
+            live = item.rsibr.live
+            live.on, live.size, live.mips = True, "32", True
         else:
             path = tmp_path / f"{map_set.kind}.rsibr.exr"
             write_map_set(path, map_set)

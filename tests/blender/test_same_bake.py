@@ -184,6 +184,7 @@ def test_every_option_goes_every_way(
 
 @pytest.mark.slow
 @pytest.mark.needs("cycles")
+@pytest.mark.usefixtures("quick_furnace")
 @pytest.mark.parametrize("kind", STORED)
 def test_every_way_makes_the_same_file(kind: str, light: Light, tmp_path: Path) -> None:
     values, output = NEEDED.get(kind, {}) | SMALL[kind], Path("out.rsibr.exr")

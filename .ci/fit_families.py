@@ -36,7 +36,7 @@ MATERIALS: dict[str, tuple[Fresnel, Array]] = {
 }
 """Name -> its Fresnel term, and that as a sum of powers."""
 
-SAMPLES = (0, 8, 12, 16, 19, 21, 24, 27, 29, 32)
+SAMPLES = (0, 12, 18, 24, 28, 32, 36, 40, 44, 48)
 
 
 def measured(family: Family, alpha: float, material: str) -> FitErrors:

@@ -1,9 +1,9 @@
 // Twin of rsibr_addon/core/lobes/family.py. A texture of a family (see device/kinds/kernel_pyramid_texels.py)
-// has a column for each width, four an octave up to 1, and a row for each elevation, in the middles of equal
+// has a column for each width, six an octave up to 1, and a row for each elevation, in the middles of equal
 // steps of mu. So hardware interpolates in log alpha and in mu, with one place for all layers: weights
 // rounded to 8 bits are another roughness, by .03 %, and another mu, by 1e-4, not other lobes.
 
-const float WIDTHS_AN_OCTAVE = 4.0;
+const float WIDTHS_AN_OCTAVE = 6.0;
 
 vec2 family_place(sampler2DArray family, float alpha, float mu)
 {

@@ -155,6 +155,27 @@ def test_a_kernel_that_is_not_resolved_is_the_environment(pyramid: Pyramid) -> N
     np.testing.assert_array_equal(shown, lookup(pyramid.mirror, NORMAL, OCTAHEDRAL))
 
 
+def test_kernels_without_maps_are_shared_between_the_mirror_and_the_sharpest_map(
+    pyramid: Pyramid, families: Families
+) -> None:
+    rows, columns = families.ggx.weights.shape[:2]
+    count, lobes = len(pyramid.bank), families.ggx.tilts.shape[2]
+    weights = np.zeros((rows, columns, lobes, len(KERNELS), 1))
+    for number, kappa in enumerate(KERNELS.concentrations):
+        weights[:] = 0.0
+        weights[..., number, 0] = 3.0
+        shown = pyramid.resolved(replace(families.ggx, weights=weights)).weights[0, 0, 0, :, 0]
+        assert shown.sum() == pytest.approx(3.0)
+        if number < count:
+            np.testing.assert_array_equal(shown, weights[0, 0, 0, :, 0])
+            continue
+        mirror = shown[number] / 3.0
+        # A sixth of the squared distance of texels, of the environment and of its map
+        variance = ((2.0 * np.pi) ** 2 + 4.0 * np.pi) / (6.0 * pyramid.mirror.shape[1] ** 2)
+        mixed = mirror * variance + (1.0 - mirror) / pyramid.bank.concentrations[-1]
+        assert mirror == 1.0 if variance > 1.0 / kappa else mixed == pytest.approx(1.0 / kappa)
+
+
 def test_a_pyramid_for_the_family_fits_into_graphics_memory() -> None:
     texels = sum(width_of(kappa, SIZE) ** 2 for kappa in KERNELS.concentrations[:-1]) + SIZE**2
     assert 8 * texels < 40e6

@@ -309,8 +309,8 @@ def test_lobes_say_how_light_is_shaded(tmp_path: Path) -> None:
     files = lobes_of_sky(tmp_path)
     assert [path.name for path in files] == ["sky.ktx2", "sky-lobes.ktx2", "sky.glsl", "sky.wgsl", "sky.hlsl"]
     (table,) = read_ktx2(files[1]).levels
-    assert table.shape == (38, 32, 33, 4)
-    weights = table[1:37].astype(np.float64).reshape(12, 3, 32, 33, 4)
+    assert table.shape == (38, 32, 49, 4)
+    weights = table[1:37].astype(np.float64).reshape(12, 3, 32, 49, 4)
     np.testing.assert_allclose(weights.sum(axis=(0, 4)), np.moveaxis(table[37, ..., :3], -1, 0), rtol=HALF)
     (light,) = read_ktx2(files[0]).levels
     listed = re.findall(r"vec4\(([^)]*)\)", files[2].read_text().partition("PLACES")[2].partition(";")[0])

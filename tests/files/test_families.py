@@ -10,7 +10,7 @@ from rsibr.rsibr_addon.core.brdf.albedo import directional_albedo
 from rsibr.rsibr_addon.core.brdf.cook_torrance import CookTorrance
 from rsibr.rsibr_addon.core.brdf.fresnel import Fresnel, Index, Schlick
 from rsibr.rsibr_addon.core.brdf.fresnel_powers import dielectric, schlick
-from rsibr.rsibr_addon.core.brdf.ggx import Ggx
+from rsibr.rsibr_addon.core.brdf.ggx import Ggx, ggx_ndf, smith_visibility
 from rsibr.rsibr_addon.core.brdf.model import Brdf
 from rsibr.rsibr_addon.core.brdf.ward import Ward
 from rsibr.rsibr_addon.core.errors import InputFileError
@@ -41,7 +41,7 @@ def error(family: Family, alpha: float, fresnel: Fresnel, coefficients: np.ndarr
     return fit_errors(fit, Ggx(alpha=alpha, fresnel=fresnel)).error
 
 
-@pytest.mark.parametrize("row", [16, 24])
+@pytest.mark.parametrize("row", [24, 36])
 def test_its_errors_are_those_of_the_page(row: int) -> None:
     family = shipped_family("ggx")
     alpha = float(family.alpha[row])
@@ -54,7 +54,7 @@ def test_its_errors_are_those_of_the_page(row: int) -> None:
 @pytest.mark.slow
 def test_a_width_fitted_anew_is_as_good() -> None:
     family = shipped_family("ggx")
-    widths = WIDTHS[24:25]
+    widths = WIDTHS[36:37]
     made = drain(fit_ggx(widths))
     for alpha in widths:
         for term in (TERMS["white metal"], TERMS["water, 1.33"]):
@@ -102,13 +102,27 @@ def test_closer_lobes_of_one_width_are_closer_at_grazing(
     assert ours.amplification.max() < 8.1
 
 
+def test_peaks_are_right_halfway_between_widths_and_elevations() -> None:
+    family = shipped_family("ggx")
+    white = family.weights @ schlick(1.0)
+    for alpha in np.sqrt(family.alpha[6:30:2] * family.alpha[7:31:2]):
+        for mu in (22.0 / 32.0, 26.0 / 32.0, 30.0 / 32.0):
+            theta = np.arccos(mu)
+            angles = theta - family.at(family.tilts, alpha, mu) * np.sin(theta)
+            kernels = family.bank.values(np.sin(0.5 * (angles - theta)) ** 2)
+            peak = np.sum(family.at(white, alpha, mu) * kernels)
+            exact = mu * ggx_ndf(0.0, alpha) * smith_visibility(mu, mu, alpha)
+            # Kernels in steps of 4 leave .5 %, steps of an octave's sixth in alpha as much again
+            assert peak == pytest.approx(exact, rel=0.02)
+
+
 def test_albedos_are_sums_of_weights() -> None:
     family = shipped_family("ggx")
-    for row in (16, 24, 32):
+    for row in (24, 36, 48):
         for fresnel, coefficients in (TERMS["white metal"], TERMS["F0 = .04"]):
             exact = directional_albedo(Ggx(alpha=family.alpha[row], fresnel=fresnel), family.mu)[:, 0]
-            # The quadrature of `directional_albedo` errs by 5e-4
-            np.testing.assert_allclose(family.albedo[row] @ coefficients, exact, rtol=1e-3)
+            # What the page says of the family at grazing; the quadrature of `directional_albedo` errs by 5e-4
+            np.testing.assert_allclose(family.albedo[row] @ coefficients, exact, rtol=3e-3)
 
 
 def test_a_family_comes_back_as_it_was_written(tmp_path: Path) -> None:

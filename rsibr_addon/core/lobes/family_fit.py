@@ -6,7 +6,7 @@ kernels count is decided by the guides too (`thinning`).
 """
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,13 +29,10 @@ from .smoothing import lines
 from .target import TargetSlice, elevation_slices, target_slices
 from .thinning import Equations, solution, thinned
 
-WIDTHS = 2.0 ** np.linspace(-8.0, 0.0, 33)
-"""alpha of the rows of the GGX family, four an octave."""
+WIDTHS = 2.0 ** np.linspace(-8.0, 0.0, 49)
+"""alpha of the rows of the GGX family, six an octave."""
 
 ELEVATIONS, LOBES, LEANING_LOBES, CLOSER_LOBES = 16, 4, 2, 8
-
-FINER = 2
-"""Elevations of the GGX family from one at which axes are fitted to the next: weights change faster."""
 
 GUIDES = np.stack([schlick(1.0), dielectric(1.5)], axis=1)
 """A white metal and glass, as coefficients of `POWERS`, shape (C, 2)."""
@@ -46,15 +43,44 @@ GAUSSIAN_GUIDES = np.array([[1.0, 0.0], [0.0, 0.04], [0.0, 0.96]])
 SMOOTHNESS = 0.1
 """Price of tilts' squared distance from the line between their neighbours'."""
 
-THRIFT = 0.06
-"""Share by which the squared error may rise for fewer kernels."""
-
-NATURAL_LIGHT = 1.0
-"""Weight of an error in an octave of natural light, relative to the same error of the lobe's shape."""
-
 _SHARPNESS = 16.0
-_FIRST_WIDTH, _FIRST_ELEVATION = 0.25, 0.25
+_FIRST_ELEVATION = 0.25
 _STIFFER, _STIFFEST = 1.4, 1e4
+
+
+@dataclass(frozen=True)
+class Refinement:
+    """What a family is fitted for beside the squared error of its lobes.
+
+    Attributes
+    ----------
+    finer : int
+        Elevations of the family for each at which axes are fitted; from 2 onwards they are those of
+        `elevation_slices`.
+    thrift : float
+        Share by which the squared error may rise for fewer kernels: see `thinned`; 0 keeps all that a width
+        needs.
+    natural : float
+        Weight of an error in an octave of natural light, relative to the same error of the lobe's shape.
+    reach : float
+        Largest tilt of an axis, in widths alpha; where it is finite, tilts are smoothed in that unit. A lobe
+        that leaves the peak at one elevation has a long way back at the next, where it is needed.
+    start : float
+        Width alpha at which lobes are added; all others are tracked from there.
+    """
+
+    finer: int = 1
+    thrift: float = 0.0
+    natural: float = 0.0
+    reach: float = np.inf
+    start: float = 0.25
+
+
+SQUARED_ERROR = Refinement()
+"""Fits all kernels to the squared error alone."""
+
+OF_GGX = Refinement(finer=2, thrift=0.02, natural=4.0, reach=3.0, start=2.0**-4.5)
+"""Begins where lobes are narrow: in units of alpha they are alike, and keep their order at all elevations."""
 
 
 def fit_leaning(elevations: int = ELEVATIONS, lobes: int = LEANING_LOBES) -> Steps[Family]:
@@ -66,7 +92,7 @@ def fit_leaning(elevations: int = ELEVATIONS, lobes: int = LEANING_LOBES) -> Ste
             np.ones(1),
             elevation_slices(elevations),
             lobes,
-            thrift=THRIFT,
+            Refinement(thrift=0.06),
         )
     )
 
@@ -74,11 +100,11 @@ def fit_leaning(elevations: int = ELEVATIONS, lobes: int = LEANING_LOBES) -> Ste
 def fit_ggx(widths: Array = WIDTHS, elevations: int = ELEVATIONS, lobes: int = LOBES) -> Steps[Family]:
     """The family of GGX reflection by alpha, (A,), ascending, for Fresnel terms that are sums of `POWERS`."""
     mu = elevation_slices(elevations)
-    return (yield from fit_family(_ggx, GUIDES, widths, mu, lobes, FINER, THRIFT, NATURAL_LIGHT))
+    return (yield from fit_family(_ggx, GUIDES, widths, mu, lobes, OF_GGX))
 
 
 def fit_gaussian(
-    widths: Array = WIDTHS[4::2], elevations: int = ELEVATIONS, lobes: int = LOBES
+    widths: Array = WIDTHS[6::3], elevations: int = ELEVATIONS, lobes: int = LOBES
 ) -> Steps[Family]:
     """The same of lobes that end sooner than GGX's: Ward's, and Beckmann's times 1 and (1 - cos)^5."""
     return (yield from fit_family(_gaussian, GAUSSIAN_GUIDES, widths, elevation_slices(elevations), lobes))
@@ -106,9 +132,7 @@ def fit_family(
     widths: Array,
     mu: Array,
     lobes: int,
-    finer: int = 1,
-    thrift: float = 0.0,
-    natural: float = 0.0,
+    refinement: Refinement = SQUARED_ERROR,
 ) -> Steps[Family]:
     """Fit lobes to functions at all widths.
 
@@ -123,21 +147,19 @@ def fit_family(
         Cosines of the view elevations that axes are fitted at, ascending.
     lobes : int
         Number J of lobes.
-    finer : int
-        Elevations of the family for each of them; from 2 onwards they are those of `elevation_slices`.
-    thrift : float
-        See `thinned`; 0 to keep all kernels that a width needs.
-    natural : float
-        Share of natural light: see `natural_equations`.
+    refinement : Refinement
     """
-    tilts, rows = yield from _tracked_tilts(model, guides, widths, mu, lobes)
-    tilts = smoothed(tilts, np.log(widths), mu, SMOOTHNESS)
+    finer, natural = refinement.finer, refinement.natural
+    tilts, rows = yield from _tracked_tilts(model, guides, widths, mu, lobes, refinement)
+    # Beside tilts of wide lobes, those of narrow ones would not count
+    unit = widths[:, None, None] if np.isfinite(refinement.reach) else 1.0
+    tilts = unit * smoothed(tilts / unit, np.log(widths), mu, SMOOTHNESS)
     if finer > 1:
         coarse, mu = mu, elevation_slices(finer * len(mu))
         tilts = np.apply_along_axis(lambda column: np.interp(mu, coarse, column), 1, tilts)
         rows = {row: list(target_slices(model(float(widths[row])), mu)) for row in rows}
     yield Progress(len(widths), 2 * len(widths), "leaving out what hardly counts")
-    kept = _kept(rows, tilts, widths, guides, thrift, natural)
+    kept = _kept(rows, tilts, widths, guides, refinement)
     weights = np.zeros((*tilts.shape, len(KERNELS), len(guides)))
     for row in range(len(widths)):
         yield Progress(len(widths) + row, 2 * len(widths), f"solving for weights at alpha {widths[row]:.3g}")
@@ -149,10 +171,15 @@ def fit_family(
 
 
 def _tracked_tilts(
-    model: Callable[[float], BrdfFunction], guides: Array, widths: Array, mu: Array, lobes: int
+    model: Callable[[float], BrdfFunction],
+    guides: Array,
+    widths: Array,
+    mu: Array,
+    lobes: int,
+    refinement: Refinement,
 ) -> Steps[tuple[Array, dict[int, list[TargetSlice]]]]:
     """Tilts of the lobes at each width and elevation, shape (A, S, J), and the targets of each width."""
-    start = int(np.argmin(np.abs(np.log(widths / _FIRST_WIDTH))))
+    start = int(np.argmin(np.abs(np.log(widths / refinement.start))))
     tilts: Array = np.empty((len(widths), len(mu), lobes))
     rows: dict[int, list[TargetSlice]] = {}
     outwards = [*range(start, len(widths)), *range(start - 1, -1, -1)]
@@ -174,9 +201,11 @@ def _tracked_tilts(
                 settled(target, bank, _lookups(target, each), non_negative=False)
                 for target, each in zip(guided, neighbour, strict=True)
             ]
-        tilts[row] = [
+        found = [
             tilts_of(target, state.lookups.angles)[:, 0] for target, state in zip(guided, states, strict=True)
         ]
+        reach = refinement.reach * widths[row]
+        tilts[row] = np.clip(found, -reach, reach)
     return tilts, rows
 
 
@@ -258,12 +287,11 @@ def _kept(
     tilts: Array,
     widths: Array,
     guides: Array,
-    thrift: float,
-    natural: float,
+    refinement: Refinement,
 ) -> NDArray[np.bool_]:
     """Which kernels count at each width, shape (A, K)."""
     kept = np.stack([np.arange(len(KERNELS)) < len(kernels_of(width)) for width in widths])
-    if thrift == 0.0:
+    if refinement.thrift == 0.0:
         return kept
     equations: list[list[Equations]] = []
     for row, width in enumerate(widths):
@@ -273,10 +301,11 @@ def _kept(
             projector, lookups = Projector(_guided(target, guides), bank), _lookups(target, each)
             system, right = own = projector.equations(lookups)
             error = 1.0 + UNIFORM_LIGHT - np.sum(right * np.linalg.solve(system, right))
-            system, right = _with_natural_light(own, projector, lookups, natural)
+            system, right = _with_natural_light(own, projector, lookups, refinement.natural)
             # Each elevation's error counts by itself: those of steep views are far larger than the others
             equations[row].append(_spread_out(system / error, right / error, used))
-    return kept & thinned(equations, np.full(len(widths), float(tilts.shape[1])), thrift, len(KERNELS))
+    errors = np.full(len(widths), float(tilts.shape[1]))
+    return kept & thinned(equations, errors, refinement.thrift, len(KERNELS))
 
 
 def _spread_out(system: Array, right: Array, used: NDArray[np.bool_]) -> Equations:

@@ -177,6 +177,7 @@ class GpuPyramid(GpuPrincipled):
         half = half_holds(pyramid.all_maps)
         self._atlas_format = "RGBA16F" if half else "RGBA32F"
         atlas, places = atlas_texels(pyramid)
+        families = replace(families, ggx=pyramid.resolved(families.ggx))
         lookups = lookup_texels(families, places, pyramid.suns, len(pyramid.bank))
         light = GpuTexture("kernel bank", atlas, self._atlas_format), GpuTexture("lookups", lookups)
         super().__init__((*light, *family_textures(families)), len(pyramid.suns) > 0)
@@ -185,6 +186,7 @@ class GpuPyramid(GpuPrincipled):
     def split_sum(self) -> dict[str, GpuTexture]:
         """See `WithSplitSum`."""
         split, resolved = split_families(self._families), len(self._pyramid.bank)
+        split = replace(split, ggx=self._pyramid.resolved(split.ggx))
         textures = {
             "ggx": GpuTexture("split sum as a family", family_texels(split.ggx)),
             "lookups": GpuTexture(

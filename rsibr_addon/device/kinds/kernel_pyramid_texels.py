@@ -19,7 +19,7 @@ Most coats and plastics are glass: their weights are a function of their own, in
 one, which metals do not have. So glass costs one lookup of weights, and a metal without tinted edges two.
 """
 
-_WIDTHS_AN_OCTAVE = 4
+_WIDTHS_AN_OCTAVE = 6
 """As gpu_shaders/lib/family_lib.glsl has it."""
 
 

@@ -4,6 +4,7 @@ The pyramid is an atlas as `kernel_pyramid` shades from. A pass cannot read the 
 each map that others are made of is copied to a second atlas, where it is looked up.
 """
 
+from dataclasses import replace
 from functools import partial
 
 import gpu
@@ -12,6 +13,7 @@ import numpy as np
 from ...core.conventions import Array
 from ...core.kinds.kernel_pyramid.atlas import AtlasLayout, atlas_layout
 from ...core.kinds.kernel_pyramid.live import LiveMaps, live_maps
+from ...core.kinds.kernel_pyramid.pyramid import resolved
 from ...core.kinds.kernel_pyramid.shading import Families
 from ...core.kinds.live_environment import FACE_COUNT
 from ...core.lobes.rings import WIDTHS
@@ -59,6 +61,7 @@ class GpuLivePyramid(LiveFaces, GpuPrincipled):
         how = live_maps(size)
         widths = [how.mirror_width, *(each.width for each in how.others)]
         layout = atlas_layout(widths, how.bank)
+        families = replace(families, ggx=resolved(families.ggx, how.bank, how.mirror_width))
         self._bordered = Target(FACE_COUNT * (size + 2), size + 2)
         self._atlas, self._sources = (Target(layout.width, layout.height) for _ in range(2))
         self._taps = buffers.texture(_tap_texels(how, layout))

@@ -1,6 +1,6 @@
 """An environment filtered with the kernels of families of lobes, each map as large as its kernel needs."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -8,13 +8,18 @@ import numpy as np
 from ...conventions import Array, ArrayLike
 from ...errors import RangeError, ShapeError
 from ...lobes.bank import KernelBank
-from ...lobes.family import KERNELS
+from ...lobes.family import KERNELS, Family
 from ...lobes.rings import WIDTHS
 from ...maps.representation import representation
 from ...resample import lookup
 from ...suns import NO_SUNS, Suns
 
 OCTAHEDRAL = representation("octahedral")
+
+_BLUR = (4.0 * np.pi**2 + 4.0 * np.pi) / 6.0
+"""Mean variance of two bilinear lookups, in an environment and in its map of as many columns n, times n^2: a
+sixth of the squared distance of texels each.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,13 +87,18 @@ class Pyramid:
             for sheets, kappa in zip(self.maps, self.bank.concentrations, strict=True)
         )
 
+    def resolved(self, family: Family) -> Family:
+        """The family with the kernels that this has maps of: see `resolved`."""
+        return resolved(family, self.bank, self.mirror.shape[1])
+
     def kernel(self, concentration: float, direction: ArrayLike) -> Array:
         """The environment without its suns, filtered with a kernel.
 
         Parameters
         ----------
         concentration : float
-            One of the bank's; of larger ones none is resolved, and the environment itself is shown.
+            One of the bank's; of larger ones none is resolved, and the environment itself is shown: see
+            `resolved`.
         direction : array_like, shape (..., 3)
             Axes of the kernel.
 
@@ -100,3 +110,31 @@ class Pyramid:
             return np.minimum(lookup(self.mirror, direction, OCTAHEDRAL), self.suns.ceiling)
         number = self.bank.concentrations.index(concentration)
         return lookup(self.sunless[number], direction, OCTAHEDRAL)
+
+
+def resolved(family: Family, bank: KernelBank, width: int) -> Family:
+    """A family whose kernels are those that have maps, and the mirror's.
+
+    Parameters
+    ----------
+    family : Family
+        Its kernels are `family.KERNELS`.
+    bank : KernelBank
+        The first ones of these, which have maps.
+    width : int
+        Texels along the mirror's map.
+
+    Returns
+    -------
+    Family
+        What a kernel without a map shows is shared between the mirror and the sharpest map, so that both
+        together are as wide as the kernel.
+    """
+    count, variance = len(bank), 1.0 / family.bank.kappa
+    sharpest, mirror = variance[count - 1], _BLUR / width**2
+    shares = np.clip((sharpest - variance[count:]) / (sharpest - mirror), 0.0, 1.0)
+    weights = np.array(family.weights, dtype=np.float64)
+    of_others = weights[..., count:, :]
+    weights[..., count - 1, :] += np.einsum("k,...kc->...c", 1.0 - shares, of_others)
+    of_others *= shares[:, None]
+    return replace(family, weights=weights)

@@ -163,6 +163,7 @@ def _lobes(
     mirror_dir: Array,
 ) -> Array:
     """The sum of a family's lobes, shape (N, 3); kernels without weight are not looked up."""
+    family = pyramid.resolved(family)
     weights = np.einsum("njkc,nci->njki", family.at(family.weights, alpha, mu), coefficients)
     tilts = family.at(family.tilts, alpha, mu)
     offsets = np.stack([tilts, np.zeros_like(tilts)], axis=-1)

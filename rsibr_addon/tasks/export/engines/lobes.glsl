@@ -67,7 +67,7 @@ vec3 rsibr_shade(vec3 base_color, float metallic, float roughness, vec3 normal, 
   view_dir = rsibr_axes(view_dir);
   float mu = clamp(dot(normal, view_dir), 1e-4, 1.0);
   float alpha = clamp(roughness * roughness, 1.0 / 256.0, 1.0);
-  vec2 place = vec2((WIDTHS - 0.5 + 4.0 * log2(alpha)) / WIDTHS, mu);
+  vec2 place = vec2((WIDTHS - 0.5 + $an_octave.0 * log2(alpha)) / WIDTHS, mu);
   vec4 albedo = textureLod(rsibr_lobes, vec3(place, float(ALBEDOS)), 0.0);
   vec3 metal = metallic * rsibr_gain(base_color + (1.0 - base_color) / 21.0, albedo);
   float glass = rsibr_gain(vec3(0.0895), albedo).r;

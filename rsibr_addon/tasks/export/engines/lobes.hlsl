@@ -74,7 +74,7 @@ float3 rsibr_shade(float3 base_color, float metallic, float roughness, float3 no
   view_dir = rsibr_axes(view_dir);
   float mu = clamp(dot(normal, view_dir), 1e-4, 1.0);
   float alpha = clamp(roughness * roughness, 1.0 / 256.0, 1.0);
-  float2 place = float2((WIDTHS - 0.5 + 4.0 * log2(alpha)) / WIDTHS, mu);
+  float2 place = float2((WIDTHS - 0.5 + $an_octave.0 * log2(alpha)) / WIDTHS, mu);
   float4 albedo = rsibr_layer(place, ALBEDOS);
   float3 metal = metallic * rsibr_gain(base_color + (1.0 - base_color) / 21.0, albedo);
   float glass = rsibr_gain(float3(0.0895, 0.0895, 0.0895), albedo).r;

@@ -83,6 +83,7 @@ def write(pyramid: Pyramid, families: Families, name: str, output: Path, force: 
         below = np.minimum(pyramid.mirror, suns.ceiling).astype(np.float32)
         pyramid = replace(pyramid, mirror=below)
     atlas, places = atlas_texels(pyramid)
+    families = replace(families, ggx=pyramid.resolved(families.ggx))
     notes = {"KTXwriter": rsibr()}
     levels = as_halves((atlas[None, ..., :3],), name)
     write_ktx2(files[0], Texture(levels), notes, force, Texels.HALF)
@@ -90,7 +91,9 @@ def write(pyramid: Pyramid, families: Families, name: str, output: Path, force: 
     used = places[0, : len(KERNELS) + 2]  # the mirror and diffuse light are behind the kernels
     for path in files[2:]:
         constants = _constants(used, suns, LANGUAGES[path.suffix])
-        constants |= {"widths": len(families.ggx.alpha), "resolved": len(pyramid.bank)}
+        alpha = families.ggx.alpha
+        constants |= {"widths": len(alpha), "an_octave": round(np.log(2.0) / np.log(alpha[1] / alpha[0]))}
+        constants |= {"resolved": len(pyramid.bank)}
         shader = Template(Path(__file__).with_suffix(path.suffix).read_text(encoding="utf-8"))
         with written_aside(path, force) as aside:
             aside.write_text(shader.substitute(name=output.stem, **constants), encoding="utf-8")

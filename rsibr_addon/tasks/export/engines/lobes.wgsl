@@ -73,7 +73,7 @@ fn rsibr_shade(base_color: vec3f, metallic: f32, roughness: f32, world_normal: v
   let view_dir = rsibr_axes(world_view);
   let mu = clamp(dot(normal, view_dir), 1e-4, 1.0);
   let alpha = clamp(roughness * roughness, 1.0 / 256.0, 1.0);
-  let place = vec2f((WIDTHS - 0.5 + 4.0 * log2(alpha)) / WIDTHS, mu);
+  let place = vec2f((WIDTHS - 0.5 + $an_octave.0 * log2(alpha)) / WIDTHS, mu);
   let albedo = rsibr_layer(place, ALBEDOS);
   let metal = metallic * rsibr_gain(base_color + (1.0 - base_color) / 21.0, albedo);
   var glass = rsibr_gain(vec3f(0.0895), albedo).r;

@@ -26,7 +26,7 @@ from rsibr.rsibr_addon.tasks.methods.fit_captures import filtered_light, shipped
 from rsibr.rsibr_addon.tasks.methods.more_views import AT_ONCE
 
 ENVIRONMENT = "city"
-MATERIALS = ("car paint", "coat, alpha .1, over Lambert")
+MATERIALS = ("car paint", "coat, alpha .1, over Lambert", "copper, alpha .3", "Ward, alpha .1")
 bench_captures.SIZE, bench_captures.RINGS = 64, 192
 captures.TEXELS = 6000
 FIRST = [0, 3, 5, 10]

@@ -72,6 +72,10 @@ class CapturedTexels:
         means: Array = np.add.reduceat(share * values, self.first, axis=0)
         return means
 
+    def power(self, values: Array) -> float:
+        """Sum of squares of values, shape (N, 3), over all texels that the N ones stand for."""
+        return float(np.sum(self.stands_for[:, None] * values**2))
+
 
 def captured_texels(views: RadianceViews, count: int, texels: int, suns: Array) -> CapturedTexels:
     """Texels of the first views: evenly spread ones, and all those in which suns are mirrored.

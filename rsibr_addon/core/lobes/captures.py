@@ -117,7 +117,7 @@ def fit_captures(
             f"There are only {len(views.diffuse)} views, not {count}: use fewer or capture more."
         )
     texels = captured_texels(views, count, TEXELS, light.suns.direction)
-    power = _power(texels, texels.diffuse + texels.glossy)
+    power = texels.power(texels.diffuse + texels.glossy)
     if not 0.0 < power < np.inf:
         raise RangeError("The captured views are black or not finite: capture the material in light.")
     few = captured_texels(views, count, SEARCHED, light.suns.direction)
@@ -131,7 +131,7 @@ def fit_captures(
     lambert = lambert_family(mu, bank)
     for number, (part, kinds) in enumerate({"diffuse": [lambert], "glossy": list(families)}.items()):
         radiance = getattr(texels, part)
-        if _power(texels, radiance) <= NEGLIGIBLE * power:
+        if texels.power(radiance) <= NEGLIGIBLE * power:
             errors += radiance
             continue
         yield Progress(2 * number, 5, f"finding what {part} light is like")
@@ -147,7 +147,7 @@ def fit_captures(
         fitted, left = corrector.best()
         fits.append(_fit(mu, bank, tilts, fitted, brdf))
         errors += left
-        weighed.append(Weighed(mu, tilts, corrector.precision(), _power(texels, left)))
+        weighed.append(Weighed(mu, tilts, corrector.precision(), texels.power(left)))
         if part == "glossy":
             widths = tuple(each.alpha for each in members)
     fit = joined(fits, brdf)
@@ -156,7 +156,7 @@ def fit_captures(
     yield Progress(4, 5, "comparing views left out with new ones")
     comparison = compare_with_new(views.sphere.vertices[:count], views.size, light, weighed)
     counts = comparison.like_new[texels.view][:, None]
-    left_out = _power(texels, counts * errors) / _power(texels, counts * (texels.diffuse + texels.glossy))
+    left_out = texels.power(counts * errors) / texels.power(counts * (texels.diffuse + texels.glossy))
     stated = replace(fit, left_out=float(np.sqrt(left_out)))
     return CapturedFit(stated, widths, tuple(weighed), comparison.share)
 
@@ -168,11 +168,6 @@ def _closer(
     *others, narrowest = members
     family = yield from families[narrowest.family](narrowest.alpha)
     return [*others, Member(family, narrowest.alpha)]
-
-
-def _power(texels: CapturedTexels, values: Array) -> float:
-    """Sum of squares over all texels that the sampled ones stand for."""
-    return float(np.sum(texels.stands_for[:, None] * values**2))
 
 
 def lambert_family(mu: Array, bank: KernelBank) -> Family:

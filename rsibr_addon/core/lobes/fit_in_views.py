@@ -24,9 +24,9 @@ def error_in_views(fit: Fit, light: CapturedLight, views: RadianceViews) -> floa
     views : RadianceViews
     """
     texels = captured_texels(views, len(views.diffuse), TEXELS, light.suns.direction)
-    captured, root = texels.diffuse + texels.glossy, np.sqrt(texels.stands_for)[:, None]
-    rest = root * (fit_radiance(fit, light, texels) - captured)
-    return float(np.linalg.norm(rest) / np.linalg.norm(root * captured))
+    captured = texels.diffuse + texels.glossy
+    rest = fit_radiance(fit, light, texels) - captured
+    return float(np.sqrt(texels.power(rest) / texels.power(captured)))
 
 
 def fit_radiance(fit: Fit, light: CapturedLight, texels: CapturedTexels) -> Array:

@@ -207,9 +207,9 @@ def sunny() -> Array:
 @pytest.mark.parametrize("shared", [False, True])
 def test_suns_are_seen_through_lobes_sharper_than_maps(layout: str, shared: bool) -> None:
     """Kernels up to four times as sharp as the light resolves."""
-    radiance = sunny()
+    radiance, rng = sunny(), np.random.default_rng(3)
     fit = random_fit(KernelBank((2.0, 256.0, SHARPER * sharpest_resolved(HEIGHT))), shared=shared)
-    found = baked(radiance, fit, layout, 64)
+    found = baked(radiance, fit, layout, 128)
     assert found.sharpest < fit.bank.concentrations[-2]
     stack = found.stack
     texel_dir = stack.representation.texel_directions(stack.size)
@@ -219,14 +219,15 @@ def test_suns_are_seen_through_lobes_sharper_than_maps(layout: str, shared: bool
     for mu in fit.mu:
         for sun in sunlight.suns.direction:
             # A view that mirrors the sun, within what offsets turn lobes by
-            mirror_dir = normalize(sun + 0.1 * RNG.normal(size=3))
-            across = normalize(np.cross(mirror_dir, RNG.normal(size=3)))
+            mirror_dir = normalize(sun + 0.1 * rng.normal(size=3))
+            across = normalize(np.cross(mirror_dir, rng.normal(size=3)))
             normal = mu * mirror_dir + np.sqrt(1.0 - mu**2) * across
             view_dir = reflect(mirror_dir, normal)
             expected = np.maximum(sum_over_texels(fit, radiance, normal, view_dir), 0.0)
             shaded = stack_radiance(apart, normal, view_dir, StackLook())
-            # Between texels .05 apart, light of a curvature twice its own is off by .05^2 / 4; lobes cancel
-            np.testing.assert_allclose(shaded, expected, rtol=5e-3, atol=0.02)
+            # Beside suns, the kernel in the maps is broader than two by a variance of 1 / 256 to 1 / 128,
+            # times the light's curvature of about 3 and taps and weights that sum to 4
+            np.testing.assert_allclose(shaded, expected, rtol=5e-3, atol=0.1)
 
 
 def test_too_narrow_lobes_are_refused_with_the_remedy() -> None:

@@ -191,9 +191,10 @@ def test_stack_radiance(layout: str, shared: bool) -> None:
 
 def sunlit(shared: bool) -> LobeStack:
     """Two suns and kernels about as wide as lobes' axes are far from them."""
-    weights = RNG.uniform(-0.2, 1.0, (3, 1 if shared else 5, 3, 3))
+    rng = np.random.default_rng(44)
+    weights = rng.uniform(-0.2, 1.0, (3, 1 if shared else 5, 3, 3))
     suns = Suns(
-        normalize([(1.0, 2.0, 3.0), (-3.0, 1.0, -1.0)]), RNG.uniform(1.0, 2.0, (2, 3)), np.ones(3), 0.1
+        normalize([(1.0, 2.0, 3.0), (-3.0, 1.0, -1.0)]), rng.uniform(1.0, 2.0, (2, 3)), np.ones(3), 0.1
     )
     sunlight = Sunlight(suns, KernelBank((200.0, 800.0, 65536.0)), weights)
     return replace(random_stack("octahedral", SIZE, shared), sunlight=sunlight)
@@ -202,7 +203,8 @@ def sunlit(shared: bool) -> LobeStack:
 def near_suns(stack: LobeStack) -> np.ndarray:
     """Directions at all distances from suns, and some on them."""
     suns = stack.sunlight.suns.direction[np.arange(COUNT) % 2]
-    away = 10.0 ** RNG.uniform(-4.0, -0.5, (COUNT, 1))
+    rng = np.random.default_rng(45)
+    away = 10.0 ** rng.uniform(-4.0, -0.5, (COUNT, 1))
     away[:10] = 0.0
     return single(normalize(suns + away * unit_vectors(43)))
 

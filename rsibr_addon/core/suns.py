@@ -156,10 +156,8 @@ class Suns:
             The sun, filtered with each kernel.
         """
         widened = self.widened(bank)
-        every = axis @ self.direction.T > 1.0 - far_from(widened)
-        for near, direction, irradiance in zip(
-            np.moveaxis(every, -1, 0), self.direction, self.irradiance, strict=True
-        ):
+        for direction, irradiance in zip(self.direction, self.irradiance, strict=True):
+            near = axis @ direction > 1.0 - far_from(widened)
             between = axis[near] - direction
             yield near, widened.values(0.25 * dot(between, between))[..., None] * irradiance
 

@@ -236,8 +236,8 @@ def find_suns(radiance: Array, least_share: float = MODELS_LEAST_SHARE) -> Suns:
     solid_angle = equirect.texel_solid_angle(width, height)
     power = np.einsum("hwc,hwc->hw", radiance, radiance, dtype=np.float64) * solid_angle
     of_cells = _by_cells(np.add, power, step)
-    brightest = np.argsort(-of_cells, axis=None, kind="stable")[:MOST_SUNS]
-    chosen = brightest[of_cells.flat[brightest] > FAINTEST * power.sum()]
+    bright = np.flatnonzero(of_cells > FAINTEST * power.sum())
+    chosen = bright[np.argsort(-of_cells.flat[bright], kind="stable")][:MOST_SUNS]
     rows, columns = np.unravel_index(chosen, of_cells.shape)
     others = _by_cells(np.maximum, radiance, step)
     others[rows, columns] = 0.0

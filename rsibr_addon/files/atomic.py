@@ -3,7 +3,7 @@
 import contextlib
 import os
 import stat
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 from ..core.errors import OutputFileError
@@ -43,27 +43,6 @@ def check_target(path: str | Path, force: bool = False, endings: tuple[str, ...]
         raise OutputFileError(f"{path} exists: give another name, or --force to replace it.")
     if path.exists() and is_read_only(path):
         raise OutputFileError(f"{path} is read-only: change its permissions, or give another name.")
-
-
-def check_apart(output: str | Path, sources: Iterable[Path]) -> None:
-    """Refuse an output that would take the place of what it is made of, before long work begins.
-
-    Parameters
-    ----------
-    output : str or Path
-        The file or folder that will be written.
-    sources : iterable of Path
-        Files that the work reads.
-
-    Raises
-    ------
-    OutputFileError
-        One of them is `output`, or in it.
-    """
-    target = Path(output).resolve()
-    for source in sources:
-        if source.resolve().is_relative_to(target):
-            raise OutputFileError(f"{output} would replace {source}, of which it is made: give another name.")
 
 
 def check_name(path: Path) -> None:

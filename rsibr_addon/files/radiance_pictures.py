@@ -8,7 +8,8 @@ import numpy as np
 from ..core.conventions import Array
 from ..core.errors import InputFileError
 from . import exr, radiance_hdr
-from .atomic import check_apart, check_target, written_aside
+from .apart import check_apart
+from .atomic import check_target, written_aside
 from .exr_part import Part
 from .picture_facts import PictureFacts
 from .pictures import describe_exr, picture_of, split_layer

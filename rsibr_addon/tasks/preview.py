@@ -18,7 +18,8 @@ from ..core.warned import warn
 from ..device.drawing import GpuMapSet
 from ..device.lit_sphere import GpuLitSphere
 from ..device.preview import STILL, PreviewRenderer
-from ..files.atomic import check_apart, check_target, written_aside
+from ..files.apart import check_apart
+from ..files.atomic import check_target, written_aside
 from ..files.kinds.registry import look_types
 from ..files.outputs import together
 from ..files.pictures import write_exr

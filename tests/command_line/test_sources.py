@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.errors import OutputFileError
-from rsibr.rsibr_addon.files.atomic import check_apart
+from rsibr.rsibr_addon.files.apart import check_apart
 from rsibr.rsibr_addon.files.radiance_pictures import write_radiance
 from rsibr.tests.json_command import json_result
 
@@ -21,6 +21,13 @@ OVER_THEIR_SOURCE = {
     "ball": ("illuminate", "ball", "light.exr", "--circle", "8,4,3", "-o", "light.exr"),
     "brackets": (*BRACKETS, "-o", "other.hdr"),
     "painted": ("illuminate", "painted", "light.hdr", "--white", "4", "-o", "light.hdr"),
+    "preview": ("preview", "light.exr", "-o", "light.exr"),
+    "a background": ("preview", "light.hdr", "--background", "light.exr", "-o", "light.exr"),
+    "a layer of a background": ("preview", "light.hdr", "--background", "light.exr:a", "-o", "light.exr"),
+    "a layer baked": ("bake", "mip-chain", "--environment", "light.exr:a", "--size", "4", "-o", "light.exr"),
+    "a layer exported": ("export", "light.exr:a", "--for", "unity", "-o", "light.exr"),
+    "a layer converted": ("convert", "light.exr:a", "light.exr", *EQUIRECT),
+    "a layer as a ball": ("illuminate", "ball", "light.exr:a", "--circle", "8,4,3", "-o", "light.exr"),
 }
 
 
@@ -34,7 +41,13 @@ def lights(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-@pytest.mark.parametrize("command", OVER_THEIR_SOURCE)
+@pytest.mark.parametrize(
+    "command",
+    [
+        pytest.param(name, marks=pytest.mark.needs("bpy") if argv[0] == "preview" else ())
+        for name, argv in OVER_THEIR_SOURCE.items()
+    ],
+)
 def test_even_force_replaces_no_source(command: str, lights: Path, capfd: pytest.CaptureFixture[str]) -> None:
     argv = OVER_THEIR_SOURCE[command]
     before = {path.name: path.read_bytes() for path in lights.iterdir()}

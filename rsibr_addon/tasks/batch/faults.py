@@ -8,7 +8,7 @@ from ...core.brdf.spec import MATERIAL, MODELS, is_model
 from ...core.errors import RsibrError
 from ...core.near_names import did_you_mean
 from ...core.options import declared_options
-from ...files.atomic import check_apart
+from ...files.apart import check_apart
 from ...files.reading import opened
 from ..methods.bake import METHODS, source_files
 from .bakes import BatchBake

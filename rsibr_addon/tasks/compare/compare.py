@@ -6,7 +6,7 @@ from pathlib import Path
 from ...core.errors import MapSetError
 from ...core.progress import Progress, Steps
 from ...device.context import ensure_context
-from ...files.atomic import check_apart
+from ...files.apart import check_apart
 from ...files.folders import check_folder_target, folder_written_aside
 from ...files.kinds.registry import STORED
 from ...files.map_set_header import content_hash

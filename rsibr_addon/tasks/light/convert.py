@@ -10,7 +10,6 @@ from ...core.progress import Progress, Steps
 from ...core.resample import resample
 from ...files.map_pictures import check_map_target, layout, read_map, write_map
 from ...files.memory import check_memory
-from ...files.pictures import split_layer
 from ...files.radiance_pictures import describe_radiance
 from ...settings.convert import ConvertSettings
 from .light_pictures import read_light
@@ -45,7 +44,7 @@ def convert(source: Path, settings: ConvertSettings, output: Path, force: bool =
     before, after = (
         layout(name, **settings.parameters(name)) for name in (settings.source_layout, settings.target_layout)
     )
-    check_map_target(output, after, force, before.paths(split_layer(source)[0]))
+    check_map_target(output, after, force, before.paths(source))
     sheets, height, width = after.representation.shape(settings.size)
     check_memory(BYTES_OF_TEXEL * sheets * height * width, str(output), (width, height))
     yield Progress(0, 3, f"reading {source.name}")

@@ -8,7 +8,7 @@ from typing import Any
 from ...core.errors import OutputFileError
 from ...core.lazy_table import LazyTable
 from ...core.progress import Progress, Steps
-from ...files.atomic import check_apart
+from ...files.apart import check_apart
 from ...files.kinds.registry import STORED
 from ...files.map_set import check_map_set_target
 from ...files.map_set_header import Recipe

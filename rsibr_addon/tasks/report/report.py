@@ -17,7 +17,8 @@ from ...core.pictures.thumbnail import thumbnail
 from ...core.progress import Progress, Steps
 from ...core.warned import warn
 from ...device.preview import PreviewRenderer
-from ...files.atomic import check_apart, check_target, written_aside
+from ...files.apart import check_apart
+from ...files.atomic import check_target, written_aside
 from ...files.folders import check_folder_target, folder_written_aside
 from ...files.kinds.registry import STORED, look_types
 from ...files.map_set import read_map_set

@@ -13,7 +13,8 @@ from ....core.kinds.kernel_pyramid.pyramid import Pyramid
 from ....core.kinds.mip_chain.ggx import ggx_mips
 from ....core.maps import cube_map
 from ....core.progress import Progress, Steps
-from ....files.atomic import check_apart, check_target
+from ....files.apart import check_apart
+from ....files.atomic import check_target
 from ....files.kinds import environment, kernel_pyramid, mip_chain
 from ....files.kinds.kernel_pyramid import shipped_families
 from ....files.map_set import read_map_set

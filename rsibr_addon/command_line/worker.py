@@ -90,14 +90,12 @@ def _baked(job: BakeJob[Any], told: Outlet, known_whole: bool) -> dict[str, Any]
 
 
 def _errors(job: BakeJob[Any]) -> dict[str, float]:
-    """The errors that a job's map set states; of several of a name, the largest."""
+    """The errors that a job's map set states; none of a job that makes none."""
     from ..files.kinds.registry import STORED
     from ..files.map_set import read_map_set_header
+    from ..files.map_set_facts import largest_errors
 
-    if job.settings.KIND not in STORED:
-        return {}
-    stated = read_map_set_header(job.output)["error_bound"] or {}
-    return {name: max(value) if isinstance(value, list) else value for name, value in stated.items()}
+    return largest_errors(read_map_set_header(job.output)) if job.settings.KIND in STORED else {}
 
 
 def _picture(job: BakeJob[Any]) -> str:

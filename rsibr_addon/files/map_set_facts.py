@@ -33,12 +33,15 @@ def told_facts(header: dict[str, Any]) -> dict[str, str]:
 
 
 def told_errors(header: dict[str, Any]) -> dict[str, str]:
-    """The errors that its maker promises: the largest, where it states several; or that there is none."""
-    stated = {
-        in_words(f"error, {name}"): f"{max(value) if isinstance(value, list) else value:.2g}"
-        for name, value in (header["error_bound"] or {}).items()
-    }
+    """The errors that its maker promises, in words; or that there is none."""
+    stated = {in_words(f"error, {name}"): f"{error:.2g}" for name, error in largest_errors(header).items()}
     return stated or {"Error": "none stated"}
+
+
+def largest_errors(header: dict[str, Any]) -> dict[str, float]:
+    """The errors that its maker promises, by the description's names: of several of a name, the largest."""
+    stated = header["error_bound"] or {}
+    return {name: max(value) if isinstance(value, list) else value for name, value in stated.items()}
 
 
 def told_making(header: dict[str, Any]) -> dict[str, str]:

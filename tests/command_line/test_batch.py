@@ -157,14 +157,14 @@ def test_a_page_counts_its_bakes_and_folds_their_warnings() -> None:
     write_batch(environments=["light/dawn.exr"], materials=["chrome", "matte"])
     one, other = read_batch(Path("metals.json"))
     told = ["Its maps are too coarse & dark.", "Another."]
-    errors = {"interpolation": 0.125}
+    errors = {"relative_to_peak": 0.125}
     note = Note(stamp="", told="tables", seconds=1.0, processor=1.0, errors=errors, warnings=told, picture="")
     write_index(Path("page.html"), "metals", [one], [note], {})
     text = Path("page.html").read_text()
     assert "<p>1 bake, 0 failed;" in text
     assert "<details><summary>Its maps are too coarse &amp; dark.</summary></details>" in text
     assert text.count("<details>") == 2
-    assert "interpolation 0.12" in text
+    assert "relative to peak 0.12" in text
     write_index(Path("page.html"), "metals", [one, other], [note, None], {})
     assert "<p>2 bakes, 0 failed;" in Path("page.html").read_text()
 

@@ -71,7 +71,7 @@ def _figure(page: Path, bake: BatchBake, note: Note | None, failures: Mapping[st
     if note:
         told = [note["told"], f"{note['seconds']:.2f} s"] if note["seconds"] else ["there before this batch"]
         picture = f'<img alt="" src="data:image/png;base64,{note["picture"]}">'
-        told += [f"{name} {error:.2g}" for name, error in note["errors"].items()]
+        told += [f"{what.replace('_', ' ')} {error:.2g}" for what, error in note["errors"].items()]
         warnings = "".join(
             f"<details><summary>{escape(warning)}</summary></details>" for warning in note["warnings"]
         )

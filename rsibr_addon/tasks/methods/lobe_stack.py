@@ -22,6 +22,7 @@ from ...core.progress import Progress, Steps
 from ...core.warned import warn
 from ...files.kinds.lobe_stack import in_turn
 from ...files.map_set_header import Origin, Recipe
+from ...files.output_paths import bare_name
 from ...files.stated_lobes import stated_lobes
 from ...job import BakeJob
 from ...settings.fit import Fitting
@@ -47,7 +48,7 @@ LOBE_SIZE = 128
 def material(settings: LobeStackSettings) -> str:
     """See `Method`."""
     if settings.brdf is None:
-        return Path(settings.fit or "").name.removesuffix(".json").removesuffix(".exr").removesuffix(".rsibr")
+        return bare_name(Path((settings.fit or "").removesuffix(".json")))
     named = gallery_name(settings.brdf)
     return named if "path=" not in named else Path(named).stem
 

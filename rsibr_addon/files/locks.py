@@ -14,8 +14,8 @@ LOCK = "rsibr.lock"
 TRIES = 100
 """Most tries to hold a folder, which its former holder may be removing each time."""
 
-
 _own: set[Path] = set()
+"""Folders that this process holds alone."""
 
 
 @contextlib.contextmanager

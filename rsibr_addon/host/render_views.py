@@ -17,7 +17,6 @@ from .world_light import AS_IT_IS, WorldLight, world_light
 CAMERAS = ("PERSP", "ORTHO")
 """Types of cameras whose rays a matrix describes."""
 
-
 NOTHING = 1e10
 """Depth of what no surface covers, as Cycles has it."""
 

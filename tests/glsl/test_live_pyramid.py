@@ -54,6 +54,24 @@ def test_a_later_change_leaves_nothing_of_what_was() -> None:
     np.testing.assert_array_equal(read(live._atlas), read(fresh._atlas))
 
 
+def test_the_same_lamps_are_not_uploaded_again() -> None:
+    ensure_context()
+    live = GpuLivePyramid(FACE, families())
+    live.set_lamps(*LAMPS)
+    lookups = live.textures[1]
+    live.set_lamps(*(np.copy(each) if isinstance(each, np.ndarray) else each for each in LAMPS))
+    assert live.textures[1] is lookups
+    direction, irradiance, angle = LAMPS
+    for lamps in (
+        (direction[::-1], irradiance, angle),
+        (direction, 2.0 * irradiance, angle),
+        (*LAMPS[:2], 0.1),
+    ):
+        live.set_lamps(*lamps)
+        assert live.textures[1] is not lookups
+        lookups = live.textures[1]
+
+
 @pytest.mark.slow
 def test_suns_of_lamps_light_all_that_the_reference_lights() -> None:
     ensure_context()

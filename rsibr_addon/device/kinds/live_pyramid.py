@@ -59,20 +59,20 @@ class GpuLivePyramid(LiveFaces, GpuPrincipled):
     def __init__(self, size: int, families: Families) -> None:
         LiveFaces.__init__(self, size)
         how = live_maps(size)
-        widths = [how.mirror_width, *(each.width for each in how.others)]
-        layout = atlas_layout(widths, how.bank)
+        layout = atlas_layout(how.widths, how.bank)
         families = replace(families, ggx=resolved(families.ggx, how.bank, how.mirror_width))
         self._bordered = Target(FACE_COUNT * (size + 2), size + 2)
         self._atlas, self._sources = (Target(layout.width, layout.height) for _ in range(2))
         self._taps = buffers.texture(_tap_texels(how, layout))
         self._looked_up = {each.source for each in how.others}
         self._places = [
-            (*corner, width + 2, width + 2) for corner, width in zip(layout.corners, widths, strict=True)
+            (*corner, width + 2, width + 2) for corner, width in zip(layout.corners, how.widths, strict=True)
         ]
         self._lookups_of = partial(lookup_texels, families, layout.places, resolved=len(how.bank))
         lookups = GpuTexture("lookups", self._lookups_of(suns=NO_SUNS))
         light = GpuTexture.drawn(self._atlas.texture), lookups
         GpuPrincipled.__init__(self, (*light, *family_textures(families)), has_suns=False)
+        self._lamps: tuple[bytes, bytes, float] | None = None
 
     def set_lamps(self, direction: Array, irradiance: Array, angle: float) -> None:
         """Set the lamps that are suns and in no face; `filter` has to be called before they show.
@@ -83,7 +83,10 @@ class GpuLivePyramid(LiveFaces, GpuPrincipled):
         angle : float
             See `core.suns.lamp_suns`.
         """
-        suns = lamp_suns(direction, irradiance, angle)
+        lamps = direction.tobytes(), irradiance.tobytes(), angle
+        if lamps == self._lamps:  # as at most changes; their texels take longer than issuing the filter
+            return
+        self._lamps, suns = lamps, lamp_suns(direction, irradiance, angle)
         atlas, _, *of_families = self.textures
         lookups = GpuTexture("lookups", self._lookups_of(suns=suns))
         self.textures, self._suns = (atlas, lookups, *of_families), (SUNS,) if len(suns) else ()
@@ -128,13 +131,12 @@ def _tap_texels(how: LiveMaps, layout: AtlasLayout) -> Array:
         (len(how.others), _FIRST_TAP + max(len(each.taps) for each in how.others), 4), np.float32
     )
     corners = np.array(layout.corners)
-    widths = [how.mirror_width, *(each.width for each in how.others)]
     for number, (row, each) in enumerate(zip(texels, how.others, strict=True), 1):
         left, bottom = corners[each.source] + 1
         row[0] = (
             left / layout.width,
             bottom / layout.height,
-            widths[each.source] / layout.width,
+            how.widths[each.source] / layout.width,
             len(each.taps),
         )
         row[1, :2], row[1, 2] = corners[number] + 1, each.width

@@ -103,6 +103,11 @@ class LiveMaps:
     mirror_width: int
     others: tuple[LiveMap, ...]
 
+    @property
+    def widths(self) -> list[int]:
+        """Of all maps in texels, the mirror's first."""
+        return [self.mirror_width, *(each.width for each in self.others)]
+
 
 @dataclass(frozen=True)
 class _Source:
@@ -167,7 +172,8 @@ def live_pyramid(faces: Array, suns: Suns = NO_SUNS) -> Pyramid:
 
     Notes
     -----
-    GPU twin: `device.kinds.live_pyramid.GpuLivePyramid`, within 2e-3 of the brightest from half floats.
+    GPU twin: `device.kinds.live_pyramid.GpuLivePyramid`, within 1/256 of the brightest, as hardware may round
+    the weights of bilinear lookups.
     """
     how = live_maps(faces.shape[1])
     sheets = [lookup(faces, OCTAHEDRAL.texel_directions(how.mirror_width), CUBE)]

@@ -1,4 +1,4 @@
-"""Meshes that are named by texts, for a page: built in, of OBJ files, and objects of a Blender file."""
+"""Meshes that are named by texts, for a page: built in, of files, and objects of a Blender file."""
 
 from collections.abc import Sequence
 from pathlib import Path

@@ -98,6 +98,8 @@ def bake(job: BakeJob[LobeStackSettings], recipe: Recipe) -> Steps[Baked]:
         The text describes no model; the environment resolves no kernel at all, or a fit's lobe is narrower
         than it resolves; light is too bright for half floats, or the maps are too large for this machine's
         memory.
+    InputFileError
+        See `stated_lobes`.
 
     Warns
     -----

@@ -108,13 +108,13 @@ def bake(job: BakeJob[RadianceViewsSettings], recipe: Recipe) -> Steps[Baked]:
     -----
     RsibrWarning
         The material depends on more than normal and view; the environment was clamped; views of
-        another job were removed.
+        another job were removed; or see `capture_views`.
 
     Notes
     -----
     Each finished view is kept in OUTPUT.partial until the map set is whole. A job that was
     interrupted, even killed, goes on with them, and the result is the same, bit by bit. Never more than
-    one view is in memory, but where lobes are fitted to choose more views.
+    one view is in memory, but where lobes are fitted.
     """
     asked = job.settings
     sphere = _sphere(asked)

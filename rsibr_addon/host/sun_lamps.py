@@ -35,17 +35,15 @@ def suns_above(
     irradiance : ndarray, shape (N, 3)
         On a surface that faces them; what a lamp's nodes say is left out.
     angle : float
-        Angle across the smallest [rad].
+        Angle across the smallest [rad]; pi where there is none.
     """
     shown = {"MATERIAL": shading.use_scene_lights, "RENDERED": shading.use_scene_lights_render}
     directions, irradiances, angles = [], [], [np.pi]
     for instance in depsgraph.object_instances if shown.get(shading.type, False) else ():
         if instance.object.type != "LIGHT" or instance.object.data.type != "SUN":
             continue
-        towards, irradiance = (
-            normalize(np.array(instance.matrix_world)[:3, 2]),
-            _irradiance(instance.object.data),
-        )
+        towards = normalize(np.array(instance.matrix_world)[:3, 2])
+        irradiance = _irradiance(instance.object.data)
         begin = Vector((point + distance * towards).tolist())
         is_hidden, *_ = scene.ray_cast(depsgraph, begin, Vector(towards.tolist()))
         if irradiance.any() and not is_hidden:

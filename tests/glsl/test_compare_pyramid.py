@@ -15,7 +15,7 @@ from rsibr.rsibr_addon.files.map_set_header import Origin
 from rsibr.rsibr_addon.files.output_paths import comparison_beside
 from rsibr.rsibr_addon.settings.kernel_pyramid import PyramidComparison
 from rsibr.rsibr_addon.tasks.compare.compare import compare
-from rsibr.rsibr_addon.tasks.compare.measured_error import measured_facts
+from rsibr.rsibr_addon.tasks.compare.measured_error import measured_facts, measured_sentence
 
 pytestmark = pytest.mark.needs("gl")
 
@@ -38,11 +38,16 @@ def test_a_metal_is_as_close_as_spheres_are_and_told_of_itself_alone(path: Path)
     (error,) = found.errors
     # What is asked of textured spheres
     assert 0.0 < error.worst < 0.03
-    measured, against = measured_facts(path, PrincipledLook(own=False, **METAL)).values()
-    assert measured.startswith(f"{100.0 * error.pooled:.2g} %")
-    assert against == "the model itself, 2 views"
-    assert measured_facts(path, PrincipledLook(own=True, **METAL)) == {}
-    assert measured_facts(path, PrincipledLook(own=False)) == {}
+    pooled, worst = f"{100.0 * error.pooled:.2g} %", f"{100.0 * error.worst:.2g} %"
+    assert measured_facts(path) == {
+        "Measured": f"{pooled}, at worst {worst}",
+        "Against": "the model itself, 2 views",
+    }
+    assert measured_sentence(path, PrincipledLook(own=False, **METAL)) == (
+        f"On the whole {pooled} off the model itself, {worst} in the worst of 2 views."
+    )
+    assert measured_sentence(path, PrincipledLook(own=True, **METAL)) == ""
+    assert measured_sentence(path, PrincipledLook(own=False)) == ""
 
 
 def test_a_mirror_is_refused(tmp_path: Path, path: Path) -> None:

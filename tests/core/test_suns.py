@@ -16,10 +16,11 @@ from rsibr.rsibr_addon.core.kinds.kernel_pyramid import shading
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.bake import bake_pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.pyramid import OCTAHEDRAL, Pyramid
 from rsibr.rsibr_addon.core.kinds.kernel_pyramid.shading import principled_radiance
+from rsibr.rsibr_addon.core.lobes.bank import KernelBank
 from rsibr.rsibr_addon.core.maps import equirect
 from rsibr.rsibr_addon.core.progress import drain
 from rsibr.rsibr_addon.core.resample import lookup
-from rsibr.rsibr_addon.core.suns import MOST_SUNS, NO_SUNS, Suns, find_suns
+from rsibr.rsibr_addon.core.suns import MOST_SUNS, NO_SUNS, Suns, find_suns, lamp_suns
 from rsibr.rsibr_addon.files.kinds.kernel_pyramid import shipped_families
 
 HEIGHT, WIDTH = 128, 256
@@ -67,6 +68,34 @@ def test_texels_of_a_cell_are_one_sun() -> None:
     np.testing.assert_allclose(suns.irradiance.sum(axis=0), taken)
     middle = equirect.direction_from_uv(np.array([401.0 / 1202, 301.0 / 600]))
     np.testing.assert_allclose((suns.direction @ middle).max(), 1.0, atol=1e-9)
+
+
+def test_a_kernel_shows_a_sun_of_several_texels_as_the_sum_over_them() -> None:
+    light = np.full((600, 1202, 3), 0.1)
+    light[300:302, 400:402] = 5000.0, 3000.0, 1000.0
+    suns, bank = find_suns(light), KernelBank((1e4,))
+    texels = equirect.direction_from_uv(texel_centres(1202, 600))[300:302, 400:402].reshape(-1, 3)
+    across = normalize(np.cross(suns.direction[0], [0.0, 0.0, 1.0]))
+    angle = np.linspace(0.0, 0.03, 7)[:, None]
+    axis = np.cos(angle) * suns.direction[0] + np.sin(angle) * across
+
+    def shown(kernel: KernelBank, towards: np.ndarray) -> np.ndarray:
+        between = axis - towards
+        return kernel.values(0.25 * dot(between, between))[:, 0]
+
+    expected = np.mean([shown(bank, texel) for texel in texels], axis=0)
+    wide, narrow = (shown(kernel, suns.direction[0]) for kernel in (suns.widened(bank), bank))
+    # Two texels along each axis are no Gaussian: half the square of .07, their variance over the kernel's
+    np.testing.assert_allclose(wide, expected, atol=2.5e-3 * expected.max())
+    assert np.abs(narrow - expected).max() > 0.05 * expected.max()
+
+
+def test_the_brightest_lamps_are_suns() -> None:
+    direction = normalize(np.random.default_rng(6).normal(size=(MOST_SUNS + 3, 3)))
+    irradiance = np.arange(1.0, MOST_SUNS + 4.0)[:, None] * [1.0, 0.5, 0.2]
+    suns = lamp_suns(direction, irradiance, 0.01)
+    np.testing.assert_array_equal(suns.direction, direction[:2:-1])
+    np.testing.assert_array_equal(suns.irradiance, irradiance[:2:-1])
 
 
 @pytest.mark.parametrize("light", [np.zeros((16, 32, 3)), np.ones((16, 32, 3)), sky(1.0)])

@@ -1,5 +1,5 @@
-// Twin of rsibr_addon/core/suns.py. A program for light with suns defines SUNS. The last
-// column of `lookups` holds, after the places of maps, what device/kinds/kernel_pyramid_texels.py says.
+// Twin of rsibr_addon/core/suns.py. A program for light with suns defines SUNS. The last column of `lookups`
+// holds, after the places of maps, what device/kinds/kernel_pyramid_texels.py says.
 #include "lib/directions_lib.glsl"
 #include "lib/fresnel_powers_lib.glsl"
 

@@ -243,6 +243,7 @@ def filter_environment(radiance: Array, bank: KernelBank, layout: str, size: int
 def _standing_in(kappa: Array, height: int) -> float:
     """Concentration of the kernel that stands for sharper ones in maps of an environment."""
     resolved = sharpest_resolved(height)
+    # Filtering refuses a kernel for which none may stand
     return resolved if kappa.max(initial=0.0) <= SHARPER * resolved else float(kappa.max())
 
 

@@ -58,14 +58,16 @@ class BakedStack:
     sharpest : float
         Concentration of the kernel that stands for sharper ones in the maps.
     interpolation : float
-        Relative root-mean-square error that bilinear lookups between texels are expected to cost on a sphere,
-        suns apart.
+        Relative root-mean-square error that bilinear lookups between texels are expected to cost on a sphere.
+    interpolation_suns_apart : float
+        The same where suns are taken out of the maps, as we show them; equal where there are none.
     """
 
     filtered: FilteredBank
     fit: Fit
     sharpest: float
     interpolation: float
+    interpolation_suns_apart: float
 
     @property
     def in_maps(self) -> Fit:
@@ -201,7 +203,7 @@ def bake_stack(
     is_sharp = bank.kappa[:, None, None] >= SHARP_FOR_SUNS
     shown, _ = _power(in_maps, series, whole, np.where(is_sharp, apart, whole))
     if size is None:
-        # The maps serve other programs too, for which they hold suns
+        # Other programs look the maps up with suns in them
         size = next((n for n in SIZES if cost(n, in_file) <= ALLOWED_INTERPOLATION), SIZES[-1])
     afford(_bytes(len(bank), layout, size), size)
     yield Progress(1, 2, f"filtering {fit.weights.shape[0] * fit.weights.shape[1]} maps of {size} texels")
@@ -209,7 +211,7 @@ def bake_stack(
         filtered = _filtered(harmonics, bank, series, layout, size)
     except RangeError as error:
         raise RangeError(f"This environment is too coarse for some lobes of the fit. {error}") from error
-    return BakedStack(filtered, fit, sharpest, cost(size, shown))
+    return BakedStack(filtered, fit, sharpest, cost(size, in_file), cost(size, shown))
 
 
 def filter_environment(radiance: Array, bank: KernelBank, layout: str, size: int) -> FilteredBank:

@@ -92,11 +92,15 @@ def in_turn(baked: BakedStack, origin: Origin) -> MapsInTurn:
     """
     fit, filtered = baked.fit, baked.filtered
     size = filtered.size, filtered.size * filtered.maps.shape[1]
-    left_out = {} if fit.left_out is None else {"left_out": fit.left_out}
+    bounds: dict[str, Any] = {"filter": baked.bound.tolist(), "interpolation": baked.interpolation}
+    if baked.interpolation_suns_apart != baked.interpolation:
+        bounds["interpolation_suns_apart"] = baked.interpolation_suns_apart
+    if fit.left_out is not None:
+        bounds["left_out"] = fit.left_out
     made = replace(
         origin,
         material={"brdf": fit.brdf, "method": fit.method, PROFILES: profiles(fit, baked.sharpest)},
-        error_bound={"filter": baked.bound.tolist(), "interpolation": baked.interpolation} | left_out,
+        error_bound=bounds,
     )
     header = make_header(filtered.layout, size, _parts(fit, fit.weights.shape[1]), made)
     shapes = {part["name"]: size[::-1] for part in header["parts"]}

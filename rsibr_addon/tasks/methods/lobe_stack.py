@@ -115,12 +115,9 @@ def bake(job: BakeJob[LobeStackSettings], recipe: Recipe) -> Steps[Baked]:
         fit = yield from _resolved_fit(settings, light, recipe)
     afford = method.afforded_by(job, BYTES_BESIDES)
     baked = yield from bake_stack(light.radiance, fit, settings.layout, settings.size, afford)
-    size, interpolation = baked.filtered.size, baked.interpolation
-    if interpolation > TOLD_INTERPOLATION:
-        warn(
-            f"Lookups in maps of {size} texels cost about {100.0 * interpolation:.2g} %: choose "
-            f"a larger size."
-        )
+    size, shown = baked.filtered.size, baked.interpolation_suns_apart
+    if shown > TOLD_INTERPOLATION:
+        warn(f"Lookups in maps of {size} texels cost about {100.0 * shown:.2g} %: choose a larger size.")
     stated = {"layout": settings.layout, "size": size, "half": settings.half}
     origin = Origin(light, stated, method.software_of(job, is_material(settings.brdf or "")))
     path = yield from method.written(job, recipe, in_turn(baked, origin), settings.half)
@@ -133,7 +130,8 @@ def bake(job: BakeJob[LobeStackSettings], recipe: Recipe) -> Steps[Baked]:
             "elevations": len(baked.fit.mu),
             "maps": maps,
             "size": size,
-            "interpolation": interpolation,
+            "interpolation": baked.interpolation,
+            "interpolation_suns_apart": shown,
         },
     )
 

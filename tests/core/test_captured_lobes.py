@@ -154,4 +154,6 @@ def test_tridiagonal_systems_are_solved_as_whole_ones_are() -> None:
     # Normal equations of 20 rows each are conditioned well
     np.testing.assert_allclose(solved, expected, rtol=1e-9, atol=1e-12)
     np.testing.assert_allclose(system @ solved, right, rtol=1e-9, atol=1e-12)
+    powers = system.powers(right[:, block] for block in range(blocks))
+    np.testing.assert_allclose(powers, np.sum(right * expected, axis=(1, 2)), rtol=1e-9)
     np.testing.assert_allclose(system.trace(), np.trace(dense, axis1=1, axis2=2), rtol=1e-12)

@@ -11,9 +11,10 @@ from functools import cached_property
 import numpy as np
 
 from ..conventions import Array
+from ..geometry.directions import dot
 from ..kinds.kernel_bank.filtered_bank import FilteredBank
 from ..resample import texels_around
-from ..suns import LOBES_LEAST_SHARE, Suns, find_suns, sharp_of
+from ..suns import LOBES_LEAST_SHARE, Suns, far_from, find_suns, sharp_of
 from .bank import KernelBank
 
 _IN_CACHES = 2048
@@ -65,15 +66,20 @@ class CapturedLight:
             found[some] = shares[0, some] * self._texels[places[0, some]]
             for index, share in zip(places[1:, some], shares[1:, some], strict=True):
                 found[some] += share * self._texels[index]
-        self._add_suns(axes, found.reshape(len(axes), -1, 3))
+            self._add_suns(axes[some], found[some].reshape(-1, len(filtered.bank), 3))
         return found
 
     def _add_suns(self, axes: Array, found: Array) -> None:
+        """Add all suns at once, as `Suns.near` gives them one by one: a fit asks for them at each step."""
         sharp = sharp_of(self.filtered.bank)
-        if sharp is not None:
-            of_sharp = found[:, -len(sharp) :]
-            for near, light in self.suns.near(sharp, axes):
-                of_sharp[near] += light
+        if sharp is None or not len(self.suns):
+            return
+        seen_as = self.suns.widened(sharp)
+        near = np.flatnonzero(np.max(axes @ self.suns.direction.T, axis=1) > 1.0 - far_from(seen_as))
+        between = axes[near, None] - self.suns.direction
+        kernels = seen_as.values(0.25 * dot(between, between)).astype(np.float32)
+        light = np.swapaxes(kernels, 1, 2) @ self.suns.irradiance.astype(np.float32)
+        found[near, -len(sharp) :] += light
 
 
 def captured_light(

@@ -1,5 +1,6 @@
 """Symmetric systems of blocks in which each block knows its two neighbours alone."""
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -60,18 +61,46 @@ class Tridiagonal:
         ndarray, shape (..., S, M, Q)
             The matrix times it is `right`; the matrix must be positive definite.
         """
-        blocks, size = self.diagonal.shape[-3:-1]
-        rest, diagonal = right[..., 0, :, :], self.diagonal[..., 0, :, :]
-        eliminated = []
-        for block in range(blocks - 1):
-            above = self.above[..., block, :, :]
-            both = np.linalg.solve(diagonal, np.concatenate([above, rest], axis=-1))
-            eliminated.append(both)
-            passed = np.swapaxes(above, -1, -2) @ both
-            diagonal = self.diagonal[..., block + 1, :, :] - passed[..., :size]
-            rest = right[..., block + 1, :, :] - passed[..., size:]
-        found = [np.linalg.solve(diagonal, rest)]
-        for both in reversed(eliminated):
-            found.append(both[..., size:] - both[..., :size] @ found[-1])
+        *eliminated, (_, own, _) = self._eliminated(np.moveaxis(right, -3, 0))
+        found = [own]
+        for _, own, following in reversed(eliminated):
+            found.append(own - following @ found[-1])
         solved: Array = np.stack(found[::-1], axis=-3)
         return solved
+
+    def powers(self, right: Iterable[Array]) -> Array:
+        """Scalar product of each right side with its unknowns, which need not be found for it.
+
+        Parameters
+        ----------
+        right : iterable of ndarray, shapes (..., M, Q)
+            The S blocks of Q right sides.
+
+        Returns
+        -------
+        ndarray, shape (..., Q)
+        """
+        of_blocks = [np.sum(rest * own, axis=-2) for rest, own, _ in self._eliminated(right)]
+        powers: Array = np.sum(of_blocks, axis=0)
+        return powers
+
+    def _eliminated(self, right: Iterable[Array]) -> Iterator[tuple[Array, Array, Array]]:
+        """Eliminate one block after the other.
+
+        Yields the block's right sides without what blocks before it say, the unknowns that these give, and
+        how much of the next block's is to be taken from those: of the last block, nothing.
+        """
+        size = self.diagonal.shape[-1]
+        from_before: Array = np.zeros((size, 1))
+        diagonal = self.diagonal[..., 0, :, :]
+        for block, of_block in enumerate(right):
+            rest = of_block - from_before
+            if block == self.diagonal.shape[-3] - 1:
+                yield rest, np.linalg.solve(diagonal, rest), diagonal[..., :0]
+                return
+            above = self.above[..., block, :, :]
+            both = np.linalg.solve(diagonal, np.concatenate([above, rest], axis=-1))
+            yield rest, both[..., size:], both[..., :size]
+            passed = np.swapaxes(above, -1, -2) @ both
+            diagonal = self.diagonal[..., block + 1, :, :] - passed[..., :size]
+            from_before = passed[..., size:]

@@ -2,7 +2,6 @@
 
 import bpy
 
-from .sentences import SOLID, panel_width, tell
 from .sidebar import InSidebar
 
 
@@ -19,8 +18,6 @@ class RSIBR_PT_live(InSidebar, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Show the light's resolution, and the time that a frame may spend on it."""
-        if context.object.rsibr.live.on and context.space_data.shading.type == "SOLID":
-            tell(self.layout, SOLID, panel_width(context), icon="INFO")
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False
         live = context.object.rsibr.live

@@ -38,6 +38,16 @@ SLIDERS = {each.name for each in declared_options(PrincipledMaterial)} - {"rough
 PICTURE_SCALE = 4.0
 """Height of a material's picture; a button is 1 high."""
 
+NOT_LIGHT = (
+    "Live Light cannot read what this viewport renders: choose Material Preview or EEVEE, here or in another "
+    "viewport."
+)
+
+LITTLE_LIGHT = (
+    "Live Light sees the studio light only as far as World Opacity shows it: raise it in the menu of "
+    "Viewport Shading."
+)
+
 EQUAL_LOOKS = "Both looks are the same, and so nothing differs: change the other look below."
 
 
@@ -61,7 +71,10 @@ class RSIBR_PT_look(InSidebar, bpy.types.Panel):
         layout.use_property_split = True
         layout.use_property_decorate = False
         world = context.scene.world
-        if item.rsibr.map_set and not holds_world(item):
+        if item.rsibr.live.on:
+            if hint := _why_unlit(context.space_data):
+                tell(layout, hint, panel_width(context), icon="INFO")
+        elif item.rsibr.map_set and not holds_world(item):
             layout.prop(item.rsibr, "follow_world")
             if item.rsibr.follow_world and has_environment(world) and world_light(world) is None:
                 tell(layout, NOT_FOLLOWED, panel_width(context))
@@ -101,6 +114,17 @@ def _other_light(shading: bpy.types.View3DShading) -> str:
         return SOLID
     in_world = {"MATERIAL": shading.use_scene_world, "RENDERED": shading.use_scene_world_render}
     return "" if in_world.get(shading.type, True) else STUDIO_LIGHT
+
+
+def _why_unlit(space: bpy.types.SpaceView3D) -> str:
+    """Why a viewport keeps light from live light, in words; empty if it gives it all."""
+    shading = space.shading
+    if shading.type == "RENDERED" and not is_readable(space):
+        return NOT_LIGHT
+    told = _other_light(shading)
+    if told == STUDIO_LIGHT:
+        return LITTLE_LIGHT if shading.studiolight_background_alpha < 1.0 else ""
+    return told
 
 
 def _looks_are_equal(item: bpy.types.Object, kind: str) -> bool:

@@ -42,6 +42,42 @@ def test_a_comparison_tells_where_blender_shades_in_another_light(
 
 
 @pytest.mark.parametrize(
+    ("kind", "engine", "opacity", "told"),
+    [
+        ("SOLID", "CYCLES", 0.0, SOLID),
+        ("WIREFRAME", "CYCLES", 0.0, ""),
+        ("MATERIAL", "CYCLES", 0.0, look_panel.LITTLE_LIGHT),
+        ("MATERIAL", "CYCLES", 1.0, ""),
+        ("RENDERED", "BLENDER_EEVEE", 0.0, ""),
+        ("RENDERED", "CYCLES", 0.0, look_panel.NOT_LIGHT),
+    ],
+)
+@pytest.mark.usefixtures("panel")
+def test_look_tells_why_a_viewport_keeps_light_from_live_light(
+    kind: str, engine: str, opacity: float, told: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bpy.context.scene.render.engine = engine
+    areas = bpy.data.screens["Layout"].areas
+    space = next(area.spaces[0] for area in areas if area.type == "VIEW_3D")
+    shading, tell = space.shading, Mock()
+    monkeypatch.setattr(look_panel.session().previews, "kind", lambda item: None)
+    monkeypatch.setattr(look_panel, "tell", tell)
+    context = Mock(object=bpy.context.object, space_data=space, region=Mock(width=300))
+    names = ("type", "use_scene_world", "use_scene_world_render", "studiolight_background_alpha")
+    before = [getattr(shading, name) for name in names]
+    try:
+        for name, value in zip(names, (kind, False, True, opacity), strict=True):
+            setattr(shading, name, value)
+        for on in (False, True):  # nothing is told while the switch is off
+            context.object.rsibr.live.on = on
+            look_panel.RSIBR_PT_look.draw(Mock(), context)
+            assert [call.args[1] for call in tell.call_args_list] == ([told] if on and told else [])
+    finally:
+        for name, value in zip(names, before, strict=True):
+            setattr(shading, name, value)
+
+
+@pytest.mark.parametrize(
     ("change", "kind", "told"),
     [
         ({}, "SOLID", ""),

@@ -12,6 +12,8 @@ from rsibr.rsibr_addon.files.output_paths import HASH_LETTERS
 from rsibr.rsibr_addon.host.option_properties import property_name, shown_value
 from rsibr.rsibr_addon.host.qualities import has_quality
 from rsibr.rsibr_addon.job import read_job
+from rsibr.rsibr_addon.settings.radiance_views import RadianceViewsSettings
+from rsibr.rsibr_addon.tasks.methods.bake import METHODS
 from rsibr.rsibr_addon.tasks.methods.recipe import recipe_hash
 from rsibr.tests.bake_jobs import run_job
 from rsibr.tests.blender.bake_orders import order, output
@@ -103,3 +105,16 @@ def test_sharper_and_layered_models_cost_more() -> None:
     for less, more in itertools.pairwise(costs):
         assert less.processor_seconds < more.processor_seconds
         assert less.disk < more.disk
+
+
+def test_lobes_fitted_to_views_cost_more_and_after_each_few_chosen_views_again() -> None:
+    costs = [
+        METHODS["radiance_views"].cost(
+            RadianceViewsSettings(material="clay", fit_lobes=fitted, more_views=more)
+        )
+        for fitted, more in ((False, None), (True, None), (True, 4), (True, 8))
+    ]
+    views, fits, once_more, twice_more = (each.processor_seconds for each in costs)
+    assert 10.0 < fits - views < once_more - fits < twice_more - once_more
+    for less, more in itertools.pairwise(costs):
+        assert less.memory < more.memory

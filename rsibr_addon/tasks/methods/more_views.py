@@ -72,6 +72,25 @@ def most_views(settings: RadianceViewsSettings, count: int) -> int:
     return max(count, min(count + (settings.more_views or 0), MOST_VIEWS))
 
 
+def fitting_cost(asked: int, most: int) -> tuple[float, float]:
+    """What fits to captured views take at most, measured with copper in 12 and in 42 views of 128 texels.
+
+    Parameters
+    ----------
+    asked, most : int
+        Number of views of the first fit, and of the last.
+
+    Returns
+    -------
+    seconds : float
+        Of the processor.
+    memory : float
+        Bytes, the views aside.
+    """
+    fits = 1 + -(-(most - asked) // AT_ONCE)
+    return fits * (9.0 + 0.5 * most), 2.6e8 + 4e6 * most
+
+
 def capture_views(
     settings: RadianceViewsSettings, light: Environment, view_dirs: Array, kept: KeptViews, capture: Capture
 ) -> Steps[CapturedViews]:

@@ -1,6 +1,7 @@
 """Radiance views of a material, rendered or integrated, into a map set."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -45,7 +46,7 @@ from .method import (
     software_of,
     written,
 )
-from .more_views import CapturedViews, capture_views, most_views
+from .more_views import CapturedViews, capture_views, fitting_cost, most_views
 from .views_by_model import TOGETHER, ViewsByModel
 from .views_by_photographs import ViewsByPhotographs
 
@@ -76,11 +77,28 @@ def sources(settings: RadianceViewsSettings) -> Sources:
 def cost(settings: RadianceViewsSettings) -> Cost:
     """See `Method`; measured on a sphere in Blender's `forest`."""
     try:
-        views = most_views(settings, len(_sphere(settings).vertices))
+        asked = len(_sphere(settings).vertices)
     except InputFileError:  # which the bake tells
-        views = settings.views
-    texels = views * settings.size**2
-    maps = 2 * texels * RGB
+        asked = settings.views
+    views = most_views(settings, asked)
+    capturing = _capturing_cost(settings, views)
+    if not settings.fits_lobes:
+        return capturing
+    seconds, memory = fitting_cost(asked, views)
+    every = _map_bytes(settings, views)
+    return replace(
+        capturing,
+        processor_seconds=capturing.processor_seconds + seconds,
+        memory=capturing.memory + every + memory,
+    )
+
+
+def _map_bytes(settings: RadianceViewsSettings, views: int) -> float:
+    return 2.0 * views * settings.size**2 * RGB
+
+
+def _capturing_cost(settings: RadianceViewsSettings, views: int) -> Cost:
+    texels, maps = views * settings.size**2, _map_bytes(settings, views)
     if settings.photographs is not None:
         return Cost(4e-6 * texels, maps, STORED * maps)
     if is_model(settings.material):

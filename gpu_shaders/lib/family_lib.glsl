@@ -1,7 +1,7 @@
 // Twin of rsibr_addon/core/lobes/family.py. A texture of a family (see device/kinds/kernel_pyramid_texels.py)
 // has a column for each width, six an octave up to 1, and a row for each elevation, in the middles of equal
 // steps of mu. So hardware interpolates in log alpha and in mu, with one place for all layers: weights
-// rounded to 8 bits are another roughness, by .03 %, and another mu, by 1e-4, not other lobes.
+// rounded to 8 bits are another roughness, by .02 %, and another mu, by 1e-4, not other lobes.
 
 const float WIDTHS_AN_OCTAVE = 6.0;
 

@@ -56,8 +56,11 @@ def scenario(told):
     yield from drawn()
     picture, line = pixels(), round(settings.line * part.width)
     told["difference"] = int(picture[whole & (np.arange(part.width) > line + 2)].max())
-    told["scale"] = picture[30, [line + 25, line + 24 + 64, line + 24 + 128, line + 24 + 190]].tolist()
-    told["numbers"] = int((picture[40:56, line + 10 : line + 230].min(axis=-1) > 120).sum())
+    size = bpy.context.preferences.system.ui_scale
+    along = [line + round(size * (24 + share * 192)) for share in (0.01, 1 / 3, 2 / 3, 0.99)]
+    told["scale"] = picture[round(size * 30), along].tolist()
+    above, right = (slice(*(round(size * each) for each in ends)) for ends in ((40, 56), (10, 230)))
+    told["numbers"] = int((picture[above, line:][:, right].min(axis=-1) > 120).sum())
     # How far the preview is from Blender's own shading
     settings.compared, cube = "blender", bpy.data.objects["Cube"]
     for name, green in (("alike", 0.0), ("unlike", 0.5)):

@@ -92,6 +92,21 @@ def lookup(image: Array, direction: ArrayLike, representation: Representation) -
     return _weighted_sum(weights, image.reshape(-1, image.shape[-1]).take(texel, axis=0))
 
 
+def lookup_variance(solid_angle: float) -> float:
+    """Mean variance that bilinear lookups of nearly square texels add along each of two axes [rad^2].
+
+    Parameters
+    ----------
+    solid_angle : float
+        Of a texel [sr].
+
+    Notes
+    -----
+    At p between two centres they weigh 1 - p and p, of variance p (1 - p): a sixth, on average.
+    """
+    return solid_angle / 6.0
+
+
 def texels_around(
     direction: ArrayLike, representation: Representation, width: int, height: int
 ) -> tuple[Indices, Indices, Indices, Array]:

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from rsibr.rsibr_addon.core.conventions import texel_centres
 from rsibr.rsibr_addon.core.maps import equirect, sphere_map
-from rsibr.rsibr_addon.core.resample import Wrap, bilinear
+from rsibr.rsibr_addon.core.maps.representation import representation
+from rsibr.rsibr_addon.core.resample import Wrap, bilinear, lookup, lookup_variance
 
 RNG = np.random.default_rng(8)
 IMAGE = RNG.random((6, 12, 3)).astype(np.float32)
@@ -75,3 +76,18 @@ def test_layers_are_maps_of_their_own() -> None:
     np.testing.assert_array_equal(found, expected)
     everywhere = bilinear(images, UV[:, None], sphere_map.wrap, layer=np.arange(4))
     np.testing.assert_array_equal(everywhere[:, 2], bilinear(images[2], UV, sphere_map.wrap))
+
+
+def test_lookups_add_a_sixth_of_a_texel_s_square_to_a_variance() -> None:
+    width = 64
+    layout = representation("equirect")
+    columns = (np.arange(width) + 0.5) / width - 0.5
+    # Squares of longitudes, from which lookups near the middle of the equator differ by what they add
+    squares = np.tile((2.0 * np.pi * columns) ** 2, (width // 2, 1))[None, ..., None]
+    # Everywhere between the centres of twelve texels
+    u = (26.5 + 12.0 * (np.arange(1200) + 0.5) / 1200) / width
+    uv = np.stack([u, np.full_like(u, 0.5)], axis=-1)
+    found = lookup(squares, equirect.direction_from_uv(uv), layout)[:, 0]
+    added = np.mean(found - (2.0 * np.pi * (u - 0.5)) ** 2)
+    # The midpoint rule of 100 points errs by 1 / 20000 in the mean of p (1 - p)
+    assert added == pytest.approx(lookup_variance((2.0 * np.pi / width) ** 2), rel=1e-4)

@@ -28,15 +28,10 @@ def measured_facts(map_set: Path) -> dict[str, str]:
     MapSetError
         There is no such map set.
     """
-    truth = KINDS[map_set_header(map_set)["kind"]].truth
-    if truth is None:
-        return {}
-    try:
-        comparison = _comparison_of(map_set, truth)
-    except InputFileError as error:
-        return {"Measured": str(error)}
-    if comparison is None:
-        return {}
+    measured = _measured(map_set)
+    if isinstance(measured, str):
+        return {"Measured": measured} if measured else {}
+    truth, comparison = measured
     named = len(comparison.errors) > 1
     return {
         **{
@@ -68,15 +63,10 @@ def measured_sentence(map_set: Path, look: Any) -> str:
     MapSetError
         There is no such map set.
     """
-    truth = KINDS[map_set_header(map_set)["kind"]].truth
-    if truth is None:
-        return ""
-    try:
-        comparison = _comparison_of(map_set, truth)
-    except InputFileError as fault:
-        return str(fault)
-    if comparison is None:
-        return ""
+    measured = _measured(map_set)
+    if isinstance(measured, str):
+        return measured
+    truth, comparison = measured
     name, views = truth.telling(comparison.settings).name, len(comparison.view_dirs)
     sentences = (
         f"On the whole {_percent(error.pooled)} off {name}, "
@@ -85,6 +75,24 @@ def measured_sentence(map_set: Path, look: Any) -> str:
         if truth.is_look(error.way, look)
     )
     return next(sentences, "")
+
+
+def _measured(map_set: Path) -> tuple[Truth, Comparison] | str:
+    """A map set's truth and comparison, or why there is none to tell of; empty where nothing was measured.
+
+    Raises
+    ------
+    MapSetError
+        There is no such map set.
+    """
+    truth = KINDS[map_set_header(map_set)["kind"]].truth
+    if truth is None:
+        return ""
+    try:
+        comparison = _comparison_of(map_set, truth)
+    except InputFileError as error:
+        return str(error)
+    return "" if comparison is None else (truth, comparison)
 
 
 def _comparison_of(map_set: Path, truth: Truth) -> Comparison | None:

@@ -80,9 +80,21 @@ class BakedPyramid:
     rings: tuple[FilterErrors, ...]
 
 
-def width_of(concentration: float, size: int) -> int:
-    """Texels along the map of a kernel: a power of 2, or `size`, that of the largest."""
-    needed = max(TEXELS_BY_SHARPNESS * np.sqrt(concentration), LEAST_TEXELS)
+def width_of(
+    concentration: float, size: int, by_sharpness: float = TEXELS_BY_SHARPNESS, least: int = LEAST_TEXELS
+) -> int:
+    """Texels along the map of a kernel: a power of 2, or `size`, that of the largest.
+
+    Parameters
+    ----------
+    concentration : float
+    size : int
+    by_sharpness : float
+        Texels over the root of the concentration, at least.
+    least : int
+        Width of the smallest maps.
+    """
+    needed = max(by_sharpness * np.sqrt(concentration), least)
     return min(int(2.0 ** np.ceil(np.log2(needed) - TIE)), size)
 
 

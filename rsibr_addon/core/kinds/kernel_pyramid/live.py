@@ -21,10 +21,10 @@ from ...lobes.bank import KernelBank
 from ...lobes.family import KERNELS
 from ...lobes.rings import WIDTHS
 from ...maps.representation import representation
-from ...resample import lookup
+from ...resample import lookup, lookup_variance
 from ...suns import NO_SUNS, Suns
 from ...ties import TIE
-from .bake import leaning_lobe, ring_lobe
+from .bake import leaning_lobe, ring_lobe, width_of
 from .pyramid import OCTAHEDRAL, Pyramid
 
 CUBE = representation("cube_map")
@@ -136,8 +136,9 @@ def live_maps(size: int) -> LiveMaps:
         raise RangeError(f"Faces of {size} texels are too small: choose {SMALLEST_FACE} or more.")
     sharpest = (1.0 + TIE) * (RESOLVED * size) ** 2
     bank = KernelBank(tuple(kappa for kappa in KERNELS.concentrations if kappa <= sharpest))
-    blur = _blur(np.sqrt(6.0) * size) + _blur(MIRROR_WIDTH * size)
-    sources = [_Source(0, 1.0 / blur, MIRROR_WIDTH * size)]
+    width = MIRROR_WIDTH * size
+    blur = lookup_variance(4.0 * np.pi / (6.0 * size**2)) + lookup_variance(4.0 * np.pi / width**2)
+    sources = [_Source(0, 1.0 / blur, width)]
     others = []
     for kappa in reversed(bank.concentrations):
         source = [each for each in sources if each.concentration >= SHARPER * kappa][-1]
@@ -148,7 +149,7 @@ def live_maps(size: int) -> LiveMaps:
     for lobe in (*map(ring_lobe, WIDTHS), _white(), leaning_lobe()):
         taps = _taps(lobe, source, angles, LEAST_BY_NORMAL, _WAVES_BY_NORMAL)
         others.append(LiveMap(source.number, LEAST_BY_NORMAL, taps, lobe))
-    return LiveMaps(bank, MIRROR_WIDTH * size, tuple(others))
+    return LiveMaps(bank, width, tuple(others))
 
 
 def live_pyramid(faces: Array, suns: Suns = NO_SUNS) -> Pyramid:
@@ -242,8 +243,7 @@ def tapped(sheet: Array, taps: Array, axis: Array) -> Array:
 def _kernel(kappa: float, source: _Source) -> LiveMap:
     """How a kernel's map is made of a sharper one."""
     is_broad = kappa <= BROAD
-    least = max(TEXELS_BY_SHARPNESS * np.sqrt(kappa), LEAST_TEXELS)
-    width = min(int(2.0 ** np.ceil(np.log2(least) - TIE)), source.width)
+    width = width_of(kappa, source.width, TEXELS_BY_SHARPNESS, LEAST_TEXELS)
     # What is left to do is a kernel too, nearly, of this concentration; the last ring is where it has fallen
     left = 1.0 / (1.0 / kappa - 1.0 / source.concentration)
     reach = np.arccos(max(1.0 - _FALL / left, _LEAST_COSINE))
@@ -271,7 +271,7 @@ def _taps(lobe: ZonalLobe, source: _Source, angles: Array, width: int, waves: fl
     counts = 1.0 / np.sqrt(l + 1.0)
     counts[0] = _FLUX_COUNTS
     # No more than bilinear lookups of what natural light has in it can be undone
-    sharpened = np.exp(np.minimum(0.5 * l * (l + 1) * _blur(width), 1.0))
+    sharpened = np.exp(np.minimum(0.5 * l * (l + 1) * lookup_variance(4.0 * np.pi / width**2), 1.0))
     wanted = sharpened * zonal_coefficients(lobe, degree)
     there = zonal_coefficients(von_mises_fisher_lobe(source.concentration), degree)
     legendre = np.stack([legendre_sums(np.ones(1), np.array([angle]), degree) for angle in angles], axis=1)
@@ -284,8 +284,3 @@ def _taps(lobe: ZonalLobe, source: _Source, angles: Array, width: int, waves: fl
         aside, along = np.sin(angle), np.full(count, np.cos(angle))
         rings.append([aside * np.cos(turn), aside * np.sin(turn), along, np.full(count, weight / count)])
     return np.concatenate(rings, axis=1).T
-
-
-def _blur(width: float) -> float:
-    """Mean square, along each of two axes, by which bilinear lookups spread octahedral maps [rad^2]."""
-    return 4.0 * np.pi / (6.0 * width**2)

@@ -11,15 +11,10 @@ from ...lobes.bank import KernelBank
 from ...lobes.family import KERNELS, Family
 from ...lobes.rings import WIDTHS
 from ...maps.representation import representation
-from ...resample import lookup
+from ...resample import lookup, lookup_variance
 from ...suns import NO_SUNS, Suns
 
 OCTAHEDRAL = representation("octahedral")
-
-_BLUR = (4.0 * np.pi**2 + 4.0 * np.pi) / 6.0
-"""Mean variance of two bilinear lookups, in an environment and in its map of as many columns n, times n^2: a
-sixth of the squared distance of texels each.
-"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,7 +126,9 @@ def resolved(family: Family, bank: KernelBank, width: int) -> Family:
         together are as wide as the kernel.
     """
     count, variance = len(bank), 1.0 / family.bank.kappa
-    sharpest, mirror = variance[count - 1], _BLUR / width**2
+    # The mirror was looked up in an environment of as many columns, and is looked up itself
+    mirror = lookup_variance((2.0 * np.pi / width) ** 2) + lookup_variance(4.0 * np.pi / width**2)
+    sharpest = variance[count - 1]
     shares = np.clip((sharpest - variance[count:]) / (sharpest - mirror), 0.0, 1.0)
     weights = np.array(family.weights, dtype=np.float64)
     of_others = weights[..., count:, :]
